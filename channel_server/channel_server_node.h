@@ -98,7 +98,8 @@ class ChannelServerNode : public bus::Node {
   VehicleRegistry vehicles_;
   ReachModel reach_;
   PacketMedium medium_;
-  VehicleSounds sounds_;  // in tables
+  VehicleSounds sounds_;
+  SoundsAtReceivers noise_;  // in tables and answers
   LinkPredictor predictor_;
   KeptRows kept_rows_;
   MultipathCache echoes_;

@@ -13,13 +13,29 @@
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
+#include "channel_server/links/receiver_noise.h"
 #include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/for_each.h"
 #include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
+
+// What vehicles sound like, at the receivers of links.
+class SoundsAtReceivers final : public ReceiverNoise {
+ public:
+  explicit SoundsAtReceivers(VehicleSounds& sounds) : sounds_(sounds) {}  // which outlive it
+
+  bool differ() const override { return sounds_.differ(); }
+  Decibels above_ambient(const EndPair& link, SimTime at, VehicleId silent) override;
+  bool is_ready(const EndPair& link, SimTime at, VehicleId silent) override;
+
+ private:
+  VehicleSounds& sounds_;
+};
 
 class LinkTablePublisher {
  public:
@@ -30,7 +46,7 @@ class LinkTablePublisher {
     LinkPredictor& predictor;
     MultipathCache& echoes;
     KeptRows& kept;
-    VehicleSounds& sounds;
+    ReceiverNoise& noise;
   };
   LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, ForEach for_each)
       : publisher_(publisher), log_(log), models_(models), for_each_(std::move(for_each)) {}

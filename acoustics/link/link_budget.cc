@@ -28,14 +28,6 @@ double within_water(double depth_m) { return std::clamp(depth_m, 0.0, kDeepestWa
 
 }  // namespace
 
-void set_noise_level(LinkBudget& link, Decibels level) {
-  const Decibels more = level - link.noise_level;
-  link.noise_level = level;
-  link.noise_spectrum_level = link.noise_spectrum_level + more;
-  link.snr = link.snr - more;
-  link.snr_narrowband = link.snr_narrowband - more;
-}
-
 double angle_down_rad(const Vec3& from_ned_m, const Vec3& to_ned_m) {
   const Vec3 way = to_ned_m - from_ned_m;
   return elementary::atan2(way.z(), elementary::hypot(way.x(), way.y()));
@@ -55,15 +47,15 @@ LinkTerms::LinkTerms(const Environment& environment, const Modem& transmitter, c
   of_one_kind_ = same_family(transmitter, receiver) && band_share(band, receiver.band()) > 0;
 }
 
-void LinkTerms::set_levels(LinkBudget& link, Decibels loss) const {
+void LinkTerms::set_levels(LinkBudget& link, Decibels loss, Decibels above_ambient) const {
   // RL = SL - TL; SNR = RL - NL + DI (Urick 1983, sonar equation; equation 7 of the 2010 IEEE SMC paper has
   // NL = N(fc) + 10 log B).
   link.transmission_loss = loss;
   link.received_level = transmitter_.source_level - loss;
-  link.noise_level = noise_level_;
-  link.noise_spectrum_level = centre_noise_;
-  link.snr = link.received_level - noise_level_ + gain_;
-  link.snr_narrowband = link.received_level - centre_noise_ - bandwidth_ + gain_;
+  link.noise_level = noise_level_ + above_ambient;
+  link.noise_spectrum_level = centre_noise_ + above_ambient;
+  link.snr = link.received_level - link.noise_level + gain_;
+  link.snr_narrowband = link.received_level - link.noise_spectrum_level - bandwidth_ + gain_;
   link.receivable = of_one_kind_ && link.received_level >= receiver_.min_receivable_level;
 }
 

@@ -44,9 +44,6 @@ struct LinkBudget {
   bool receivable = false;  // of one family, bands overlap, received level >= the cut-off
 };
 
-// Another noise over the band, whose spectrum has the same shape: both ratios and the spectrum level move with it. Capacity stays.
-void set_noise_level(LinkBudget& link, Decibels level);
-
 // Angle of the straight line from one point to another below the horizontal, -pi/2..pi/2; 0 between equal points.
 double angle_down_rad(const Vec3& from_ned_m, const Vec3& to_ned_m);
 
@@ -56,8 +53,8 @@ class LinkTerms {
   // Throws InvalidArgument when one of them is out of range (see their `validate`).
   LinkTerms(const Environment& environment, const Modem& transmitter, const Modem& receiver);
 
-  // Level, noise, ratios and whether the link is receivable, at a loss.
-  void set_levels(LinkBudget& link, Decibels loss) const;
+  // Level, noise, ratios and whether the link is receivable, at a loss; noise lies `above_ambient` over that of the environment.
+  void set_levels(LinkBudget& link, Decibels loss, Decibels above_ambient = {}) const;
   // Of both beams along the straight line: the receiver looks back.
   Decibels beam_loss(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
   // DI (P/B) / N(f): signal to noise densities at 1 m.

@@ -134,29 +134,30 @@ LinkBudget LinkKernel::budget_of_leg(const Leg& leg, const Vec3& from_ned_m, con
   return link;
 }
 
-LinkBudget LinkKernel::budget(const Vec3& from_ned_m, const Vec3& to_ned_m, Capacity capacity) const {
+LinkBudget LinkKernel::budget(const Vec3& from_ned_m, const Vec3& to_ned_m, Capacity capacity,
+                              Decibels above_ambient) const {
   const Leg leg = leg_between(from_ned_m, to_ned_m);
   LinkBudget link = budget_of_leg(leg, from_ned_m, to_ned_m);
   const Decibels beams = terms_.beam_loss(from_ned_m, to_ned_m);
   const TransmissionLoss loss =
       transmission_loss(link.range_m, environment().spreading_exponent, link.absorption_db_per_km);
-  terms_.set_levels(link, loss.total + beams);
+  terms_.set_levels(link, loss.total + beams, above_ambient);
   if (capacity == Capacity::kComputed) {
     const double absorbing_m = link.range_m < kReferenceRange ? 0 : link.range_m;
-    link.capacity_bps = capacity_bps(leg, (loss.spreading + beams).value, absorbing_m);
+    link.capacity_bps = capacity_bps(leg, (loss.spreading + beams + above_ambient).value, absorbing_m);
   }
   return link;
 }
 
 LinkBudget LinkKernel::budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned_m, Decibels loss,
-                                      double path_length_m, Capacity capacity) const {
+                                      double path_length_m, Capacity capacity, Decibels above_ambient) const {
   const Leg leg = leg_between(from_ned_m, to_ned_m);
   LinkBudget link = budget_of_leg(leg, from_ned_m, to_ned_m);
-  terms_.set_levels(link, loss);
+  terms_.set_levels(link, loss, above_ambient);
   if (capacity == Capacity::kComputed) {
     // The loss at f is that at the centre plus (alpha(f) - alpha(centre)) l.
     const double absorbed_db = link.absorption_db_per_km * path_length_m / kMetresPerKilometre;
-    link.capacity_bps = capacity_bps(leg, loss.value - absorbed_db, path_length_m);
+    link.capacity_bps = capacity_bps(leg, (loss + above_ambient).value - absorbed_db, path_length_m);
   }
   return link;
 }

@@ -41,10 +41,12 @@ class LinkKernel {
   LinkKernel(const Environment& environment, const Modem& transmitter, const Modem& receiver,
              VectorInstructions instructions = vector_instructions().back());
 
-  LinkBudget budget(const Vec3& from_ned_m, const Vec3& to_ned_m, Capacity capacity) const;
+  // Where the noise over the band lies `above_ambient` over that of the environment, its spectrum is taken to have the same shape.
+  LinkBudget budget(const Vec3& from_ned_m, const Vec3& to_ned_m, Capacity capacity,
+                    Decibels above_ambient = {}) const;
   // As LinkModel::budget_of_path; the capacity as exactly for losses down to 20 dB below that of the straight line.
   LinkBudget budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned_m, Decibels loss, double path_length_m,
-                            Capacity capacity) const;
+                            Capacity capacity, Decibels above_ambient = {}) const;
 
   // One-way travel time alone, s.
   double delay_s(const Vec3& from_ned_m, const Vec3& to_ned_m) const;

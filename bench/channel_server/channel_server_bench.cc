@@ -16,6 +16,7 @@
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
+#include "channel_server/links/receiver_noise.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/environment_timeline.h"
@@ -31,6 +32,7 @@
 #include "core/check.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -128,6 +130,14 @@ void ray_link_table(benchmark::State& state) {
 }
 BENCHMARK(ray_link_table)->Arg(3)->Arg(20)->Unit(benchmark::kMillisecond);
 
+// No vehicle makes any other.
+class AmbientNoise : public ReceiverNoise {
+ public:
+  bool differ() const override { return false; }
+  Decibels above_ambient(const EndPair&, SimTime, VehicleId) override { return {}; }
+  bool is_ready(const EndPair&, SimTime, VehicleId) override { return true; }
+};
+
 // A best-place answer of 1600 links: 40 depths, 40 listeners within 5 km, along rays in layered water over level ground; each
 // question is of another place, so every link is searched.
 void best_place(benchmark::State& state) {
@@ -140,7 +150,8 @@ void best_place(benchmark::State& state) {
   LinkPredictor predictor({});
   VehicleRegistry fleet({}, {});
   bus::ThreadPool pool(static_cast<int>(state.range(0)));
-  BestPlaceService service(fleet, propagation, predictor, SimDuration::from_milliseconds(250),
+  AmbientNoise noise;
+  BestPlaceService service(fleet, propagation, predictor, noise, SimDuration::from_milliseconds(250),
                            pool.sharing_out());
   const SimTime now = SimTime::from_seconds(100);
   BestPlaceQuery query{.client = "bench"};

@@ -40,10 +40,12 @@ std::optional<std::size_t> best_of(const std::vector<PlaceScore>& scores) {
 }
 
 BestPlaceService::BestPlaceService(const VehicleRegistry& fleet, Propagation& propagation,
-                                   LinkPredictor& predictor, SimDuration timeout, ForEach for_each)
+                                   LinkPredictor& predictor, ReceiverNoise& noise, SimDuration timeout,
+                                   ForEach for_each)
     : fleet_(fleet),
       propagation_(propagation),
       predictor_(predictor),
+      noise_(noise),
       timeout_(timeout),
       for_each_(std::move(for_each)) {}
 
@@ -77,6 +79,7 @@ std::string BestPlaceService::resolve(const BestPlaceQuery& query, Waiting& wait
   if (!query.talker.empty()) {
     if (!is_valid_name(query.talker)) return "talker_name is no name: " + std::string(kNameRule);
     waiting.talker = fleet_.modem(query.talker, at);
+    waiting.talker_id = fleet_.id_of(query.talker).value_or(0);
   }
   for (const std::string& name : query.listeners) {
     if (!is_valid_name(name)) return "a listener_name is no name: " + std::string(kNameRule);
@@ -114,11 +117,14 @@ bool BestPlaceService::answer(Waiting& waiting, bool is_overdue) {
   const SimTime at = waiting.reply.at;
   std::vector<bool> in_water;
   for (const Vec3& place : waiting.places_ned_m) in_water.push_back(is_in_water(place, at));
-  const std::vector<EndPair> links = links_of(waiting, in_water);
-  bool are_ready = true;  // all are asked, so that all that is missing is requested together
+  std::vector<EndPair> links = links_of(waiting, in_water);
+  NoiseOfLinks noise(noise_, at, waiting.talker_id);
+  bool are_ready =
+      noise.are_ready(links);  // all are asked, so that all that is missing is requested together
   for (const EndPair& link : links)
     are_ready = propagation_.is_ready_for_packet(at, link.from, link.to) && are_ready;
   if (!are_ready && !is_overdue) return false;
+  for (EndPair& link : links) noise.set(link);
   std::vector<std::optional<Reception>> receptions = propagation_.packet_receptions(at, links, for_each_);
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (!receptions[i])

@@ -6,7 +6,8 @@
 // 1e7 m score 0 and kSilence. Links are computed together, shared out among threads, with all the searches that packets have; a
 // reply waits for the seabed no longer than `timeout` of steady time, then takes the straight path.
 //
-// Left out: the noise of vehicles, interference, and how the listeners are heard at the place. Not thread-safe.
+// Listeners hear their own noise and that of other vehicles but the talker, whose propeller is taken as at rest with it.
+// Left out: interference, and how the listeners are heard at the place. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "channel_server/links/link_predictor.h"
+#include "channel_server/links/receiver_noise.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_id.h"
@@ -62,7 +64,7 @@ class BestPlaceService {
 
   // All of them must outlive the service.
   BestPlaceService(const VehicleRegistry& fleet, Propagation& propagation, LinkPredictor& predictor,
-                   SimDuration timeout, ForEach for_each);
+                   ReceiverNoise& noise, SimDuration timeout, ForEach for_each);
 
   // A repetition of a query that is still waiting changes nothing. `sim` is empty while unknown.
   void submit(const BestPlaceQuery& query, std::optional<SimTime> sim, SimTime steady);
@@ -78,6 +80,7 @@ class BestPlaceService {
   };
   struct Waiting {
     BestPlaceReply reply;
+    VehicleId talker_id = 0;
     VehicleModem talker;
     std::vector<Vec3> places_ned_m;
     std::vector<Listener> listeners;
@@ -95,6 +98,7 @@ class BestPlaceService {
   const VehicleRegistry& fleet_;
   Propagation& propagation_;
   LinkPredictor& predictor_;
+  ReceiverNoise& noise_;
   SimDuration timeout_;
   ForEach for_each_;
   std::deque<Waiting> waiting_;

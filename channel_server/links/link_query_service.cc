@@ -46,11 +46,12 @@ std::string problem_of_modem(const acoustics::Modem& modem) {
 }  // namespace
 
 LinkQueryService::LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation,
-                                   LinkPredictor& predictor, MultipathCache& echoes, RayQueryClient& rays,
-                                   Rule rule)
+                                   LinkPredictor& predictor, ReceiverNoise& noise, MultipathCache& echoes,
+                                   RayQueryClient& rays, Rule rule)
     : fleet_(fleet),
       propagation_(propagation),
       predictor_(predictor),
+      noise_(noise),
       echoes_(echoes),
       rays_(rays),
       rule_(rule) {
@@ -64,8 +65,9 @@ void LinkQueryService::submit(const LinkQuery& query, std::optional<SimTime> sim
   waiting.deadline = steady + rule_.timeout;
   waiting.wants_paths = query.wants_paths;
   if (waiting.reply.refusal.empty()) {
+    NoiseOfLinks noise(noise_, waiting.reply.at);
     for (std::size_t i = 0; i < query.transmitters.size(); ++i) {
-      answer(resolve(query.transmitters[i], sim), resolve(query.receivers[i], sim), waiting);
+      answer(resolve(query.transmitters[i], sim), resolve(query.receivers[i], sim), noise, waiting);
     }
   }
   waiting_.push_back(std::move(waiting));
@@ -129,7 +131,8 @@ std::string problem_of_place(const Propagation& propagation, const Vec3& positio
   return {};
 }
 
-void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting) {
+void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, NoiseOfLinks& noise,
+                              Waiting& waiting) {
   LinkAnswer answer;
   const ResolvedEnd& worse = from.status != LinkAnswer::Status::kAnswered ? from : to;
   answer.status = worse.status;
@@ -142,7 +145,7 @@ void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, Wa
   answer.row.receiver_id = to.id;
   answer.row.transmitter_age = from.placement.age;
   answer.row.receiver_age = to.placement.age;
-  set_reception(from, to, waiting.reply.at, answer);
+  set_reception(from, to, waiting.reply.at, noise, answer);
   const bool tables_know = from.id != 0 && to.id != 0 && from.id != to.id && !propagation_.uses_bottom();
   if (tables_know) {
     answer.row.multipath = echoes_.at(waiting.reply.at, from.placed(), to.placed(), propagation_);
@@ -150,7 +153,9 @@ void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, Wa
   waiting.reply.answers.push_back(answer);
   if (waiting.wants_paths) waiting.ends.emplace(waiting.reply.answers.size() - 1, std::pair(from, to));
   const bool refused = answer.status != LinkAnswer::Status::kAnswered;
-  if (!refused && answer.row.multipath == Multipath::kUnknown) wait_for_terrain(from, to, waiting);
+  if (refused) return;
+  const bool is_noise_ready = noise.are_ready({link_of(from, to)});
+  if (!is_noise_ready || answer.row.multipath == Multipath::kUnknown) wait_for_terrain(from, to, waiting);
 }
 
 // Vehicles rest on the seabed as the terrain has it, which may lie below the smooth one.
@@ -160,8 +165,12 @@ std::string LinkQueryService::problem_with_seabed(const ResolvedEnd& end) const 
   return "position_ned_m lies " + std::to_string(std::lround(inside_m)) + " m inside the seabed";
 }
 
+EndPair LinkQueryService::link_of(const ResolvedEnd& from, const ResolvedEnd& to) {
+  return {link_end(from.placed()), receiving_end(to.placed(), from.modem.modem)};
+}
+
 void LinkQueryService::set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at,
-                                     LinkAnswer& answer) {
+                                     NoiseOfLinks& noise, LinkAnswer& answer) {
   const std::string at_from = problem_with_seabed(from), at_to = problem_with_seabed(to);
   if (!at_from.empty() || !at_to.empty()) {
     answer = {LinkAnswer::Status::kBadInput,
@@ -171,8 +180,9 @@ void LinkQueryService::set_reception(const ResolvedEnd& from, const ResolvedEnd&
   }
   LinkRow& row = answer.row;
   const acoustics::Modem &transmitter = from.modem.modem, &receiver = receiving_modem(to.modem, transmitter);
-  const Reception reception =
-      propagation_.reception(at, link_end(from.placed()), receiving_end(to.placed(), transmitter));
+  EndPair link = link_of(from, to);
+  noise.set(link);
+  const Reception reception = propagation_.reception(at, link.from, link.to);
   row.set(reception,
           predictor_.forecast(*predictor_.rates_of(transmitter), transmitter, receiver, reception));
   row.multipath = multipath_of(reception, receiver.min_receivable_level);
@@ -206,11 +216,13 @@ bool LinkQueryService::finish(const RayQueryClient::Finished& finished) {
 }
 
 void LinkQueryService::take_bottoms(Waiting& waiting) {
+  NoiseOfLinks noise(noise_, waiting.reply.at);
   std::erase_if(waiting.bottoms, [&](std::size_t index) {
     const auto& [from, to] = waiting.ends.at(index);
-    if (!propagation_.is_ready(waiting.reply.at, link_end(from.placed()), link_end(to.placed())))
-      return false;
-    set_reception(from, to, waiting.reply.at, waiting.reply.answers[index]);
+    const EndPair link = link_of(from, to);
+    const bool is_noise_ready = noise.are_ready({link});  // asked first, so that all is requested at once
+    if (!propagation_.is_ready(waiting.reply.at, link.from, link.to) || !is_noise_ready) return false;
+    set_reception(from, to, waiting.reply.at, noise, waiting.reply.answers[index]);
     return true;
   });
 }

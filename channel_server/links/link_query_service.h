@@ -1,6 +1,7 @@
 // Answers link queries: between vehicles by name, and between positions and modems that need not exist.
 //
-// Every link is answered or refused on its own. A straight budget is computed at once; whether an echo is likely,
+// Every link is answered or refused on its own, with the noise of receiver_noise.h, of which a place that holds no vehicle has
+// none of its own. A straight budget is computed at once; whether an echo is likely,
 // and rays, need the terrain: a reply waits for it no longer than `timeout` of steady time, then holds unknown (and the
 // straight path). Echoes are surveyed urgently, unless the link tables know those of the two vehicles; the bottom that
 // rays need is requested by the propagation itself.
@@ -22,6 +23,7 @@
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
+#include "channel_server/links/receiver_noise.h"
 #include "channel_server/propagation/link_tracks.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
@@ -89,7 +91,7 @@ class LinkQueryService {
 
   // All of them must outlive the service.
   LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation, LinkPredictor& predictor,
-                   MultipathCache& echoes, RayQueryClient& rays, Rule rule);
+                   ReceiverNoise& noise, MultipathCache& echoes, RayQueryClient& rays, Rule rule);
 
   // A repetition of a query that is still waiting changes nothing. `sim` is empty while unknown.
   void submit(const LinkQuery& query, std::optional<SimTime> sim, SimTime steady);
@@ -123,9 +125,12 @@ class LinkQueryService {
   [[nodiscard]] std::string refusal_of(const LinkQuery& query) const;
   ResolvedEnd resolve(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   ResolvedEnd resolve_vehicle(const LinkEndRequest& end, std::optional<SimTime> sim) const;
-  void answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
+  void answer(const ResolvedEnd& from, const ResolvedEnd& to, NoiseOfLinks& noise, Waiting& waiting);
+  // Valid as long as both ends.
+  static EndPair link_of(const ResolvedEnd& from, const ResolvedEnd& to);
   // Or why there can be none.
-  void set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at, LinkAnswer& answer);
+  void set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at, NoiseOfLinks& noise,
+                     LinkAnswer& answer);
   [[nodiscard]] std::string problem_with_seabed(const ResolvedEnd& end) const;
   void wait_for_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
   void take_bottoms(Waiting& waiting);
@@ -134,6 +139,7 @@ class LinkQueryService {
   const VehicleRegistry& fleet_;
   Propagation& propagation_;
   LinkPredictor& predictor_;
+  ReceiverNoise& noise_;
   MultipathCache& echoes_;
   RayQueryClient& rays_;
   Rule rule_;

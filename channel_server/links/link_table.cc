@@ -73,8 +73,11 @@ std::vector<EndPair> TableRows::to_compute() const {
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
                                    const MultipathFunction& multipath, const ForEach& for_each,
-                                   KeptRows* kept, const NoiseFunction& noise) {
-  const std::vector<EndPair> missing = rows.to_compute();
+                                   KeptRows* kept, NoiseOfLinks* noise) {
+  std::vector<EndPair> missing = rows.to_compute();
+  for (EndPair& link : missing) {
+    if (noise != nullptr) noise->set(link);
+  }
   std::vector<std::shared_ptr<const LinkPredictor::Rates>> rates;  // of the transmitter of each of these
   std::size_t link = 0;
   for (const TableRows::Transmitter& transmitter : rows.transmitters) {
@@ -83,9 +86,7 @@ std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehi
       if (!rows.is_carried(link++)) rates.push_back(own);
     }
   }
-  std::vector<Reception> receptions = propagation.receptions(instant, missing, for_each);
-  for (std::size_t i = 0; noise && i < missing.size(); ++i)
-    set_noise_level(receptions[i].budget, noise(missing[i]));
+  const std::vector<Reception> receptions = propagation.receptions(instant, missing, for_each);
   std::vector<LinkForecast> forecasts(missing.size());
   for_each(missing.size(), [&](std::size_t i) {
     const auto& [from, to] = missing[i];

@@ -11,6 +11,7 @@
 #include "acoustics/link/link_budget.h"
 #include "acoustics/modem/modem.h"
 #include "channel_server/links/link_predictor.h"
+#include "channel_server/links/receiver_noise.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/vehicles/vehicle_id.h"
@@ -85,19 +86,17 @@ struct TableRows {
 TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vector<double>& ranges_m = {},
                      Shard shard = {});
 
-// The noise at the receiver of a link over the transmitter's band, dB re 1 uPa.
-using NoiseFunction = std::function<Decibels(const EndPair& link)>;
 using MultipathFunction =
     std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
 
 // One table a transmitter, of links whose sound leaves at `instant`; a vehicle alone has an empty one. The propagation is ready
 // for the links of `rows` to compute; all are of `vehicles`. `multipath` is called where paths are straight by choice: rays hold the
-// echoes of the bottom. `kept`, unless null, takes what is computed. `noise`, unless empty, replaces the ambient noise of levels
-// and forecasts (capacity stays that of ambient noise).
+// echoes of the bottom. `kept`, unless null, takes what is computed. `noise`, unless null, replaces the ambient noise of levels,
+// capacity and forecasts.
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
                                    const MultipathFunction& multipath,
                                    const ForEach& for_each = one_after_the_other, KeptRows* kept = nullptr,
-                                   const NoiseFunction& noise = {});
+                                   NoiseOfLinks* noise = nullptr);
 
 }  // namespace halocline::channel_server

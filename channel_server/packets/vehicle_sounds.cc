@@ -42,7 +42,7 @@ double VehicleSounds::own_power(VehicleId receiver, const acoustics::Band& band,
 
 // Null where the vehicle is nowhere, or silent.
 PacketPointer VehicleSounds::sound_of(const NoiseOf& noise, const Hearing& hearing) const {
-  const auto& [receiver, band, at, decided_at] = hearing;
+  const auto& [receiver, band, at, decided_at, silent] = hearing;
   const auto now = fleet_.placement(noise.id, at, decided_at);
   if (!now) return nullptr;
   const Vec3& to = receiver.position_ned_m;
@@ -70,7 +70,7 @@ std::vector<PacketPointer> VehicleSounds::sounds_within_reach(const Hearing& hea
   if (reach_ != nullptr) present = place_all(fleet_, hearing.at);
   std::vector<PacketPointer> sounds;
   for (const auto& [id, noise] : fleet_.equipment().noise.sources()) {
-    if (id == hearing.receiver.id) continue;
+    if (id == hearing.receiver.id || id == hearing.silent) continue;
     PacketPointer sound = sound_of(noise, hearing);
     if (!sound) continue;
     const double range_m = (sound->departure_ned_m - hearing.receiver.position_ned_m).norm();
@@ -118,6 +118,10 @@ Decibels VehicleSounds::mean_level(const Hearing& hearing) {
   double power = 0;
   for (const NoiseSound& sound : others(hearing)) power += sound.power;
   return power > 0 ? to_decibels({to_power_ratio(own).value + power}) : own;
+}
+
+Decibels VehicleSounds::above_ambient(const Hearing& hearing) {
+  return mean_level(hearing) - ambient_.level(hearing.band, propagation_.environment(hearing.at).noise);
 }
 
 void VehicleSounds::set_noise(Flight& flight, SimTime decided_at) {

@@ -32,6 +32,7 @@ struct Hearing {
   LinkEnd receiver;
   acoustics::Band band;
   SimTime at, decided_at;
+  VehicleId silent = 0;  // another vehicle whose noise is left out; 0: none
 };
 
 class VehicleSounds {
@@ -62,7 +63,9 @@ class VehicleSounds {
 
   // Over the band, ambient, the receiver's own and the mean power of all others, dB re 1 uPa.
   Decibels mean_level(const Hearing& hearing);
-  // Whether the propagation knows all that mean_level() needs, as Propagation::is_ready.
+  // By how much that exceeds the ambient noise of the environment, dB.
+  Decibels above_ambient(const Hearing& hearing);
+  // Whether the propagation knows all that these need, as Propagation::is_ready.
   bool is_ready(const Hearing& hearing);
 
  private:

@@ -82,9 +82,10 @@ Reception MeasuredPropagation::measured(SimTime at, const LinkEnd& from, const L
 void MeasuredPropagation::set_level(SimTime at, const LinkEnd& from, const LinkEnd& to, Decibels level,
                                     acoustics::Capacity capacity, Reception& reception) {
   const acoustics::LinkBudget modelled = reception.budget;
-  reception.budget = straight_.kernel_of(at, *from.modem, *to.modem)
-                         ->budget_of_path(from.position_ned_m, to.position_ned_m,
-                                          from.modem->source_level - level, modelled.range_m, capacity);
+  reception.budget =
+      straight_.kernel_of(at, *from.modem, *to.modem)
+          ->budget_of_path(from.position_ned_m, to.position_ned_m, from.modem->source_level - level,
+                           modelled.range_m, capacity, to.above_ambient);
   reception.budget.delay_s = modelled.delay_s;
   reception.budget.mean_sound_speed_mps = modelled.mean_sound_speed_mps;
   reception.budget.absorption_db_per_km = modelled.absorption_db_per_km;

@@ -63,6 +63,7 @@ struct LinkEnd {
   Vec3 position_ned_m = Vec3::Zero();       // world NED, m
   Vec3 velocity_ned_mps = Vec3::Zero();     // world NED, over ground, m/s
   const acoustics::Modem* modem = nullptr;  // never null in a call; outlives it
+  Decibels above_ambient = {};  // of a receiver: by how much its noise exceeds that of the environment
 };
 
 using acoustics::SoundPath;

@@ -231,7 +231,7 @@ void RayPropagation::set_open(const Task& task, const acoustics::Arrivals& arriv
                                     [&](const auto& one) { return one.delay_s == first.delay_s; });
   acoustics::LinkBudget& budget = reception.budget;
   budget = task.kernel->budget_of_path(from, to, task.ends.from.modem->source_level - level,
-                                       arrival->path_length_m, capacity);
+                                       arrival->path_length_m, capacity, task.ends.to.above_ambient);
   budget.delay_s = reception.paths[best_window(reception.paths, *task.ends.to.modem).strongest].delay_s;
   budget.mean_sound_speed_mps = std::max(budget.range_m, acoustics::kMinDistance) / first.delay_s;
   if (arrival->path_length_m > 0) {
@@ -245,7 +245,7 @@ void RayPropagation::set_silent(const Task& task, acoustics::Capacity capacity, 
                      model_.shadow_loss.has_value();
   const Decibels silent = task.ends.from.modem->source_level - kSilence;
   reception.budget = task.kernel->budget_of_path(from, to, leaks ? *model_.shadow_loss : silent,
-                                                 (to - from).norm(), capacity);
+                                                 (to - from).norm(), capacity, task.ends.to.above_ambient);
   reception.budget.receivable = false;
 }
 

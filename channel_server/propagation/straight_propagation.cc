@@ -39,7 +39,8 @@ void take_field(const acoustics::LinkKernel& kernel, const acoustics::Environmen
   const double absorbing_m = budget.range_m < acoustics::kMinDistance ? 0 : budget.range_m;
   const Decibels more{(means.absorption_db_per_km - budget.absorption_db_per_km) * absorbing_m / 1000};
   const Decibels loss = from.modem->source_level - budget.received_level + more;
-  budget = kernel.budget_of_path(from.position_ned_m, to.position_ned_m, loss, absorbing_m, capacity);
+  budget = kernel.budget_of_path(from.position_ned_m, to.position_ned_m, loss, absorbing_m, capacity,
+                                 to.above_ambient);
   budget.delay_s = length_m * means.slowness_s_per_m;
   budget.mean_sound_speed_mps = 1 / means.slowness_s_per_m;
   budget.absorption_db_per_km = means.absorption_db_per_km;
@@ -60,7 +61,7 @@ Reception StraightPropagation::along_line(const acoustics::LinkKernel& kernel,
                                           acoustics::Capacity capacity) const {
   const auto& [from, to] = ends;
   Reception reception;
-  reception.budget = kernel.budget(from.position_ned_m, to.position_ned_m, capacity);
+  reception.budget = kernel.budget(from.position_ned_m, to.position_ned_m, capacity, to.above_ambient);
   if (water.field) take_field(kernel, water, ends, capacity, reception.budget);
   SoundPath path = straight_path(water, reception.budget, from, to);
   path.fading = path_fading(fading_, water.noise.wind_mps, from.modem->centre_frequency_hz, 0, 0);
@@ -88,7 +89,7 @@ Reception StraightPropagation::blocked(SimTime at, const LinkEnd& from, const Li
   reception.budget =
       kernel_of(at, *from.modem, *to.modem)
           ->budget_of_path(from.position_ned_m, to.position_ned_m, from.modem->source_level - kSilence,
-                           distance_m, acoustics::Capacity::kComputed);
+                           distance_m, acoustics::Capacity::kComputed, to.above_ambient);
   reception.budget.receivable = false;
   return reception;
 }

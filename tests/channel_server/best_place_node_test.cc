@@ -1,4 +1,5 @@
 // BEST_PLACE_QUERY and its reply.
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -9,9 +10,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "acoustics/modem/modem.h"
+#include "acoustics/noise/noise_spectrum.h"
+#include "acoustics/sea/noise.h"
 #include "bus/event_log.h"
 #include "channel_server/links/best_place_service.h"
+#include "channel_server/vehicles/vehicle_equipment.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_noise.h"
 #include "channel_server/water_model.h"
+#include "core/sim_time.h"
+#include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/channel_server/flat_bottom.h"
 #include "tests/channel_server/link_queries.h"
@@ -144,6 +153,39 @@ TEST_F(BestPlaceTest, ItWaitsForTheSeabedAndGoesStraightWithoutIt) {
   bench_.step(SimTime::from_seconds(1), SimTime::from_seconds(11.3));
   ASSERT_EQ(replies_.size(), 2);
   EXPECT_EQ(replies_[1].best_place, 0);
+}
+
+// 5 kHz of 100 dB at 1 m: of the listener itself, 20 dB less; of another vehicle 300 m away; of the talker none.
+TEST(BestPlaceAmongNoise, ListenersHearTheirOwnNoiseAndThatOfOthersButTheTalker) {
+  bus::set_log_level(bus::LogLevel::kSilent);
+  const auto sinr_of = [](const std::string& loud, const std::string& talker) {
+    const acoustics::NoiseSpectrum spectrum({1e3}, {100});
+    const VehicleId id = loud == "v1" ? 1 : 2;
+    const VehicleEquipment equipment{
+        .noise = VehicleNoise({{loud, id, spectrum, NoiseDriver::kNone, 1, Decibels{20}}}, SimDuration())};
+    NodeBench bench({}, {testing::quick_modem(), {}}, straight_model(testing::even_water()), equipment);
+    std::vector<best_place_reply_t> replies;
+    bench.bus().subscribe<best_place_reply_t>("BEST_PLACE_REPLY.tester",
+                                              [&](const best_place_reply_t& m) { replies.push_back(m); });
+    bench.state(1, 0, {0, 0, 50});
+    bench.state(2, 0, {300, 0, 50});
+    bench.step(1);
+    best_place_query_t query{};
+    query.client_name = "tester";
+    query.talker_name = talker;
+    query.num_places = query.num_listeners = 1;
+    query.place_ned_m = {{1000, 0, 50}};
+    query.listener_name = {"v1"};
+    bench.bus().publish("BEST_PLACE_QUERY", query);
+    bench.step(1);
+    return replies.at(0).mean_sinr_db.at(0);
+  };
+  const double quiet_db = sinr_of("v2", "v2"), own_db = sinr_of("v1", "v2"), beside_db = sinr_of("v2", "");
+  const auto band = testing::quick_modem().modem.band();
+  const double ambient =
+      acoustics::noise_power_over_band(band.low_hz, band.high_hz, testing::even_water().noise).value;
+  EXPECT_NEAR(quiet_db - own_db, 10 * std::log10(1 + 5000 * 1e8 / ambient), 1e-6);
+  EXPECT_GT(quiet_db - beside_db, 3);
 }
 
 TEST(BestPlace, OfEqualDeliveryTheGreaterRatioWins) {

@@ -8,10 +8,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "acoustics/link/link_kernel.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/noise/noise_spectrum.h"
 #include "bus/event_log.h"
 #include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_equipment.h"
+#include "channel_server/vehicles/vehicle_noise.h"
 #include "channel_server/water_model.h"
 #include "core/sim_time.h"
+#include "core/units.h"
 #include "tests/channel_server/link_queries.h"
 #include "tests/channel_server/node_bench.h"
 #include "tests/support/tolerance.h"
@@ -196,6 +202,53 @@ TEST(LinkQueryOverASeabed, APositionInsideItIsRefused) {
   EXPECT_EQ(answers.at(1).answer_status, link_answer_t::BAD_INPUT);
   EXPECT_EQ(answers.at(1).problem, "transmitter: position_ned_m lies 30 m inside the seabed");
   EXPECT_EQ(answers.at(2).problem, "receiver: position_ned_m lies 8 m inside the seabed");
+}
+
+// 2 hears itself and a jammer 300 m beside it; 3 has no modem. All rest, so what a packet meets is what was asked for before.
+TEST(LinkQueryAmongNoise, TablesAnswersAndOutcomesKnowTheSameNoise) {
+  bus::set_log_level(bus::LogLevel::kSilent);
+  const acoustics::NoiseSpectrum own({1e3}, {60}), jammer({1e3}, {100});
+  const VehicleEquipment equipment{.noise =
+                                       VehicleNoise({{"v2", 2, own, NoiseDriver::kNone, 1, Decibels{10}},
+                                                     {"v3", 3, jammer, NoiseDriver::kNone, 1, Decibels{20}}},
+                                                    testing::for_s(0.05))};
+  VehicleModem none = testing::quick_modem();
+  none.fitted = false;
+  NodeBench bench({}, {testing::quick_modem(), {{"v3", none}}}, straight_model(testing::even_water()),
+                  equipment);
+  FlatBottom bottom(bench.lcm(), 100);
+  for (double time_s = 0; time_s <= 4; time_s += 0.5) {
+    bench.state(1, time_s, {0, 0, 50});
+    bench.state(2, time_s, {750, 0, 50});
+    bench.state(3, time_s, {750, 300, 50});
+  }
+  bench.run_to(1);
+  bench.send(1, 2, 0, 8);
+  bench.bus().publish("LINK_QUERY",
+                      testing::link_query({{named("v1"), named("v2")}, {named("v1"), at(750, 50)}}, 1));
+  bench.run_to(4);
+  ASSERT_EQ(bench.outcomes.size(), 1u);
+  const auto power = [](double level_db) { return to_power_ratio(Decibels{level_db}).value; };
+  const packet_outcome_t& outcome = bench.outcomes[0];
+  const double met = power(outcome.noise_level_db) + power(outcome.interference_level_db);
+  const link_t &table = bench.last_table(1).peers.at(0),
+               &asked = bench.replies.at(0).message.answers.at(0).link;
+  EXPECT_NEAR(power(table.noise_level_db) / met, 1, tolerance(1e-9));
+  EXPECT_NEAR(power(asked.noise_level_db) / met, 1, tolerance(1e-9));
+  EXPECT_NEAR(asked.snr_db, asked.received_level_db - asked.noise_level_db, tolerance(1e-9));
+  EXPECT_EQ(asked.capacity_bps, table.capacity_bps);
+  EXPECT_EQ(asked.sinr_db, table.sinr_db);
+  // A hydrophone at the place of 2 has no noise of its own, and hears 2 at 1 m: 5 kHz of 60 dB in the place of 50 dB.
+  const link_t& place = bench.replies[0].message.answers.at(1).link;
+  EXPECT_NEAR((power(place.noise_level_db) - power(asked.noise_level_db)) / (5000 * (1e6 - 1e5)), 1,
+              tolerance(1e-6));
+  EXPECT_LT(place.capacity_bps, asked.capacity_bps);
+  const acoustics::Modem& modem = testing::quick_modem().modem;
+  const acoustics::LinkKernel kernel(testing::even_water(), modem, modem);
+  const Decibels above{place.noise_level_db - kernel.noise_level().value};
+  EXPECT_GT(above.value, 3);
+  const auto expected = kernel.budget({0, 0, 50}, {750, 0, 50}, acoustics::Capacity::kComputed, above);
+  EXPECT_NEAR(place.capacity_bps / expected.capacity_bps, 1, tolerance(1e-9));
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "channel_server/channel_server_node.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/packet_messages.h"
+#include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "channel_server/water_model.h"
@@ -47,9 +48,9 @@ class NodeBench {
   explicit NodeBench(ServerRules rules = {}, ConfiguredModems modems = {quick_modem(), {}},
                      const acoustics::Environment& water = even_water())
       : NodeBench(std::move(rules), std::move(modems), straight_model(water)) {}
-  NodeBench(ServerRules rules, ConfiguredModems modems, WaterModel water)
+  NodeBench(ServerRules rules, ConfiguredModems modems, WaterModel water, VehicleEquipment equipment = {})
       : lcm_("memq://"),
-        node_(lcm_, {"channel-server", kSession}, std::move(water), modems, rules),
+        node_(lcm_, {"channel-server", kSession}, std::move(water), modems, rules, {}, std::move(equipment)),
         bus_(lcm_, {"test", 1}) {
     record(channels::kLinks, links);
     record(channels::kReceipt, receipts);

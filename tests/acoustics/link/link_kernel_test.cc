@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,14 @@
 
 #include "acoustics/link/link_budget.h"
 #include "acoustics/modem/beam_pattern.h"
+#include "acoustics/noise/noise_spectrum.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/elementary.h"
 #include "core/hash.h"
 #include "core/random.h"
+#include "core/units.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::acoustics {
@@ -115,6 +118,30 @@ TEST(LinkKernel, PathsOfAGivenLossAreThoseOfTheLinkModel) {
       EXPECT_EQ(fast.received_level, slow.received_level);
       EXPECT_NEAR(fast.capacity_bps, slow.capacity_bps, tolerance(1e-11) * std::max(slow.capacity_bps, 1.0))
           << c.name;
+    }
+  }
+}
+
+// A table that lies 12 dB higher at all frequencies.
+TEST(LinkKernel, NoiseAboveAmbientIsThatOfASeaThatIsSoMuchLouder) {
+  const auto table = [](double more_db) {
+    return std::make_shared<const NoiseSpectrum>(std::vector<double>{1e3, 2e5},
+                                                 std::vector<double>{60 + more_db, 20 + more_db});
+  };
+  for (const Case& c : cases()) {
+    Environment quiet = c.sea, loud = c.sea;
+    quiet.noise.table = table(0);
+    loud.noise.table = table(12);
+    const LinkKernel kernel(quiet, c.modem, c.modem), louder(loud, c.modem, c.modem);
+    for (std::uint64_t i = 0; i < 50; ++i) {
+      const auto [from, to] = ends_of(i);
+      const LinkBudget is = kernel.budget(from, to, Capacity::kComputed, Decibels{12}),
+                       expected = louder.budget(from, to, Capacity::kComputed);
+      EXPECT_NEAR(is.noise_level.value, expected.noise_level.value, tolerance(1e-9)) << c.name;
+      EXPECT_NEAR(is.snr.value, expected.snr.value, tolerance(1e-9));
+      EXPECT_NEAR(is.snr_narrowband.value, expected.snr_narrowband.value, tolerance(1e-9));
+      EXPECT_NEAR(is.capacity_bps, expected.capacity_bps,
+                  tolerance(1e-9) * std::max(expected.capacity_bps, 1.0));
     }
   }
 }

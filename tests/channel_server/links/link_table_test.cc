@@ -2,9 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/link/link_budget.h"
+#include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
+#include "channel_server/links/receiver_noise.h"
 #include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "core/sim_time.h"
+#include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"
 
@@ -70,21 +76,39 @@ TEST_F(LinkTableTest, RowsHoldTheForecastOfTheirPaths) {
   EXPECT_EQ(forecast.best_rate_bps, by_hand.best_rate_bps);
 }
 
-// 7 dB more: both ratios fall by them, and what is delivered is that of a link that is weaker by them.
-TEST_F(LinkTableTest, AnotherNoiseMovesRatiosAndForecasts) {
+// Everywhere louder by so much than the ambient noise.
+class LouderNoise : public ReceiverNoise {
+ public:
+  explicit LouderNoise(Decibels more) : more_(more) {}
+  bool differ() const override { return true; }
+  Decibels above_ambient(const EndPair&, SimTime, VehicleId) override { return more_; }
+  bool is_ready(const EndPair&, SimTime, VehicleId) override { return true; }
+
+ private:
+  Decibels more_;
+};
+
+// 7 dB more: both ratios fall by them, the capacity is that of the kernel, and what is delivered is that of a link that is weaker by them.
+TEST_F(LinkTableTest, AnotherNoiseMovesRatiosCapacityAndForecasts) {
   EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
   EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {1500, 0, 50})), "");
   const auto placed = place_all(fleet_, at_s(1));
   const LinkRow ambient = tables_at(1)[0].rows[0];
-  const auto louder = [&](const EndPair&) { return ambient.budget.noise_level + Decibels{7}; };
+  LouderNoise louder(Decibels{7});
+  NoiseOfLinks noise(louder, at_s(1));
   const LinkRow row = link_tables(at_s(1), placed, table_rows(placed), propagation_, predictor_,
-                                  kUnknownMultipath, one_after_the_other, nullptr, louder)[0]
+                                  kUnknownMultipath, one_after_the_other, nullptr, &noise)[0]
                           .rows[0];
   EXPECT_NEAR((ambient.budget.snr - row.budget.snr).value, 7, tolerance(1e-9));
   EXPECT_NEAR((ambient.budget.snr_narrowband - row.budget.snr_narrowband).value, 7, tolerance(1e-9));
   EXPECT_NEAR(ambient.forecast.sinr_db - row.forecast.sinr_db, 7, tolerance(1e-9));
   EXPECT_EQ(ambient.budget.received_level, row.budget.received_level);
-  EXPECT_EQ(ambient.budget.capacity_bps, row.budget.capacity_bps);
+  const acoustics::Modem& modem = placed[0].modem->modem;
+  const acoustics::LinkBudget by_kernel =
+      acoustics::LinkKernel(even_water(), modem, modem)
+          .budget({0, 0, 50}, {1500, 0, 50}, acoustics::Capacity::kComputed, Decibels{7});
+  EXPECT_EQ(row.budget.capacity_bps, by_kernel.capacity_bps);
+  EXPECT_LT(row.budget.capacity_bps, ambient.budget.capacity_bps);
 }
 
 TEST_F(LinkTableTest, ReceiversBeyondATransmittersRangeAreCounted) {
