@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <tuple>
 #include <vector>
@@ -28,7 +29,10 @@ namespace {
 using testing::tolerance;
 
 constexpr double kFrequency = 25'000, kBottom = 200;
-constexpr double kFront = 3000, kWidth = 800;        // along north
+constexpr double kFront = 3000, kWidth = 800;  // along north
+// Levels of paths near a caustic are not compared: ray theory itself does not give them to 0.1 dB. The two rays of a fold, 4/3 x^(3/2)
+// apart in phase, have the amplitude of Airy's function but for 5 / (48 x^(3/2)) (Abramowitz and Stegun 10.4.60), 0.1 dB at 12 rad.
+constexpr double kLeastApartRad = 12;
 constexpr double kMeridionalRadius = 6'335'439.327;  // WGS 84, at the equator
 const FluidBottom kSand = fluid_bottom(1.9, 1650, 0.8);
 
@@ -80,12 +84,6 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-double share_below(const std::vector<double>& values, double bound) {
-  const auto below =
-      std::count_if(values.begin(), values.end(), [bound](double value) { return value < bound; });
-  return static_cast<double>(below) / static_cast<double>(values.size());
-}
-
 // Of the paths of one link within 30 dB of the strongest. Where two come to one of the front's own, the one launched nearest to it counts.
 void compare_link(const Environment& sea, const Vec3& from, const Vec3& to, const RayLink& link,
                   Errors& errors) {
@@ -123,7 +121,8 @@ void compare_link(const Environment& sea, const Vec3& from, const Vec3& to, cons
   }
   for (const auto& [key, best] : nearest) {
     errors.delays_s.push_back(best.second.delay_s);
-    errors.decibels.push_back(best.second.decibels);
+    const double apart_rad = 2 * std::numbers::pi * kFrequency * best.second.fold_delay_s;
+    if (apart_rad > kLeastApartRad) errors.decibels.push_back(best.second.decibels);
   }
 }
 
@@ -142,8 +141,7 @@ Errors errors_of(double step_m, double level_m, int links) {
   return errors;
 }
 
-// Half the step and half the level leave a fifteenth of the delay's error. Levels converge, too; what is left are paths that come
-// within a few metres of a caustic.
+// Half the step and half the level leave a fifteenth of the delay's error. Levels converge, too.
 TEST(SampledFront, EigenraysConvergeToThoseOfTheFrontItself) {
   constexpr int kLinks = 100;
   std::vector<double> medians_s;
@@ -157,7 +155,8 @@ TEST(SampledFront, EigenraysConvergeToThoseOfTheFrontItself) {
   for (std::size_t i = 1; i < medians_s.size(); ++i) EXPECT_GT(medians_s[i - 1] / medians_s[i], 8);
   EXPECT_LT(quantile(errors.delays_s, 1), tolerance(1e-6));
   EXPECT_LT(quantile(errors.decibels, 0.5), tolerance(0.01));
-  EXPECT_GT(share_below(errors.decibels, 0.1), 0.99);
+  EXPECT_LT(quantile(errors.decibels, 1), tolerance(0.1));
+  EXPECT_GT(errors.decibels.size(), 0.95 * static_cast<double>(errors.delays_s.size()));
 }
 
 }  // namespace

@@ -105,10 +105,22 @@ int caustics_between(const RungeKuttaRay& a, const RungeKuttaRay& b) {
   return caustics;
 }
 
+// Near a fold the depth at the receiver is z_c + z'' u^2 / 2, u the launch angle off the caustic's: the other ray has -u, with
+// u = z' / z''. Along z delays differ by (sin a(u) - sin a(-u)) / c = 2 u p, p the derivative of sin a / c, so together by
+// integral of 2 u p dz = 2/3 p z'' u^3.
+double fold_delay_s(const RungeKuttaRay& low, const RungeKuttaRay& ray, const RungeKuttaRay& high,
+                    double apart) {
+  if (low.surface != high.surface || low.bottom != high.bottom) return 1e9;  // a reflection between them
+  const double first = (high.z - low.z) / (2 * apart),
+               second = (high.z - 2 * ray.z + low.z) / (apart * apart);
+  const double p = (std::sin(high.angle) / high.c - std::sin(low.angle) / low.c) / (2 * apart);
+  return std::min(2.0 / 3 * std::abs(p * std::pow(first, 3)) / std::max(second * second, 1e-300), 1e9);
+}
+
 }  // namespace
 
 std::optional<Compared> compare(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path) {
-  constexpr double kApart = 2e-6, kStation = 40;
+  constexpr double kApart = 2e-6, kStation = 40, kFold = 2e-5;
   const auto angle = launch_of(tracer, link, path);
   if (!angle) return std::nullopt;
   const auto traced = [&](double at) {
@@ -122,7 +134,8 @@ std::optional<Compared> compare(const RungeKuttaTracer& tracer, const RayLink& l
   const double amplitude =
       ray.bottom_magnitude * std::sqrt(ray.c * std::cos(*angle) / (start.c * link.range_m * tube));
   return Compared{std::abs(path.delay_s - ray.tau), std::abs(20 * std::log10(path.amplitude / amplitude)),
-                  caustics_between(low, high) == path.caustics, *angle};
+                  caustics_between(low, high) == path.caustics, *angle,
+                  fold_delay_s(traced(*angle - kFold), ray, traced(*angle + kFold), kFold)};
 }
 
 SpeedThere front_speed(double front_m, double width_m, double r, double z) {

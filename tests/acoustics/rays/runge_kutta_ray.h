@@ -69,6 +69,7 @@ struct Compared {
   double delay_s = 0, decibels = 0;
   bool caustics_alike = true;
   double launch_angle_rad = 0;  // of that ray
+  double fold_delay_s = 0;      // between the two rays of its fold, if it were alone; huge far from caustics
 };
 
 // The launch angle of the ray that comes to the receiver, sought from the path's own on; empty where there is none.
