@@ -11,7 +11,9 @@
 // then on, when X's data arrive. So no data collide where all vehicles hear each other. At the best, one vehicle
 // alone, the utilisation is t_data / (t_data + R + kGap).
 //
-// Tones that overlap are one carrier: a carrier of the duration c counts as c / t_tone, rounded up. Who has sent data leaves the
+// Tones that overlap are one carrier: a carrier of the duration c counts as c / t_tone, rounded up. So n is never more than there were, less
+// where tones fall together, as where a receiver of tones counts detections; fewer rounds to choose from cost repeated contentions, not data.
+// Who has sent data leaves the
 // others kGap to contend first. Frames to all are sent as those to one.
 #include <algorithm>
 #include <cmath>
