@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The [terrain] section of a scenario: how its keys fill a TerrainRecipe.
 #pragma once
 

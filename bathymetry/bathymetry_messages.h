@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Between ray_query_t / ray_reply_t, terrain_query_t / terrain_tile_t and the values the service computes with.
 //
 // A query is read as it stands: rays that are impossible get their status from the service, an impossible mode,

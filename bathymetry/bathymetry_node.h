@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The bathymetry service on the bus: RAY_QUERY in, RAY_REPLY.<client> out; TERRAIN_QUERY in, TERRAIN_REPLY.<client> out; and
 // TERRAIN, the whole seabed coarsely, at the start of a run, so that a log alone has its chart.
 //

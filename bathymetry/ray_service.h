@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Answers a batch of questions about the terrain: what the bathymetry service computes, without the bus.
 //
 // Model: a query is of one mode. closest_hit and occluded follow each ray; depth looks below each origin; the two

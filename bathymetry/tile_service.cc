@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bathymetry/tile_service.h"
 
 #include <algorithm>

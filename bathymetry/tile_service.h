@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The seabed at the posts of a regular tile: what a chart is drawn from. Computed here without the bus.
 //
 // Model: posts lie `spacing_m` apart both ways, row by row from the south, each from the west; a post is the depth of the

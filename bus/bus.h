@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Typed publish and subscribe on an lcm::LCM, safe against what a bus may carry.
 //
 // A message that does not decode, or holds what cannot be (message_codec.h), is counted, reported with its channel and reason

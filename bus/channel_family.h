@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Channels that share a prefix: STATE.<vehicle> of each vehicle.
 //
 // Names are checked by is_valid_name (core/names.h) when they come from outside, so a member's name never means

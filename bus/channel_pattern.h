@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether a channel is matched by a subscription's expression, as LCM would have it: the whole channel, not a part.
 //
 // What Bus subscribes to, escaped channels and escaped prefixes before ".*", is compared as text; any other expression is one of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One line on stderr per event: simulation time, node, event, key=value. Nodes log, libraries do not.
 //
 // What a log line holds of others (a channel, a name) is made printable: nothing in it moves a terminal's cursor.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Retransmission buffer of one publisher: its latest messages by flow and sequence number, from which repair
 // requests are answered. Bounded: the oldest messages of all flows make room, then the flow published on longest ago.
 #pragma once

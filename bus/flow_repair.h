@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Retransmission on a bus that loses datagrams: publisher and receiver side for one Bus (NACK-based reliable
 // multicast).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gap detector of one receiver: follows (session, sequence) of each channel's publishers, knows which messages are
 // missing, and schedules repair requests (NACK) with exponential backoff.
 //

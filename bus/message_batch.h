@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Messages one after the other, in the order in which they were added.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Validity of a decoded message. It is refused for numbers that are not finite or beyond the range that lcmtypes/*.lcm gives
 // them, enumerations without a meaning, names, lengths and times out of range, fields that contradict each other.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Encodes and decodes messages of lcm-gen's types where LCM itself does not.
 //
 // A decoded message is valid, or refused with the reason: its bytes fit the layout of the type (wire_layout.h) and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What lcmtypes/*.lcm states about a field of a message. The generated visit_fields (bus/message_fields.h) passes it
 // beside the field's value.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bus/numbered_publisher.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Numbers what a node publishes: the node's session, and on each channel the sequence 0, 1, 2, ... by which a
 // receiver finds what it missed (flow_watch.h).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sequence number of a message in its flow (channel, session), for message types that carry one.
 #pragma once
 

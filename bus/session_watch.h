@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which of several publishers of one name is believed, on a bus that anybody may publish on.
 //
 // A node has one publisher at a time (HEARTBEAT.<node>), and so has each channel of kHeld. Its session is kept until nothing was

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a node subscribes to, as those need to know it who deliver its messages.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Opens an lcm::LCM with the settings that Halocline needs; errors name what is wrong with a URL.
 #pragma once
 

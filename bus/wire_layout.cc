@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bus/wire_layout.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Checks, before anything is allocated, that the bytes of a message can be decoded.
 //
 // The decoders that lcm-gen writes trust the counts they read: a corrupt count makes them allocate gigabytes,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the channel server reads of a scenario file: [environment], [propagation], [[environment_change]], [modem],
 // [vehicle.modem], [vehicle.clock], [vehicle.noise] and [channel_server].
 //

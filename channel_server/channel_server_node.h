@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The channel server on the bus: receives states, modems and transmissions of vehicles; publishes the scenario, the water,
 // the link tables, and the outcome of every packet; answers queries of links and of best places. --interface lists its channels.
 //

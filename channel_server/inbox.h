@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The messages that the channel server has received and no step has taken yet; bounded.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Applies the inputs of a step to the models of the channel server: states, modems and how they listen to the registry, changes
 // of the water to the timeline, transmissions and answers to pings to the packet medium.
 //

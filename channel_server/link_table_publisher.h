@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Publishes the link tables of a tick as LINKS.<vehicle>, and reports in the log which vehicles appear and vanish.
 #pragma once
 

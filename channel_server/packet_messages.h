@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Transmissions, receipts and outcomes of packets, from messages and back. Session and sequence are the publisher's
 // to fill in.
 #pragma once

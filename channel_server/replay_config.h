@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the channel server reads of a scenario about measured channels: replay keys of [propagation].
 #pragma once
 

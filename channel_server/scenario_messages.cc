@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/scenario_messages.h"
 
 #include <algorithm>

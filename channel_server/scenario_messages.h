@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The scenario as SCENARIO: what a log needs to explain itself, from what the server was started with.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Queries the bathymetry service for what the models need of the seabed, and hands its answers to them: tiles to the
 // map of the seabed, urgently, because packets wait for them; echo surveys to the multipath cache; and those of link
 // queries to their service. Tiles that failed are queried again a second later, or once the service is back.

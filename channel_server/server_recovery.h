@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The recovery of a channel server that was killed: the steps that it does again, and the waits on the way.
 //
 // The journal holds the inputs and outputs of the last minute (bus/runtime/crash_journal.h). The steps of that time

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The water of a channel server and how sound propagates in it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vehicles and the water, from messages and back: states, modems, ENVIRONMENT and its changes.
 #pragma once
 

@@ -1,10 +1,12 @@
 # Turns the plain comments of a header into Doxygen's: lines of them document what follows, those behind a declaration that
 # declaration, the first block the file. Text is taken literally; lines indented by three spaces after an empty one are code.
+BEGIN { first = 1 }
 function literal(text) {
   gsub(/[\\@<>#%&*`$]/, "\\\\&", text)
   return text
 }
-NR == 1 && /^\/\// { print "/// \\file" }
+NR == 1 && /^\/\/ SPDX-License-Identifier:/ { first = 2; next }
+NR == first && /^\/\// { print "/// \\file" }
 match($0, /^[ \t]*\/\/ ?/) {
   indent = $0
   sub(/\/\/.*/, "", indent)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # halocline_generate_cpp(out_headers FILES...): runs the installed lcm-gen and lcmtypes/generate.py; headers land in
 # the build tree, never in the repository, because generated code belongs to the LCM that generated it.
 find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)

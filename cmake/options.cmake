@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What every target of ours is compiled with: link it as `halocline_options` (PRIVATE).
 add_library(halocline_options INTERFACE)
 target_compile_options(halocline_options INTERFACE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "conductor/bus_bridge.h"
 
 #include <span>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The LCM log of a lockstep run, in the order and with the instants of the run.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "conductor/lockstep_pace.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Coordinates a lockstep run over udpm: lockstep_conductor.h on LCM, with its journal and log on disk, and the messages
 // of the run mirrored on the ordinary bus.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Simulation time as the conductor makes it: the steady clock times a rate.
 //
 // A conductor that is started into a running system continues from the time that the system has coasted to: it

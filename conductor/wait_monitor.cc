@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "conductor/wait_monitor.h"
 
 namespace halocline::conductor {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Notices that a lockstep run stands still, and for whom.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Values as bytes and back: what a node keeps of its state on disk (bus/runtime/state_journal.h).
 //
 // A type states once, for both directions, what it consists of:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A file that is replaced as a whole: written beside its final name, forced to disk, then renamed.
 //
 // A reader finds the old content or the new one, never a part, also after a crash of the program or the machine

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Checks of arguments and of ourselves, for two of the three kinds of error.
 //
 // require: the caller is wrong (bad configuration, impossible argument). Throws InvalidArgument, whose text

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Comma-separated tables as text: what profiles and the quantity calculator read and write.
 //
 // Format: RFC 4180 (quoted cells may hold commas and doubled quotes, but no line breaks); the first line that

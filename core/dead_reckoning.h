@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where a vehicle is between its states: the rule by which whoever receives STATE carries the last one on, and by which the
 // vehicle simulator decides when the next one is needed.
 //

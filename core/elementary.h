@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Elementary functions whose results do not depend on the processor or its C library: the C library chooses other code for
 // exp, log or sin where it finds FMA or AVX, and its last bits differ between versions. Everything that a result depends on
 // calls these; the layers test forbids those of <cmath>. What IEEE 754 rounds correctly (sqrt, floor, fma, remainder) is the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The series and reductions behind core/elementary.h and acoustics/math/fast_functions.h; for no other file.
 #pragma once
 

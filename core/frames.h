@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The two frames of the project and the pose that joins them.
 //
 // World: local NED at the scenario's geodetic origin: x north, y east, z down, metres; z = 0 is the datum of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A Gauss-Markov (Ornstein-Uhlenbeck) process as a function of time: stationary, variance sigma^2, correlation
 // exp(-|t| / T).
 //

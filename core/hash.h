@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Non-cryptographic hashes: collisions are rare by chance, and easy to construct.
 //
 // FNV-1a of 64 bits (Fowler, Noll, Vo; http://www.isthe.com/chongo/tech/comp/fnv) for what is computed in pieces; XXH3 of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Limits that several programs share; docs/reliability.md has the table of all.
 #pragma once
 

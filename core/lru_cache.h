@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A map of bounded size: when it is full, the entry that was used least recently makes room; forget_unused() drops the rest of long ago.
 //
 //   LruCache<std::string, Spectrum> spectra(/*capacity=*/32);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Names of vehicles, nodes and clients: the suffixes of channels, so kept to characters that mean nothing to
 // a regular expression or a file system. All other texts, of files and of messages, are one line each.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Random numbers addressed by what they are for, never by turn.
 //
 // A draw is a pure function of (seed, purpose, who, which): Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011,

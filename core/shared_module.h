@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Loads a shared module from beside the program at first use: for libraries that are slow to load and that few runs need.
 #pragma once
 

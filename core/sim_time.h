@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Simulation time: integer nanoseconds, so that sums are exact and an instant is the same in every process.
 //
 // SimTime is an instant since the start of the scenario, SimDuration a difference of two. Wall clocks never

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Decibels and the few units that exist only at the edges (configuration, tables, output).
 //
 // Inside, everything is SI and radians. Decibels are their own type so that a level is never used as a ratio:

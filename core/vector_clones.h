@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Functions that are compiled twice, for every x86-64 processor and for those with AVX2, and chosen when the program starts.
 //
 // For loops over doubles that compilers make vectors: twice as many numbers at once. The bits are the same: vectors are

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Makes everything that repeats the description of a message, from lcmtypes/*.lcm and lcmtypes/channels.toml.
 
 The comment behind a field may limit its values; what decodes is checked against it (bus/message_checks.h):
@@ -54,7 +55,7 @@ class Message:
         text = path.read_text()
         head, _, body = text.partition("{")
         self.name = path.stem
-        self.purpose = " ".join(re.findall(r"^// ?(.*)", head, re.M))
+        self.purpose = " ".join(re.findall(r"^// ?(.*)", head.partition(";")[2], re.M))
         self.blocks = [[]]  # of constants: (name, value, comment)
         self.fields = []
         for line in body.split("\n"):

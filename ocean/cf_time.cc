@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "ocean/cf_time.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Instants as the CF conventions write them: "hours since 2000-01-01 00:00:00" in one of six calendars.
 //
 // Model: an instant is a number of seconds since noon-less day 0 of its calendar; only differences within one calendar have

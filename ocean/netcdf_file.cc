@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "ocean/netcdf_file.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A netCDF file as the reader of ocean fields sees it: variables, their axes and attributes, values with packing undone. Part of
 // the module halocline_ocean_fields.so.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Current, temperature and salinity of the ocean as functions of place and time.
 //
 // Model: values on a grid of time, depth, latitude and longitude, as ocean models (HYCOM, ROMS on levels of depth) give

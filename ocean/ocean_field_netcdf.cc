@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Ocean fields from CF netCDF files. Part of the module halocline_ocean_fields.so, which only ocean_field_reader.cc loads.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reads an ocean field from a CF netCDF file, as HYCOM, ROMS on levels of depth and Copernicus Marine publish them.
 //
 // Layout: each variable on [time,] depth, latitude, longitude, in this order, each with a coordinate variable of one dimension

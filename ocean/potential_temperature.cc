@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "ocean/potential_temperature.h"
 
 #include "core/elementary.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Temperature in situ of water whose potential temperature is known, as ocean models hold it.
 //
 // Model: adiabatic lapse rate of Bryden 1973, integrated by Fofonoff's fourth-order scheme of one step, both in the form of

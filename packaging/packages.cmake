@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Debian packages: `cpack` in the build folder, or scripts/package.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "Halocline developers <halocline@localhost>")

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faults of a vehicle: their effect on its commands, its model and its sensors.
 //
 // Stuck rudder or stern planes: the servo holds its angle, or drives to a given one within its limits,

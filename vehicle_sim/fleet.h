@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The vehicles of a scenario that we move, on a grid of physics steps, with their commands and sensors.
 //
 // Time runs in whole steps from the start; a state between two steps is a look ahead from the earlier one

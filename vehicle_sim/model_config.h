@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vehicle models as TOML files: every parameter with its unit and range, and where a model of a scenario comes from.
 //
 // A file starts from nothing (an effect that it does not name is absent) or, with `based_on`, from a built-in model.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The vehicles that come with the program, by name: some are programmed, the others are the files of models/vehicles,
 // compiled in. load_model (model_config.h) makes parameters of either.
 #pragma once

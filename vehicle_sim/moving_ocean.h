@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The ocean's field of a scenario whose currents move vehicles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Queue of measurements that wait for their echoes, in order of time, until answered or timed out.
 //
 // One entry a sensor tick. An entry is complete when its echoes are known (at once when

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tables of a scenario: the sensors that vehicles carry, and faults.
 //
 //   [sensors.dvl]                # of every vehicle

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // All sensors of all vehicles: sampling times, rays to the seabed, and readings once their echoes are known.
 //
 // Each sensor measures at multiples of its period since time 0. take() notes what holds at the next of these

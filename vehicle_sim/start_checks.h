@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether the vehicles of a scenario start in the water: a check that needs the terrain.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle_sim/state_selection.h"
 
 #include "core/dead_reckoning.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which states of a vehicle are published where its receivers reckon between them (core/dead_reckoning.h): the states from
 // which the reckoning has strayed, and one now and then (thresholds and heartbeat of IEEE 1278.1).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A scenario as one of several vehicle simulators has it, which share its vehicles in blocks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Configuration of the vehicle simulator: section [vehicle_sim] of a scenario, and the vehicles that it moves.
 //
 //   [vehicle_sim]

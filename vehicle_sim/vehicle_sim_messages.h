@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The vehicle simulator's values as messages, and back.
 //
 // Session and sequence numbers are the publisher's: left at 0 here, set where a message is published.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The vehicle simulator on the bus: moves the vehicles of a scenario and publishes their states and sensors.
 //
 // Receives COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<its own client name>, and for vehicles with a USBL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A measured channel as a file holds it: complex baseband impulse responses h(time, delay) of one receiver.
 //
 // Files are HDF5, as netCDF-4 and MATLAB 7.3 write it, in the layout of the public replay collections (version 1). Axes

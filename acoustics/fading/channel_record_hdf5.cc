@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Measured channels from HDF5 files. Part of the module halocline_channel_records.so, which only
 // channel_record_reader.cc loads.
 #include <algorithm>

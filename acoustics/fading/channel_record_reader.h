@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reads measured channels from files (acoustics/fading/channel_record.h has the layout).
 //
 // HDF5 is in a module of its own (halocline_channel_records.so), loaded by the first file. Calls may not overlap between

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Stationary complex Gaussian noise of mean power 1 as a function of time, by a sum of sines (Rice 1944; Clarke 1968):
 //   g(t) = 1/sqrt(N) sum_k exp(j (2 pi f_k t + phi_k)),  N = 16
 // Its autocorrelation is exp(-(2 pi B tau)^2 / 2): the frequencies are normal with standard deviation B, one from each of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bounds of what any link of a mean ratio delivers, however it fades: by which links that deliver nothing are recognised before
 // anything of them is computed.
 //

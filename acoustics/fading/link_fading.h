@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The fading of all paths of one link over time (the model: acoustics/fading/path_fading.h).
 //
 // A value is a function of (seed, pair of ends, identity of the path, absolute time of arrival) without any state:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A measured channel as a modem's band meets it: taps over delay whose values over time come from a record.
 //
 // Model. The band's part of H(t, f) (acoustics/fading/channel_record.h), sampled over delay at the rate of its width B:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A measured channel in the place of a link's fading paths.
 //
 // A link is somewhere else in the record than others: its own time 0 is drawn from (seed, pair of ends), and both directions

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/fading/path_fading.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How the power of one path is shared between what stays steady, what the water turns and what rough boundaries scatter.
 //
 // Model, for a path of mean power P:

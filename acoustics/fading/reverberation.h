@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tail that rough boundaries leave behind every packet: reverberation of its own sound at the receiver.
 //
 // Model, for water of depth D over a bottom of critical angle theta_c:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/fading/scattering_loss.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Optional: what rough boundaries scatter out of shallow water. Steeper than the bottom's critical angle, sound is gone within
 // a few bounces; forward and below that angle it goes on. Without this all of it goes on (acoustics/fading/path_fading.h).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One path of sound from transmitter to receiver, as the receiver gets it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/link/band_capacity.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Capacity of a straight leg over the nodes of a band: the innermost loop of acoustics/link/link_kernel.h.
 //
 // C = sum of w log2(1 + u exp(-(loss + nepers mean))) over the nodes: weight w in Hz, u the signal-to-noise ratio of a link

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Shannon capacity of a straight link, bit/s.
 //
 // Model: C(l) = integral over the band of log2(1 + (P/B) / (A(l, f) N(f))) df (Stojanovic 2006; equation 8 of

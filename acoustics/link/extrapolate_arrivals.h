@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Extrapolates the arrivals of one link to another whose ends lie a little off, to first order: microseconds a link.
 //
 // Model: the travel time's gradient is exact (Fermat): it grows by sin / c of the arrival angle per metre that the

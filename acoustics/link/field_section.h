@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The water between two places of a sea with a field of temperature and salinity, as rays see it.
 //
 // Model: an ocean model states a smooth sea at points. Between them rays see it smooth: temperature and salinity by cubics along the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The least loss of level over a range, whatever lies between the ends: a bound, by which links that cannot matter are
 // recognised before anything of them is computed.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Mean slowness and absorption along the straight line between two places of a sea with a field.
 //
 // Model: integrals of ds / c and of alpha ds over the line, whose water is the field's (acoustics/sea/environment.h). Between

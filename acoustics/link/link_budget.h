@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The quality of one straight link: delay, loss, level, noise, signal-to-noise ratio and capacity between two
 // points.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The quality of straight links, millions a second: what acoustics/link/link_budget.h states, for the simulator.
 //
 // Method. Means of slowness and absorption along the leg come from polynomials in depth (acoustics/math/depth_means.h)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The energy of a weak link over a rough bottom, whose rays are not worth tracing.
 //
 // Model: that of acoustics/rays/diffuse_windows.h for all rays, in water of the mean depth between the ends. A ray of Snell's

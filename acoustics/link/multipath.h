@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether an echo from the bottom may interfere with the direct path (the paper's query GETML).
 //
 // Model: Sehgal, Cernea and Birk 2010: rays go from the transmitter to the seabed at several points along the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The best frequencies for a link of a given length, and the power and capacity they need and give.
 //
 // Model: Stojanovic 2006, "On the relationship between capacity and distance in an underwater acoustic

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/link/ray_doppler.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Doppler of each path of a link, from its angles and the velocities of both ends.
 //
 // Model: along a ray what counts is the velocity of each end along the ray's own direction there, so every

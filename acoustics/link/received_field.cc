@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/link/received_field.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Level, delay spread and impulse response at a receiver from the paths of a link.
 //
 // Model: pressures add. Incoherently their powers add, which is the mean over any small change of place (at

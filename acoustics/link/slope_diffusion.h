@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How the slopes of a rough bottom turn rays from one grazing angle to others, bounce by bounce.
 //
 // Model. A ray of grazing angle theta that meets a slope s leaves with theta + 2 s. With many small slopes of the variance s2, met

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Loss of level along a straight path.
 //
 // Model: TL(l, f) = k 10 log10(l) + alpha l / 1000 (Urick 1983; Stojanovic 2006): l in metres re 1 m for

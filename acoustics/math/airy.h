@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Airy's functions and their slopes.
 #pragma once
 

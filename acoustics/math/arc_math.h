@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Closed forms for one ray within one layer of constant gradient, written so that they hold for every
 // gradient (zero among them) and every angle (vertical among them).
 //

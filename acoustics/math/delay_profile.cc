@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/math/delay_profile.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Moments of a delay profile: when the power of many paths arrives.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Splits an interval of depth at the boundaries of precomputed cells, so that an integral over it is the
 // difference of two running sums plus the two pieces at its ends.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Means over depth of properties of the water that are smooth within cells of depth, without loss of digits between
 // places however near to each other.
 //

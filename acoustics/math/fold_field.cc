@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/math/fold_field.h"
 
 #include <algorithm>

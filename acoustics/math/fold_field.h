@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The field about a fold of rays: a caustic, on one side of which two rays of one family pass and on the other none.
 //
 // Model. With x the distance to the caustic in lengths of Airy, positive on the lit side, the field of two rays of

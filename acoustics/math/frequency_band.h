@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The frequencies at which integrals over a modem's band are taken.
 //
 // Method: composite Gauss-Legendre, 16 nodes a panel unless stated. Noise, absorption and capacity are smooth in the

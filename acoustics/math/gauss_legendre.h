@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gauss-Legendre quadrature: integrals of smooth functions over an interval.
 //
 // Model: nodes are the roots of the Legendre polynomial P_n, weights 2 / ((1 - x^2) P_n'(x)^2) (Abramowitz

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The cubic through values and slopes at both ends of an interval: predicts a function within a cell of a
 // table, where it turns, and where it passes a value.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The field of rays that turn back close to a boundary, or close to a knot at which the gradient of the speed changes.
 //
 // Model. With s the sine of a ray's angle at the boundary or knot, s^2 < 0 for a ray that turns before it, rays gather the

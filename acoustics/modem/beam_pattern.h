@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Beam pattern of a transducer in the vertical plane, the same in transmission and reception.
 //
 // Model: a table of loss against elevation, linear in decibels between rows, constant beyond the ends; no

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/modem/bit_error.h"
 
 #include <cmath>

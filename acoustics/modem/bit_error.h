@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bit error rate of uncoded modulations in Gaussian noise and Rayleigh fading.
 //
 // Model (Proakis, Digital Communications, 4th edition, chapters 5.2 and 14.3), g the ratio Eb/N0, Q the tail of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bit error rate after decoding a linear block code on phase-shift keying.
 //
 // Model: union bound of maximum-likelihood soft decoding (Proakis, Digital Communications, 4th edition, section

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/modem/convolutional_code.h"
 
 #include <algorithm>

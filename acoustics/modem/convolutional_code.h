@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Convolutional codes of rate 1/2: distance spectrum, and bit error rate after Viterbi decoding.
 //
 // Distance spectrum: every path of the trellis that leaves the all-zero path once and comes back, counted by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/modem/error_model.h"
 
 #include "acoustics/modem/bit_error.h"

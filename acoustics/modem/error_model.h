@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bit error rate of an information bit, by the name of modulation and code.
 //
 // Eb is always the energy of an information bit, so a model with a code (bits of the air carry less each) and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/modem/half_delivery.h"
 
 #include "core/elementary.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The ratio of signal to noise and interference at which half of a modem's packets arrive: the threshold of what it needs.
 //
 // In noise that does not fade: the preamble is detected and all information bits are right (modem.h), each by itself. In a

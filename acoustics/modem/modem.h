@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // An acoustic modem: source level, band, least receivable level, framing of packets, detection and bit errors.
 //
 // The generic profile takes the four parameters of Sehgal, Cernea and Birk 2010: strength (source level),

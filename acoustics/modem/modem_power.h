@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The electric power that a modem takes to transmit.
 //
 // Model: a source of acoustic power P_a in all directions has SL = 170.8 + 10 log10(P_a) dB re 1 uPa at 1 m (Urick 1983, section

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How the information bits of a packet are divided: a header that everything needs, then frames with a CRC each.
 //
 // A receiver needs the header and keeps each frame whose CRC is right. Bits lie evenly after the preamble, the header first;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Probability of detection of a packet's preamble in noise.
 //
 // Model: the receiver filters the preamble in M pieces, each with a filter matched to it, squares and adds

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A noise spectrum as a table: spectrum level by frequency, of the sea or of a vehicle.
 //
 // Between two frequencies the level is linear in the logarithm of frequency, dB re 1 uPa^2/Hz; beyond the first and the last it is

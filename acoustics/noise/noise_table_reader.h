@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Ambient noise as a table by time and frequency, from a file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/noise/noise_variation.h"
 
 #include <numbers>

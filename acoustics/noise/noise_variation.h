@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How the ambient noise varies about its spectrum: slowly, and in bursts.
 //
 // Slowly: the level is its spectrum's plus a Gauss-Markov process in dB (core/gauss_markov.h), one for all frequencies and all

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/rays/arc_tracer.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Traces one ray through layered water over a bottom that changes with range, arc by arc, without step
 // error.
 //

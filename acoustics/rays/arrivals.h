@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One path of sound from a source to a receiver, and what all ray solvers agree on about paths.
 //
 // Conventions: depth is positive down from the flat mean surface, m; angles are from the horizontal, positive

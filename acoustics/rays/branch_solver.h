@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Finds the eigenrays between two neighbouring rays of a fan that have the same history.
 //
 // Between them the unfolded depth zeta(theta) at the receiver's range is smooth but for bends of the water's profile. Every

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The core of a sound channel: what lies within its lowest mode, where rays of the water stand for nothing.
 //
 // Model. Between its two turning depths a ray of greatest speed c* (its xi is 1 / c*) gathers in one loop the phase

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/rays/diffuse_windows.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sound of rays that a search over a rough bottom does not seek one by one: windows of launch angles and their energy.
 //
 // Model. A window of launch angles dtheta holds rays of bounce factor f that a rough bottom has mixed: at the receiver's

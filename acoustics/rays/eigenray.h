@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Eigenrays: the paths of sound between two points, by one of three exact solvers.
 //
 //   const RayOptions options{.frequency_hz = 11'520};

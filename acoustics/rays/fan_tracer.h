@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Traces the fan of rays among which a search brackets its eigenrays: fast, depth and its slope only.
 //
 // Model: that of acoustics/rays/arc_tracer.h, arc by arc, without step error; whole layers between two

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every ray between two points of water of one sound speed over a flat bottom: the sum of images.
 //
 // Model: surface and bottom are mirrors, so each path is a straight line to an image of the receiver. With u

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The three legs of which every ray between two depths of a stratified waveguide with a flat bottom is made.
 //
 // Model: water depends on depth alone, so a ray keeps Snell's invariant xi = cos(angle) / c. Split at both ends, its

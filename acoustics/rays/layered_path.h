@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Turns one Snell ray of a flat sea, named by family and number of cycles, into an arrival.
 //
 // Equations: acoustics/rays/layered_rays.h.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every ray between two points of water that depends on depth alone, over a flat bottom.
 //
 // Method: the four families of acoustics/rays/layered_legs.h each solve b(xi) + n X(xi) = r, X one whole cycle.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/rays/profile_path.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Turns one traced ray over a bottom profile into an arrival, gives the launch angles that a search begins with, and the
 // way of a path that was found, for drawings.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every ray between two points of layered water over a bottom that changes with range.
 //
 // Method: a fan of exactly traced rays (acoustics/rays/arc_tracer.h). Between two neighbours of the same history

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Traces one ray through water that changes smoothly along the link, over a bottom that does.
 //
 // Model: within a rectangle of acoustics/sea/ray_section.h sound speed is a polynomial. With s = sin / c the vertical slowness and

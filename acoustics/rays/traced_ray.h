@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One ray that was traced, the sea it goes through, and what bounces do to it beside its direction and its tube: what the tracers
 // and the searches share.
 //

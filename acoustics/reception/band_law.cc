@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/reception/band_law.h"
 
 #include <algorithm>

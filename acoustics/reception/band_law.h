@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How signal over noise and interference fades in phase-shift keying, and how long its fades last.
 //
 // Q = S - t (I - mean I), t a threshold: Q is below t (N + mean I) exactly when S / (N + I) is below t. Both are sums over what

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/reception/collected_sound.h"
 
 #include <algorithm>

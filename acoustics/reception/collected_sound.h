@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What an equaliser that collects the band makes of the paths in its window, on average over fading: phase-shift keying.
 //
 // Model: S = sum over pairs of paths p, q of sqrt(x_p x_q) Re(h_p h_q* exp(-j 2 pi f_c tau)) sinc(W tau), tau the difference of

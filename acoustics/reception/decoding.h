@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether a packet is detected and decoded, from its ratio of signal to noise and interference over time and band.
 //
 // Model. A packet's information bits lie evenly after its preamble, in blocks: the header and each frame

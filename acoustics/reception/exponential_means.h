@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Means over a packet's time and band of exp(-scale power) while its slow fading holds: what decides of frequency-shift keying
 // (acoustics/reception/link_prediction.h). Many states are computed together, as vectors.
 #pragma once

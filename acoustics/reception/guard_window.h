@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where a receiver synchronises: the guard interval that holds the greatest power, as a matched filter finds it.
 //
 // Model: the window begins at one of the paths and lasts the guard time. A path d after its begin has the weight

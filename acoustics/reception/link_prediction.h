@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a link will deliver on average over its fading: the expectation of what acoustics/reception/signal_history.h and
 // decoding.h decide of single packets.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What sounds in a receiver's window on average over fading, as far as predictions need it
 // (acoustics/reception/link_prediction.h): powers, their correlation over the band, and how fast they fade.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/reception/medium_states.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // States that the medium of a link holds through a packet, in predictions of frequency-shift keying
 // (acoustics/reception/link_prediction.h).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/reception/packet_levels.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a packet comes to while the slow fading of its link holds: constant levels that decide of its preamble and of its
 // bits as the fast fading does (acoustics/reception/link_prediction.h has the model).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How a fading power is distributed: gamma distributed beside a constant, by its first three cumulants.
 //
 // Exact for one scattered path (exponential) and for equal ones (gamma); of a steady path with a scattered one (Rice) within

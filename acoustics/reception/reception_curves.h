@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The curves of one modem for packets of one payload, tabulated so that a prediction costs microseconds.
 //
 // Detection of the preamble and the chance of a right bit over the ratio of signal to noise and interference in the band,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A packet as one receiver gets it: signal and own interference over its time and band.
 //
 // Model, with the paths' responses h_p(t) (acoustics/fading/path_responses.h), the window's weights w_p

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Power of a link's coherent paths over the band, by the parts of it in which a signal of frequency-shift keying is evaluated
 // (signal_history.h).
 //

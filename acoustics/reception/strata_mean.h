@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Means over large-scale fading of what becomes of packets while the rest of their link's slow fading holds
 // (acoustics/reception/link_prediction.h has the model).
 //

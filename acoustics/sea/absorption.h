@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Absorption of sound by sea water, dB/km, by every formula the project names.
 //
 // All of them have one shape: relaxing salts plus viscous water,

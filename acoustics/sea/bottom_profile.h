@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The bottom along the vertical plane of a link, as rays meet it.
 //
 // Model: depth is linear between given points and constant before the first and after the last. A bottom

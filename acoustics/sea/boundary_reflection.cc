@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/sea/boundary_reflection.h"
 
 #include <algorithm>

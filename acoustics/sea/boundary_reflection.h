@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reflection of a ray at the bottom and the surface: loss and phase of one bounce.
 //
 // Bottom: Rayleigh reflection of a plane wave at a fluid half-space (Jensen, Kuperman, Porter and Schmidt

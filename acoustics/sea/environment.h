@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sea of a link as one value: everything that the acoustic models depend on.
 //
 // Immutable by convention: build one, `validate` it, share it by const reference between threads. One sea state holds for the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Ambient noise of the sea: spectrum level by source, and level over a band.
 //
 // Model: the four empirical components of Coates 1990 as used by Stojanovic 2006 (WUWNet) and the 2010 IEEE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Columns of water from CF netCDF grids, through GDAL. Part of the module halocline_profile_grids.so, which only
 // profile_reader.cc loads.
 #include <algorithm>

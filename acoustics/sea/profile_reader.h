@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reads sound-speed profiles from files: the one place of this folder that touches a file.
 //
 // CSV (tables and CTD casts): a header names the columns, in any order; others are ignored. Either

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The ranges of input for which formulas of the sea were published. Outside of them a formula is evaluated all the same:
 // whoever shows results to a person says so.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Water whose sound speed changes along a link as well as with depth, as rays see it: smooth, by bicubic patches.
 //
 // Model: columns of water (acoustics/sea/ray_water.h) at rising ranges, all with the same knots, make rectangles. In each of them the speed

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Water as rays see it: sound speed linear in depth between knots, absorption within each layer.
 //
 // Model: between two knots a ray is an arc of a circle, so travel time, range and length are closed forms. A

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Speed of sound in sea water, m/s, by every formula the project names.
 //
 // Each function is the published polynomial, on the published variables. Inside the stated range the fit

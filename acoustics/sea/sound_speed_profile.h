@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sound speed, temperature and salinity against depth, and the travel time along a straight path through
 // them.
 //

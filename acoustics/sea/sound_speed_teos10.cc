@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // TEOS-10's speed of sound from the 75-term polynomial of specific volume (Roquet et al. 2015, appendix A).
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/sea/water_columns.h"
 
 #include <algorithm>

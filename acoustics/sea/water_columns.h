@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sound speeds of several columns of water at common depths: where to have knots, so that all are linear between them.
 //
 // One column is a profile's own table of knots (acoustics/sea/ray_water.h); several are those of a section. Free functions on

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/waveform/analytic_signal.h"
 
 #include <algorithm>

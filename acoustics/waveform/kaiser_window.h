@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The Kaiser window, by which filters of endless length are cut (Kaiser and Schafer 1980).
 #pragma once
 

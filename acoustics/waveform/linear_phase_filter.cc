@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/waveform/linear_phase_filter.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A filter of linear phase with a given amplitude over frequency.
 //
 // The amplitude is taken at frequencies f_s / 1024 apart, and the filter cut by a Kaiser window: steps of the amplitude are smoothed over

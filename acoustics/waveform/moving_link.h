@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A waveform over one link whose ends, and so its paths, move: a sum of delayed, turned and weighed copies.
 //
 // Model. The paths of the link are known for departures t_k of equal distance. Between two of them the delay tau of a path and its

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/waveform/shaped_noise.h"
 
 #include <cmath>

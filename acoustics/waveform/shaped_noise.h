@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gaussian noise of a given spectrum as samples.
 //
 // White normal draws of standard deviation 1 at the rate f_s have the density 2 / f_s; a filter of linear phase turns it into

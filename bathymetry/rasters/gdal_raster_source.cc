@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The rasters that GDAL opens. Part of the module halocline_rasters.so, which only raster_source.cc loads.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the loader uses of GDAL, with errors as exceptions and objects owned.
 //
 // GDAL prints errors and returns codes; here a failure throws InvalidArgument with GDAL's own words. Every

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reads bathymetry from any raster GDAL opens into a grid in the scenario's local frame: once, at load.
 //
 // Model: each post of the grid is mapped to the earth (local_frame.h), to the raster's coordinate

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options of a raster of depths: where it is, and whatever the file itself does not state.
 //
 // Files are trusted where they speak and never guessed at where they do not: a raster that lacks a coordinate

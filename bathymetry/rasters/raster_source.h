@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One band of a raster file, opened with GDAL: where its posts lie, and its depths, window by window.
 //
 // Posts are addressed as (column, row), 0 to size - 1, at their own place: a pixel's centre, or the node. The

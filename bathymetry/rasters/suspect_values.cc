@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bathymetry/rasters/suspect_values.h"
 
 #include <algorithm>

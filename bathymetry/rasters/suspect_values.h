@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Finds values of a raster that cannot be depths: no data that the file does not declare.
 //
 // Rule: a value deeper than 12 000 m or higher than 9 500 m is none (the deepest sea is 10 935 m, the highest

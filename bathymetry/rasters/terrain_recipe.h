@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How a scenario's terrain is made: a base grid from a shape or a raster, relief on top, finer grids nested in it.
 //
 // Order: the base is made (shape sampled, or raster resampled once into the local frame), relief is added, nested

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Seeded synthetic relief: fractal terrain, or the roughness that charts are too coarse to hold. It is
 // invented, and reports label it so.
 //

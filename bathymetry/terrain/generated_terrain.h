@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Terrain from a formula: flat, slope, ridge and seamount, for scenarios without a chart and tests with an
 // answer.
 //

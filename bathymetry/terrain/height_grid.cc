@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bathymetry/terrain/height_grid.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A regular grid of bottom depths in the local frame: the only form in which terrain is stored.
 //
 // Model: posts (samples) lie spacing_m apart on a square lattice, i counts north (x), j counts east (y). A

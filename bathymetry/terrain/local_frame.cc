@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bathymetry/terrain/local_frame.h"
 
 #include <GeographicLib/Constants.hpp>

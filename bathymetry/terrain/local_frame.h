@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Between latitude, longitude and depth on the ellipsoid and the scenario's local NED frame.
 //
 // Two modes, both on WGS84 with the origin at depth 0 of the datum:

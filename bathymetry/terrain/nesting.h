@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How a fine grid is fitted into the coarser grid around it, so that the two surfaces meet without a step.
 //
 // Model: the fine grid covers whole cells of the grid around it and its spacing divides that grid's, so along

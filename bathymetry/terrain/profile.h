@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The bottom along a straight line of the plane: sampled evenly, or exactly, cell by cell.
 //
 // Model: evenly spaced samples cost 15 ns each and miss what lies between them (a ridge narrower than the

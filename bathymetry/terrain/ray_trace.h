@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Follows a ray over one grid to the first place where it meets the bilinear bottom, exactly and without
 // leaks.
 //

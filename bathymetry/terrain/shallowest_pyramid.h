@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // For square blocks of cells, the shallowest depth in each: lets a ray leap over all that lies deeper than it
 // goes.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The seabed as others see it: how deep the bottom is, where a ray meets it, what a line crosses.
 //
 // Model: one base grid, and finer grids nested in it (and in each other); beyond the base grid is `outside`.

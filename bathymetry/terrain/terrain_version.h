@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A number for the content of a terrain, by which a client and a server check that they mean the same one.
 //
 // Model: a 64-bit multiply-rotate hash of our own over geometry and posts, four lanes wide so that 64 MB take

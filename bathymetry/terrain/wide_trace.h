@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Follows many rays over one grid, eight side by side: the answers of `trace_grid`, bit by bit, sooner.
 //
 // Model: the walk of ray_trace.h with a ray in each lane of vectors of eight doubles. A step takes every lane down into a

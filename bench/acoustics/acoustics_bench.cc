@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Claims about the acoustics' speed: docs/performance.md holds the table.
 #include <algorithm>
 #include <cstddef>

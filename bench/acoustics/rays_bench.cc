@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the eigenrays of one link cost on one core: searched for, and extrapolated from a search near by.
 //
 // Claims (microseconds, searched for): isovelocity 3, layered of 3 and 7 knots 20, deep water thinned from 101 knots

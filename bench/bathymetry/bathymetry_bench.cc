@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Profiles, pyramid and loading on 4096 x 4096 posts of rugged bottom, 10 m apart, about 300 m deep (rays: terrain_rays_bench).
 // Targets: a profile sample 12 ns, a 4096 x 4096 GeoTIFF with its pyramid 0.2 s.
 #include <cmath>

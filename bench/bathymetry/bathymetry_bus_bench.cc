@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Round trips to the bathymetry service: a batch of rays out, its reply back, over memq and over udpm on loopback.
 //
 // The service runs in a thread of its own with its own lcm::LCM, as in a process of its own; memq has one queue, so

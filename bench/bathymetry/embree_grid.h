@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The bottom as a grid of Embree (Wald et al. 2014), to compare the speed of rays with.
 //
 // Model: two triangles a cell in single precision, robust mode, built at high quality. Its surface differs from ours by a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rays on 4096 x 4096 posts of rugged bottom, 10 m apart, about 300 m deep: one by one, in batches, and by Embree's robust grid
 // (where CMake finds Embree: ./scripts/setup peers).
 //

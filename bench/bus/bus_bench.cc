@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Messages per second through LCM as the bus uses it: published, walked, decoded, checked and handled.
 //
 // The udpm case needs a private loopback bus: scripts/bench gives it one. It sends in rounds that the receive

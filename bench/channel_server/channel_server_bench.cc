@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Claims about the channel server's speed: docs/performance.md holds the table.
 #include <cmath>
 #include <cstdint>

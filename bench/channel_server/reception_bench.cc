@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a packet's judgement and a link's prediction cost with paths that fade.
 #include <cstdint>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How far from its instant a packet is delivered in real time: a channel server in a process of its own, over udpm.
 //
 // This program is the conductor and both vehicles; so simulation time is its own steady clock, and the error

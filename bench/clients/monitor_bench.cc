@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the monitor costs beside a fleet: its share of a core, with pages open.
 #include <chrono>
 #include <fstream>

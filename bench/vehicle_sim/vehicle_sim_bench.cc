@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vehicle steps per second: the right-hand side, a Runge-Kutta step, a step in the ODE world, free and
 // grounded, and a fleet's step in each kind of moving water; what each sensor costs.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Describes a configuration struct once, to be read from TOML, printed, and explained in an example.
 //
 // Each `*_config.h` declares a plain struct with defaults and a function

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The parsed TOML behind a ConfigFile and the reader that fills structs from it. Only config_*.cc include
 // this: it is what keeps toml++ out of every other file.
 #pragma once

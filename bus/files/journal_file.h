@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A file of records that a killed process leaves to its next incarnation.
 //
 // A header of 16 bytes names the kind of journal; then records: a word that begins each, kind, length, a check sum (XXH3) over these and the

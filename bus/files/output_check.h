@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether what a program printed has reached its standard output.
 #pragma once
 

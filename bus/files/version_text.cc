@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bus/files/version_text.h"
 
 #include "bus/version.h"

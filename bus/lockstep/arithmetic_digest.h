@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A digest of what this build computes: equal in two processes whose results are the same bytes.
 //
 // It covers elementary functions, roots, fused and separate products and sums, and rotations, each at addressed points (random.h), by the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sends grants to participants, and retransmits those that are not answered.
 //
 // Turns that are alike travel in one grant to all addressed, else in one each; bodies longer than a datagram travel in

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Write-ahead journal of the conductor: the inputs of its sequencer in their order, from which a new incarnation
 // continues the run.
 //

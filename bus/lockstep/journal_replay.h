@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Restores the state of a lockstep run from the journal of an earlier incarnation of its conductor.
 #pragma once
 

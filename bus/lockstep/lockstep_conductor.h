@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The conductor's side of the lockstep protocol (docs/architecture.md): runs the rounds of the sequencer by granting turns and
 // collecting their results, in one or several incarnations of this process. A state machine: messages and steady time
 // in, messages and journal entries out; no socket, no file, no clock.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The participant's side of the lockstep protocol (docs/architecture.md): joins, takes the turns it is granted, once and in
 // their order, and answers. A state machine: messages and steady time in, messages out; no socket, no clock.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Step order of lockstep, for runs in one process and in many: a discrete-event schedule.
 //
 // Time advances to the earliest instant at which a participant is due. There the stages step in their order

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Lockstep's messages on the wire: fragmentation into datagrams and reassembly, and digests of
 // published messages.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Membership of a lockstep run: admits participants and returning incarnations, replays to them the turns that they
 // lack, and expels what cannot take part.
 //

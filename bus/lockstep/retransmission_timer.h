@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Retransmission timeout of a request from the round-trip times of earlier ones: Jacobson, "Congestion avoidance and
 // control" (1988): timeout = mean + 4 mean deviations, both smoothed. Karn's rule: the answer to a request that was
 // sent more than once yields no sample.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Deterministic state machine of a lockstep run: membership, step order, and the total order of all messages.
 //
 // Conservative synchronisation of a distributed discrete-event simulation (Chandy and Misra 1979): a participant steps

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The message type of a channel, for programs that read all channels of a log.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a log lacks, by the (session, sequence) of its messages: each publisher numbers its messages on a channel 0, 1, 2, ...
 //
 // A number between two that are there, and not there itself, is missing. What a publisher sent before the first and after the last is not

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bus/logs/log_parts.h"
 
 #include <cstdio>

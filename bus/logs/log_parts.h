@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The file or files of a log that is written: events in their order, cut into parts.
 //
 // Rotated, a log is a series of files (log_series.h), each a whole LCM log (LCM numbers

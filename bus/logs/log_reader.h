@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reads LCM logs event by event, whatever state they are in: sound events are read, the rest is reported with its place.
 //
 // What is an event and what is damage: log_scan.h. A log that a recorder rotated (bus/logs/log_recorder.h) is a series of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Writes messages into an LCM log (log_parts.h), stamped with simulation time: the canonical log of a run. The same run
 // writes the same bytes.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `--log-rotate 256MB --log-rotate 1h --log-keep 48`: how the log of a run is cut into parts.
 #pragma once
 

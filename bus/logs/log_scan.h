@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Finds the events of an LCM log in its bytes, sound or damaged.
 //
 // Format (LCM's event log): per event the word 0xEDA1DA01, then number and stamp (64 bit), length of the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Names of the files of a log that is rotated: run.lcm first, then run.0001.lcm, run.0002.lcm, ... beside it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Lets a node that was killed go on where it was: replays its recent inputs, and publishes each output once in all its
 // incarnations together. For a node whose state follows from recent inputs; one whose state does not, and can be
 // written whole, has a StateJournal (state_journal.h).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A node as a participant of lockstep in a process of its own: the protocol of lockstep_participant.h on LCM.
 #pragma once
 

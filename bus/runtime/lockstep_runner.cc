@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bus/runtime/lockstep_runner.h"
 
 #include <algorithm>

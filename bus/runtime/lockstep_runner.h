@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs many nodes in one process, all at one simulation time, as fast as they compute.
 //
 // The step order is that of lockstep_schedule.h. Nodes that step together, those of one stage that are due at one instant, may

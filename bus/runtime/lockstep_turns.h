@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Executes the turns of a lockstep run for one node: delivers the turn's messages, steps the node if it is due, and
 // returns what it published and when it is next due.
 //

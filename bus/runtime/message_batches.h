@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How long a node that is woken by a message lets more of them gather: where many come, a wake-up for each costs more than the messages.
 //
 // Rule: interrupt moderation (Mogul and Ramakrishnan 1997, "Eliminating receive livelock in an interrupt-driven kernel"). Where the

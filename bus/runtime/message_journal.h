@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Write-ahead journal of a node's recent steps, their inputs and outputs: a file from which the next incarnation of a node that was
 // killed restores what was under way (crash_journal.h). A node whose state can be written whole keeps that instead
 // (state_journal.h).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A node: the thin adapter between the bus and a pure core. Handlers store; a step computes and publishes.
 //
 // A node never reads a clock. Its runner (run_node, LockstepRunner, a test) dispatches LCM, queries when the node is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bus/runtime/node_command_line.h"
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A node in a process of its own: command line, transport, time source, loop, and an orderly end.
 //
 // Each program's main describes itself in a NodeProgram and calls run_node_program. SIGINT and SIGTERM end the loop:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Leaves out datagrams of channels that nobody here subscribes to, in the kernel: they wake no thread and fill no buffer.
 //
 // LCM receives every datagram of its bus and then discards those that nobody wants, which costs a process two system calls each. A

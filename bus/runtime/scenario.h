@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What every program of a run shares of a scenario file: name, seed, origin, time, and the vehicles.
 //
 // A scenario is one TOML file. Each program reads this part and the sections of its own; `halocline run`

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The latest state of a node on disk, from which its next incarnation goes on when this one was killed.
 //
 // Two files, `path`.0 and `path`.1. A file holds a header (bus/files/journal_file.h) and records, each with a number and a check sum: first a whole one, then what has

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Thread pool with a parallel for, by oneTBB: all pools of a process share its threads.
 //
 //   ThreadPool pool(2);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sources of a process's simulation time.
 //
 // Steady time (integer nanoseconds since the process started) and wall time are parameters, never read here.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How fast messages may follow each other on a bus that loses datagrams: a receiver that is scheduled late has to hold what
 // arrives meanwhile.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Answers at which of some places a vehicle is best heard by others.
 //
 // Each place and listener is a link from the place, with the talker's modem at rest, to the listener where it is at the time asked

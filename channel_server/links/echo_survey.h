@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Finds out by rays which echoes the bottom can send along one link: the geometry between the terrain, which
 // the service knows, and acoustics/link/multipath.h.
 //

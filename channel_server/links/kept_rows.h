@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rows of link tables that hold on from tick to tick while their ends hardly move.
 //
 // Rule. A row is carried on, instead of computed anew, for kLongest at most, as long as its ends together have moved by no more

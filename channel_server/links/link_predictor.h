@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the rows of link tables state beside the budget: what the link delivers on average over its fading.
 //
 // Predictions are those of acoustics/reception/link_prediction.h for packets of one payload, without other packets. What

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/links/link_query_service.h"
 
 #include <algorithm>

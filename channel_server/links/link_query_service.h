@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Answers link queries: between vehicles by name, and between positions and modems that need not exist.
 //
 // Every link is answered or refused on its own, with the noise of receiver_noise.h, of which a place that holds no vehicle has

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The link tables of an instant: the quality of the link from every vehicle present to every other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is known of the bottom echoes between vehicles, and which of it the next link table may use.
 //
 // Rule. The row of tick k holds the echoes of the geometry of tick k-1: its answer has had a whole period to

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Predictions of links that have one path without a bounce, by a table: there is one for each packet and each ratio of signal to
 // noise, as nothing else of the link counts.
 //

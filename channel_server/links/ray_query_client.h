@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Has surveys of the terrain answered by a service that may be slow or absent: batches their rays, limits the batches
 // in flight, repeats and times out, and detects when the service is away and back.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/links/receiver_noise.h"
 
 #include <set>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The noise that receivers hear, as link tables and link queries state it: ambient, that of the receiver's own vehicle, and the mean
 // over fading of what other vehicles radiate. The packet medium has the same, but with the fading of each instant
 // (channel_server/packets/vehicle_sounds.h).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Queries of clients that wait for an answer.
 #pragma once
 

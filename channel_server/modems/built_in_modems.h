@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The files of models/modems as texts, compiled in.
 #pragma once
 

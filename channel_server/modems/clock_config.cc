@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/modems/clock_config.h"
 
 namespace halocline::channel_server {

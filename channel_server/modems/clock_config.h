@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // [vehicle.clock] of a scenario: the clock by which a vehicle's modem stamps packets and measures arrivals.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Modems in TOML: [modem] and [vehicle.modem] of a scenario, and the files of models/modems.
 //
 // `profile` names a modem whose numbers hold where a scenario gives no others; every other key then changes one of

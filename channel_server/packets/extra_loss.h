@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Packets lost on purpose, to test protocols: a stated share of those that would have been received, by pair, kind and span of
 // time. Nothing else changes: such a packet sounds, collides and is followed as if it had been received.
 #pragma once

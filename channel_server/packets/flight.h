@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One packet on its way to one receiver: when and how its sound arrives where the receiver is by then.
 //
 // Model. The first significant path arrives at the t that solves

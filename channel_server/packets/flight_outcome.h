@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The record of a flight at its end, and what decides it before noise and other sounds do.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The flights of a medium, in the order of their next events: by instant, then by stage, receiver and packet.
 //
 // A binary heap of small entries, most of which are compared without a look at the flights. Flights stay where they are made;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What happens in the medium: to packets, at modems and to batteries.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/packets/modem_watch.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What modems notice besides whole packets, for those that report it (Listening::events): their own transmissions, packets
 // detected, and carrier.
 //

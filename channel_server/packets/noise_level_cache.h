@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Noise over the bands in use, each integrated once: a run has few bands and a sea state that changes slowly.
 #pragma once
 

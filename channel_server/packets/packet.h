@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The inputs and outputs of the packet medium: requests to transmit, receipts, and outcomes of packets.
 #pragma once
 

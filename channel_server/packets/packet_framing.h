@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How a modem sends what is requested: at which of its rates, and how the packet is divided.
 //
 // Without a rate in the request a packet goes at the modem's own rate; one of a kind that this has not, at the rate of the least

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The water between modems as a discrete-event simulation: packets start, travel, arrive, disturb each other
 // and end at their exact instants.
 //

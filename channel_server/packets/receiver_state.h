@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sounds at one receiver, by interval: the packets that reach it, those it sends itself, and those it has
 // acquired.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The outcome of one packet at one receiver from signal, noise and interference over time, for a packet above the
 // cut-off, in band, with an open path, at a receiver that does not transmit.
 //

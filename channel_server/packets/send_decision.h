@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What becomes of a request to transmit at its start, and the packet that it makes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The receipt of each transmission requested, so that a repetition is answered, not transmitted again; and the
 // intervals in which each modem is occupied.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the noise of vehicles does at a receiver: to the reception of a packet, and to link tables.
 //
 // The receiver's own noise adds to the ambient noise over the packet's band. The noise of every other vehicle comes along the

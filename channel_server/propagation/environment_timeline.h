@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The water of a run, which may change: which environment holds at which instant.
 //
 // A run starts with one environment; changes follow, from the scenario and from whoever announces them. Each

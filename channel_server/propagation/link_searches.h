@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The searches that links need: which query of path_search.h is a link's, what has been found for it, and what is searched now.
 //
 // A link is searched from the end where the bottom profile starts (the lower id) to the other. For itself, the query is that of

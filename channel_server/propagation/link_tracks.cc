@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/propagation/link_tracks.h"
 
 #include "acoustics/reception/guard_window.h"

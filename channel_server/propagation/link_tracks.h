@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One link in full, for charts: its paths with their ways and the terms of their budgets, and the seabed under it.
 //
 // Of each path: received level = source level - spreading - absorption - loss at the surface - loss at the bottom - loss of

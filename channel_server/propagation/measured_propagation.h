@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Propagation in which measured channels take the place of modelled paths, for all links or for some.
 //
 // A reception of such a link is that of the model with other paths: those of acoustics/fading/measured_fading.h for the

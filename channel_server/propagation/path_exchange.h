@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What several channel servers of one water tell each other about the paths of sound that they searched for.
 //
 // A search is a function of its query and the sea (path_search.h), so it does not matter who makes it, and an answer that

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The search of one link's paths: what it depends on, and what it finds.
 //
 // Free function on values: calls may overlap between threads.

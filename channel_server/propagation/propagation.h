@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Propagation of sound from one point to another: the interface between the packet medium and the link tables and
 // the models of the water.
 //

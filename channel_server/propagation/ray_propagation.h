@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sound along rays, over the bottom that is known between the ends of a link.
 //
 // Model: acoustics/rays/eigenray.h gives the paths; each has the level

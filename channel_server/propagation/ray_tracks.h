@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tracks of a link from the paths that a search over its seabed found.
 #pragma once
 

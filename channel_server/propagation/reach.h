@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How far a sender reaches: the range beyond which its sound matters to nobody. What is further apart is left out before
 // anything of its link is surveyed, searched or computed.
 //

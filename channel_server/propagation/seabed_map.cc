@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/propagation/seabed_map.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is known of the seabed: its depth at the points of a world-wide horizontal lattice, from which the bottom under
 // any link follows.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How the seabed runs under one link, at even places along it, and the bottom that rays meet.
 //
 // Places along a link are horizontal distances from its first end, m; the link's other end lies at its range. The

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which links of the tables are searched for paths at a tick, where there are more than the server may take time for.
 //
 // Rule. A link needs a search when the query of its paths (path_search.h) is another than the one it was last granted. Of those

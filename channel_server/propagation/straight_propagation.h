@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Propagation of sound along the straight line between two points.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Queries of the terrain and their answers: world NED, m.
 #pragma once
 

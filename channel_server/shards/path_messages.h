@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Searches for paths as messages and back, exact to the last bit.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Channel servers of one water tell each other, by FOUND_PATHS, the paths that both ends of a link need (path_exchange.h).
 //
 // Who searches. For link tables the owner of a pair (Shard::owner_of); at a tick it publishes what it has found since the one

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/vehicles/modem_rates.h"
 
 namespace halocline::channel_server {

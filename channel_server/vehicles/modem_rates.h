@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The rates of a modem: the other waveforms that it also sends and receives, each by its number.
 //
 // A rate is a profile of its own (models/modems). Of one family with the vehicle's modem it differs in bit rate, overhead,

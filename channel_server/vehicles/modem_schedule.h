@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a vehicle's modem is and how it listens at an instant: as configured, until the vehicle announces otherwise.
 //
 // Announcements hold from the instant they name, whatever their order.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A value over time, told in pieces: each holds from an instant on, until the next.
 //
 // It is a function of what was told, whatever the order: at every instant what was told for the latest instant before holds. So a

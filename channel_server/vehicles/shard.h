@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which part of the work one of several channel servers does: they split the vehicles, all receive all, and the
 // union of what they publish is what one would.
 #pragma once

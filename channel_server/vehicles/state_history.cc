@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/vehicles/state_history.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where a vehicle is at an instant, from the states it has published: a pure function of their contents.
 //
 // Rule. The position at instant t, as decided at instant d, knows the states with time <= d - state_lag, and

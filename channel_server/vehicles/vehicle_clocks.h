@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The clocks of the vehicles: what each shows at an instant of simulation time.
 //
 // Model: a clock that was never set shows t + e(t),

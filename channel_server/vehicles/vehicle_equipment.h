@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What vehicles carry besides their modems, as the scenario gives it, and what has become of it.
 #pragma once
 

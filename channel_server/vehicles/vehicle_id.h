@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Identities of vehicles on the bus and in the water.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/vehicles/vehicle_noise.h"
 
 #include <algorithm>

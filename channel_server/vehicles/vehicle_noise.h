@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The noise that vehicles make, and how loud each is at an instant.
 //
 // Model: a spectrum at 1 m at a reference speed, and 60 log10(v / v_ref) dB more at another (Urick 1983, chapter 11: broadband noise

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The batteries of vehicles as their modems see them: what packets take from them, and from when on they are empty.
 //
 // A vehicle whose BATTERY says empty at u has no modem from u + lag on, the lag of states (state_history.h): longer than a message

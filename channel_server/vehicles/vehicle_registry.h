@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The vehicles of a run: their names, ids, states, modems and equipment, and which of them are present at an instant.
 //
 // A vehicle is present at instant t when its position at t, decided at t, is known from a state no older than

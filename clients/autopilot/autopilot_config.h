@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sections [vehicle.mission] and [autopilot] of a scenario file.
 #pragma once
 

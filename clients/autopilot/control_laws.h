@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From set points and what the vehicle measures to propeller, rudder and stern planes.
 //
 // Model, after Fossen 2021 (Handbook, 2nd ed., chapters 15 and 16):

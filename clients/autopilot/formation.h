@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Formation keeping: follows a place beside a leader by its acoustic reports, with a fallback when they stop.
 //
 // A report is 17 bytes, little-endian, small enough for the slowest modem:

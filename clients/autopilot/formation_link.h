@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The acoustic side of a formation: a leader's reports out on a time grid, those of the leaders it follows
 // in.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From set points to a glider's buoyancy engine, moving mass and rudder.
 //
 // A sawtooth between a shallow depth and that of the set points: heavy and nose down until that depth is passed, then light and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From a mission's waypoints and a vehicle's position to where to head, how deep and how fast.
 //
 // Model: the waypoints are joined by straight legs. On a leg, line-of-sight guidance (Fossen 2021, Handbook,

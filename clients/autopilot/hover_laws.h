@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From a point to hold to the speeds of four thrusters: how `hover` goes somewhere and stays there.
 //
 // Model: a vehicle that pushes ahead, astern and up and down but not sideways holds a point by turning. The force it

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which of several places a vehicle goes to so that others hear it best.
 //
 // Rule. It goes to the place of the greatest mean delivery, of equals that of the greatest ratio, whenever it is asked for, but stays

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Asks the channel server where a vehicle that seeks a link is best heard, and hands on what it answers.
 //
 // A question is asked of an instant, once a period, and its answer counts kAnswerAfter later: so what the vehicle does depends on

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From a list of behaviours to set points: what a pilot does, one thing after another.
 //
 // Behaviours: waypoints (guidance.h); a heading kept; a loiter, a circle of given radius and sense about a

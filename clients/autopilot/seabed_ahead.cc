@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/autopilot/seabed_ahead.h"
 
 #include <algorithm>

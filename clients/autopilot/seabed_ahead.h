@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The ground under and ahead of a vehicle, from what its altimeter saw on the way: how low it may go, and
 // how to keep a height.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One vehicle's pilot: from its navigation state to set points, and on to actuator commands.
 //
 // It carries a plan (plan.h) through, follows a leader by its reports (formation.h), keeps above the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mission as messages of Foxglove's schemas: its scene, positions on the earth, and a log of what became of packets. Pure.
 //
 // The frame "world" is east, north, up in metres from the scenario's origin, as Foxglove's panels want it.

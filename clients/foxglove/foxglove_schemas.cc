@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/foxglove/foxglove_schemas.h"
 
 namespace halocline::clients {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The schemas of Foxglove's that messages of a mission are shown by, as JSON Schema.
 //
 // Names and members are those of foxglove/schemas (2023); members that are never filled are left out.

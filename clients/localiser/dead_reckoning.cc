@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/localiser/dead_reckoning.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where a vehicle has gone through the water, by its own speed and heading.
 //
 // Model: between two measurements the velocity through the water changes evenly (trapezium rule); after the last

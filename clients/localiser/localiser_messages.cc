@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/localiser/localiser_messages.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Messages of the bus to the values of the position estimator, and back.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Estimates the positions of vehicles from acoustic ranges to beacons, and publishes them as ESTIMATE.<vehicle>.
 //
 // Inputs are those the vehicle itself has: its SENSORS (depth, heading, pitch, speed through the

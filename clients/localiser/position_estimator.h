@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Position estimator: ranges to beacons at known positions fused with the vehicle's own speed, heading and depth.
 //
 // Model: an extended Kalman filter (Bar-Shalom, Li and Kirubarajan 2001, ch. 10; updates iterated as in 10.5.2)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How well vehicles received each other: by pair, and by range with the prediction of the link tables beside it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Decodes messages that a vehicle of others may have left incomplete: a vehicle_id or source_id of 0, an orientation of
 // all zeros (it becomes level and towards north).
 #pragma once

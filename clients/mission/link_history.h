@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tables of links by time: any column of any pair at any instant.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mission by time, from its messages: the one source of numbers for reports and monitors.
 //
 //   MissionStore store;

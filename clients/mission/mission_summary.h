@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mission in about ten lines: who went where, who received whom, what was lost and why.
 #pragma once
 

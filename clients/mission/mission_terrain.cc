@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/mission/mission_terrain.h"
 
 #include <algorithm>

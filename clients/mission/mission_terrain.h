@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The seabed of a mission as a grid of depths: an overview for charts and sections.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From the times of messages to simulation time.
 //
 // Messages of our own programs carry simulation time. A log recorded at sea, or with other programs, carries Unix time or

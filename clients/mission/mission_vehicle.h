@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is known of one vehicle by time: where it was, what it was commanded, what it measured and estimated.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How the programs of a mission fare: what they count, how long they were silent, how fast simulation time passes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The marks and colours of outcomes: one table for reports and monitors.
 //
 // Seventeen outcomes are too many to distinguish by colour, so they share six classes, each with a mark of its own.

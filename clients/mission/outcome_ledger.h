@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How many packets had which outcome: counted by outcome, pair and window of time, and by what their paths were
 // computed with.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The packets of a mission: each transmission with its SEND, its receipt and its outcome at every receiver, joined by name.
 //
 // A packet's name is its sender's id, session, sequence and kind. Where a name was used more than once (a publisher

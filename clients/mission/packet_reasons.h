@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Why a packet was received or lost: as a reason with its numbers, as a sentence, and as the ladder of numbers that
 // decided it, from the transmitted level to the draws. All from OUTCOME; docs/packets.md explains the steps.
 #pragma once

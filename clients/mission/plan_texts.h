@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What an autopilot does and how far its plan has come, in words; whole numbers in texts.
 #pragma once
 

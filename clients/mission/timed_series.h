@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Values by time, for what comes many times a second: kept in order, thinned when there are too many, dropped when old.
 //
 // Thinning: every second value is dropped, and from then on values stand twice as far apart as before. The newest value is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A modem for simple programs: calls that wait. One lcm::LCM, no node, no loop of one's own.
 //
 //   const auto lcm = bus::open_transport(bus::effective_url(""));

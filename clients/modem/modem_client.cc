@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/modem/modem_client.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A vehicle's side of its modem: send a packet, learn whether it was accepted, take in what arrives.
 //
 // The bus may lose datagrams; the library repairs that and nothing else. A SEND is repeated, with the same

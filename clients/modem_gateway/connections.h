@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The hosts that are connected to the doors of a gateway: all their bytes, on one thread, without waiting for any of them.
 //
 // Bounds: kMaxClients hosts a door, others are turned away; kMaxPiece bytes of a host in a call of take(); kMaxUnsent bytes that a host

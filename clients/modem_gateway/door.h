@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One door: a modem of the simulation, its protocol, and what goes between them.
 //
 // Messages of the bus are stored when they come and handed to the protocol in the node's step, in their order. A packet that was detected

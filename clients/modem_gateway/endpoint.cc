@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/modem_gateway/endpoint.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files by which hosts reach a door: a listening TCP socket, or a pseudo-terminal with a symbolic link to it. All non-blocking.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sections [[door]] of a scenario file: which modems have a front door, of what kind, and where.
 #pragma once
 

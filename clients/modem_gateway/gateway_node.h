@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The modem gateway: simulated modems that answer as real ones do, over TCP and serial lines.
 //
 // Each door has a modem of the scenario, a place where hosts connect, and the protocol of its kind (protocols/). One thread serves all: in

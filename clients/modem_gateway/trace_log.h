@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What passes through doors, a line each, for a person:
 //
 //   12.345678 auv-1 nm3 < $P002\r\n

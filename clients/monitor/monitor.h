@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The monitor: a source of messages, the pages that are open, and the loop between them.
 #pragma once
 

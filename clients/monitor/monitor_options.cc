@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/monitor/monitor_options.h"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The messages of a log as columns: one table a channel family, one row a message.
 //
 // Columns are event (number in the log), stamp_us, channel, then the fields of the type, in order, by the names of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 package halocline.spy;
 
 import halocline.link_table_t;

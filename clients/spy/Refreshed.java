@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 package halocline.spy;
 
 /** What a view shows anew a few times a second, however fast messages come. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One vehicle's part in passing packets on: store and forward by flooding.
 //
 // Model: a packet goes to all in range; a relay that receives it for the first time keeps it, waits for a random time, and

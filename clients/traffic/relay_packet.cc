@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/traffic/relay_packet.h"
 
 #include "core/hash.h"

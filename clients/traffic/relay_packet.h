@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A packet that other vehicles pass on, as it travels: a header before the payload.
 //
 // | bytes | content (little-endian) |

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sections [vehicle.traffic] of a scenario file: who sends what to whom, and how often.
 #pragma once
 

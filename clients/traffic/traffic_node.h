@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sends packets for the vehicles of a scenario on a time grid, through the modem library, and counts what comes
 // of them.
 //

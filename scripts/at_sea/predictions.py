@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Travel times by `halocline arrivals`."""
 import csv
 import io

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What was found: statistics, the table, the picture."""
 import bisect
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Travel times by the running system: the track and the pings on the bus, through a channel server."""
 import csv
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Surveys at sea as files hold them. Places are east, north, up, in metres."""
 import collections
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Snell's law through thin layers, and the transponders' places fitted with it. Shares no code with Halocline."""
 import bisect
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A model, on paper, of a fleet over many hosts: what each needs, from what every part of the work costs here."""
 import collections
 import dataclasses

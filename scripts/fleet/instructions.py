@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Instructions of short runs, counted by callgrind: the same on a busy machine as on an idle one."""
 import csv
 import os

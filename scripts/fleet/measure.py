@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs the program and tells what it cost."""
 import dataclasses
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The rows as a table, as growth with the number of vehicles, and as a picture."""
 import math
 import subprocess

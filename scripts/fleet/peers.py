@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What other programs do in the same time, on the same machine: those of Debian's packages that are installed."""
 import json
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A fleet as separate processes over udpm, in real time: what each process costs, and what the bus loses."""
 import dataclasses
 import os

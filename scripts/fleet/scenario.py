@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Fleets for the benchmark: as many vehicles as asked, in a coastal sea, all of whom talk."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What channel servers that share the vehicles cost: a run in lockstep over udpm on a private bus, each program a process."""
 import dataclasses
 import json

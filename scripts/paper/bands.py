@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Stojanovic's best band and its capacity over distance.
 
 Link tables of modems 1 Hz wide give loss A and noise N over frequency. The band is where A N stays within 3 dB of its minimum, the

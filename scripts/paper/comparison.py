@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a figure shows, and how far it is from what is expected of it."""
 import dataclasses
 

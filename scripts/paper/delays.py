@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Figure 4: the delay between two nodes 1 km apart, over their depth."""
 from paper.comparison import Comparison, Figure, greatest_difference, reference
 from paper.runs import ROOT, vehicle, water_of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Figures 6 and 7: received level and capacity over range, 100 m deep, for source levels of 60 to 120 dB."""
 from paper.comparison import Comparison, Figure, greatest_difference, reference
 from paper.runs import ROOT, vehicle, water_of

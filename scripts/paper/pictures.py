@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The figures as pictures, drawn by gnuplot."""
 import hashlib
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Whether an echo off the bottom is likely (the paper's query GETML) for receivers on both sides of a ridge.
 
 Expected by an evaluation that shares no code with Halocline: straight legs to nine points of the bottom and on to the receiver, 15 log10

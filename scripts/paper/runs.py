@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Scenarios of vehicles at rest, run by `halocline run`, and what the channel server published in them."""
 import csv
 import pathlib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs a formula over every row of a reference table of tests/data/acoustics.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bathymetry/bathymetry_node.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Requests and heartbeats that somebody makes up.
 #include <cstddef>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Two Buses joined by a network that loses, duplicates and delays datagrams.
 #include "bus/flow_repair.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/bus/messages_for_tests.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Messages for the tests of the bus: one valid message of each type, with lists of a length drawn by seed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The layout of each type consumes exactly the bytes that its encoder writes, and refuses bytes that its decoder cannot read.
 #include "bus/wire_layout.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // BEST_PLACE_QUERY and its reply.
 #include <cmath>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A weak link and a packet over it in a small world, all numbers that the channel server publishes of them, and
 // claims about how each moves: for tests that turn one input alone.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Change it and it moves: each physical input turned alone moves the numbers of a link and of a packet that
 // it should, in the right direction, by the right amount where there is a closed form, and leaves every other
 // to the last bit.

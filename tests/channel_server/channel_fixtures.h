@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Waters, modems and fleets that several tests of the channel server start from.
 #pragma once
 

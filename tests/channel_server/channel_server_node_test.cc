@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/channel_server_node.h"
 
 #include <cstdint>

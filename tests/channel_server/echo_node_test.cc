@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The channel server and the bathymetry service: echoes in tables and answers, and the service away and back.
 #include <cstdint>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The water changes during a run: what moves, from which instant, and what stays.
 #include <cstdint>
 #include <stdexcept>

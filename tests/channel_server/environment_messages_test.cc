@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The message of the environment, from the models to the bus.
 #include <string>
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A bathymetry service over a bottom of the test's own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // LINK_QUERY with wants_paths: paths, their ways and terms, the seabed and the water of one link.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // LINK_QUERY messages for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // MODEM_EVENT and LISTEN, from the medium to the bus and back.
 #include <gtest/gtest.h>
 

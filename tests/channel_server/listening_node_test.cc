@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How modems listen and what they report, on the bus.
 #include <vector>
 

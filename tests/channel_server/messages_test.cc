@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The messages of the channel server, from the bus to the models and back.
 #include <limits>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/modems/modem_config.h"
 
 #include <filesystem>

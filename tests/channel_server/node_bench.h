@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A channel server on a bus of its own (memq), with vehicles, subscriptions and a bathymetry service that may be away.
 #pragma once
 

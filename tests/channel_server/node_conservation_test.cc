@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A long random run through the node on the bus: every accepted packet has one OUTCOME for each possible
 // receiver, every RECEIVE an OUTCOME of its own.
 #include <cstdint>

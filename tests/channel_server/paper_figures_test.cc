@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Figures 4, 6 and 7 of Sehgal, Cernea and Birk 2010 through the channel server on the bus: static vehicles,
 // LINKS and LINK_REPLY, against the reference tables and the numbers that are expected of them.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The channel server's part of a scenario, given as text.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A channel server that is killed while packets are under way, and restarted with its journal, publishes in both
 // incarnations together what an uninterrupted one publishes: nothing twice, nothing missing, the same numbers.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // SCENARIO: its parts, and when the node publishes it.
 #include "channel_server/scenario_messages.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Packets and the bathymetry service: every packet goes over the bottom that lies under it, from the first one on, and
 // waits for the answer where that comes after its sound.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "conductor/paced_time.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Errors against long double, whose 64 bits of mantissa make its own error 0.001 units of a double; special values against
 // <cmath>; bits that no processor may change.
 #include "core/elementary.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Messages of the bus out of a fuzzer's bytes: a channel of the table, a name, and a body behind the fingerprint of the
 // channel's type, so that the fuzzer need not find that.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a fuzz target is, and the bytes of a fuzzer taken as values.
 //
 // The same bytes give the same values: a finding is a file. Behind the end every number is 0 and every block empty.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A log, whatever state it is in: its events, what it lacks, and the mission in it.
 #include <sstream>
 #include <string>

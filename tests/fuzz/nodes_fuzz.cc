@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // All nodes of a small scenario, and messages of others on their channels, as simulation time goes on: no node ends by what it receives.
 #include <string>
 

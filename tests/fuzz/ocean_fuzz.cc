@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // An ocean field (netCDF) through our reader, and the water and current in it.
 #include <memory>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A raster of depths through our reader: options by the first bytes, then the file.
 #include <string>
 

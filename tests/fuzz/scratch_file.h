@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A file of the process in memory (/dev/shm), for readers that take a path.
 #pragma once
 

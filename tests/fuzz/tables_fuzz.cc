@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Readers of tables (CSV), by the first byte: water, noise, bottom, links, the calculator's.
 #include <array>
 #include <sstream>

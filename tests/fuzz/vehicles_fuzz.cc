@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vehicles out of files: a model (TOML), which is written and read again, or a table of commands (CSV).
 #include <sstream>
 #include <string>

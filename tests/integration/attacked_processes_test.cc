@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Programs as separate processes on a bus that somebody attacks: each attack is a datagram, a count and a time, as docs/reliability.md lists
 // them. Runs inside a network namespace of its own (scripts/isolated).
 #include <algorithm>

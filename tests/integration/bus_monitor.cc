@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/integration/bus_monitor.h"
 
 #include <algorithm>

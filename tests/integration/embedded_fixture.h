@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whole scenarios run in this process, into logs of the test's own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What missions come to in the whole simulation, measured by the true states: surveys at a height, formations by
 // sound, dead reckoning.
 #include <algorithm>

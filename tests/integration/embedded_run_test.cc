@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a whole run promises: the same bytes each time, a log that replays to the same answers, a sound end.
 #include <algorithm>
 #include <cmath>

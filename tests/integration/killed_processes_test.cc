@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A run of the default scenario as separate processes (scripts/run_distributed), each of which is killed once and
 // started again by the script: every vehicle goes on from where it was. Checked on the recorded log.
 #include <algorithm>

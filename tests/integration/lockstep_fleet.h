@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A lockstep run as separate processes, on the test's own loopback bus: started, killed, restarted.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Separate processes in lockstep over udpm write the log of one process, byte for byte, under faults as well.
 // Runs inside a network namespace of its own (scripts/isolated).
 #include <algorithm>

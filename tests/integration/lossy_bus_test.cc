@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // All programs as separate processes on a bus that loses datagrams: what OUTCOME reports as received is received,
 // on one host and on several. Runs inside a network namespace of its own (scripts/isolated).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The ranging scenario: the error of the position estimate, and that its covariance matches it.
 #include <cmath>
 #include <string>

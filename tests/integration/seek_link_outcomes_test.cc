@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A vehicle that seeks the depth where it is heard, beside one that stays above the thermocline.
 #include <algorithm>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // All programs as separate processes on udpm: they find each other, and each may be killed and return.
 // Runs inside a network namespace of its own (scripts/isolated).
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a thermocline does to links of 6.5 km: packets arrive within a layer and are mostly lost across it, while 600 m across
 // cost nothing.
 #include <algorithm>

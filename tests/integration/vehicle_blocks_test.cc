@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vehicle simulators that share the vehicles in blocks.
 #include <algorithm>
 #include <cmath>

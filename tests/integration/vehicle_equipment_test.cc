@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Clocks, batteries and noise of vehicles in a whole run: the scenarios ranging, with some of each, ship_crossing and, with all else
 // beside them, front_survey.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The rooms of the tree, what each may include, and why: docs/architecture.md as data.
 //
 // A room is a folder with sources; a sub-folder is a room of its own. Debian puts LCM's headers where every compiler

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/layers/room_rules.h"
 
 #include <string_view>

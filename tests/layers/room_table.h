@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The rooms of the tree and what each may include, with the reason: the table that room_rules.h applies.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Limits that keep a room surveyable: lengths of files, files of a folder, one source file for a class.
 #pragma once
 
@@ -12,7 +13,7 @@ inline constexpr int kMaxSourceLines = 350;  // of a .cc
 inline constexpr int kMaxHeaderLines = 200;
 inline constexpr int kMaxFilesOfAFolder = 30;
 
-// Files longer than their limit: "path: 372 lines, at most 350". Tests are held to the same limits.
+// Files longer than their limit, without the line of the licence: "path: 372 lines, at most 350". Tests are held to the same limits.
 std::vector<std::string> long_files(const std::vector<SourceFile>& sources);
 
 // Folders with too many files: "path: 32 source files, at most 30".

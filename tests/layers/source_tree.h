@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The C++ sources of the repository as text, and their include directives.
 #pragma once
 

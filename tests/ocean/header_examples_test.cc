@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The examples of this folder's headers, as they stand there (tests/docs/check_examples).
 #include <utility>
 

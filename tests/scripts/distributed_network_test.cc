@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A scenario with [network] as separate processes (scripts/run --distributed), which start halocline-network with the rest.
 #include <chrono>
 #include <filesystem>

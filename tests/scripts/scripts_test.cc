@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a person types, as far as it can be tried without building or installing anything.
 #include <chrono>
 #include <csignal>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether what is saved by parts counts its changes: bytes that differ from those of the last look have another number.
 #pragma once
 

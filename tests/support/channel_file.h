@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Writes measured channels as HDF5 files for tests, right ones and malformed ones.
 #pragma once
 

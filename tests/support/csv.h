@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reads the comma-separated reference tables of tests/data, for tests.
 #pragma once
 

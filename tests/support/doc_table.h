@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tables of docs/validation.md that tests measure (scripts/validate_sea puts them together).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A network that loses, doubles and overtakes datagrams, for programs that know nothing of it: loaded before the C
 // library (LD_PRELOAD), it stands in for sendto and sendmsg on datagram sockets. For machines whose kernel has no
 // netem; what LCM sends goes through sendmsg and sendto alone.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A network between hosts that is slow, uneven and loses: joins Ethernet devices of this network namespace as
 // a switch would that floods every frame to all others, each copy after a delay of its own.
 //

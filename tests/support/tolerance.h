@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tolerances of the tests: one environment variable tightens them all.
 #pragma once
 

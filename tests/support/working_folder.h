@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The working directory of a test that reads or writes files by relative paths.
 #pragma once
 

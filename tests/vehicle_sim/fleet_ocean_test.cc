@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vehicles in the currents of an ocean field.
 #include <cmath>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle_sim/vehicle_sim_config.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The vehicle simulator's node on memq, with what it published.
 #pragma once
 

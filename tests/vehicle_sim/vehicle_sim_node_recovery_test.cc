@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A vehicle simulator that is killed goes on where it was.
 #include <algorithm>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sensors of the node on memq, with and without a bathymetry service.
 #include <cmath>
 #include <cstdint>

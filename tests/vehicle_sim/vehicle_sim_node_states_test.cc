@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // States by dead reckoning: what receivers who carry the last state on see of a vehicle that manoeuvres.
 #include <algorithm>
 #include <cmath>

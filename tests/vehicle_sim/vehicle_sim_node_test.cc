@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The node on memq: grids, commands, faults, threads.
 #include "vehicle_sim/vehicle_sim_node.h"
 

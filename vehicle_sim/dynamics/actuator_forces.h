@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Forces of fins, propeller and thrusters, and how actuators follow their commands.
 //
 // Body frame about CO; N and N m; signs of VehicleState's ActuatorValues. Sources: Allen, Vorus and Prestero

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a vehicle moves by, as numbers: fins, propeller and thrusters, buoyancy engine, moving mass, drop weight.
 //
 // Part of ModelParameters (vehicle_model.h), with its frame and units: body, from CO, SI and radians. The forces:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Velocities and forces along and about the body's axes as plain numbers, which a compiler keeps in registers.
 //
 // An Eigen vector whose coefficients are set one by one and then added as a whole goes through memory and waits there

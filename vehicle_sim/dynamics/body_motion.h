@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A vehicle as a rigid body that is pushed: its motion at the centre of gravity, and how an impulse changes it.
 //
 // Model: an impulse J at a point p changes the momentum of vehicle and water, M nu in the body frame (Fossen 2021,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Schedule of a vehicle's commands: each holds from its own time on, until a later one, or until the time-out; then the
 // vehicle is in its safe state.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The water's own motion: currents as a sum of parts, and the orbital motion of waves on top.
 //
 // Parts, all in the world frame (NED) over ground:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The right-hand side of a vehicle's motion, and its solution step by step.
 //
 // Model and sources: vehicle_model.h, hull_forces.h, actuator_forces.h, submergence.h. The current changes

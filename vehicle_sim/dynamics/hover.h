@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The vehicle `hover`: four thrusters and no fins; it can stand still in a current.
 //
 // Hull: a neutrally buoyant prolate spheroid of 1.4 m and 0.35 m (92 kg), added masses by Lamb's factors,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Forces of the water on a hull that moves through it, one function an effect; all in the body frame about
 // CO.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A vehicle run along a schedule of commands and sampled: what the reference trajectories are made of.
 //
 // Solves equations_of_motion.h by steps on the grid of `step` from time 0, cut where a command or a sample

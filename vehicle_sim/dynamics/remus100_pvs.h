@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The vehicle `remus100-pvs`: a torpedo-shaped AUV of 1.6 m and 31 kg, as one published program models it.
 //
 // Source: T. I. Fossen, Python Vehicle Simulator, class remus100 (2021 and later), after Fossen 2021

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How much of a hull lies under water, so that a vehicle at the surface floats and one above it falls.
 //
 // A spheroid is cut across its axis into sections; each counts as a circle cut by the water level at the depth of its centre,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The vehicle `torpedo`: the model that scenarios use unless they name another.
 //
 // The hull, masses, propeller and lags of `remus100-pvs` (remus100_pvs.h) with laws that hold at every angle

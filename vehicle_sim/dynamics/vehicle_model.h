@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The description of an underwater vehicle: every number its equations of motion need, fixed once made.
 //
 // Model: rigid body with added mass in six degrees of freedom (Fossen, Handbook of Marine Craft Hydrodynamics

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What changes as a vehicle moves: pose, velocity and actuator positions; and commands.
 //
 // Frames and units: see each field. Plain values, copied freely.

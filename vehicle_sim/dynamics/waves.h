@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The orbital motion of the water under surface waves.
 //
 // Model: linear (Airy) waves on deep water, long-crested, a sum of components i of amplitude a, frequency omega,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The battery of a vehicle: what is left in it, and what it was spent on.
 //
 // Model: energy_left = capacity - (hotel + shaft + transmit + receive), joules, since the start. All that is always on takes

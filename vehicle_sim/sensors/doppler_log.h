@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A Doppler velocity log of four beams in bottom track, and a forward sonar: sensors that send rays to the seabed.
 //
 // Doppler log: beam k points along b_k (unit, body frame); its speed is the instrument's velocity over ground

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a sensor gets wrong, as draws that are addressed: noise, bias that wanders, drop-outs.
 //
 // Model: reading = truth + bias + walk + noise. Noise is normal and independent from sample to sample and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What sensors a vehicle carries, and how good each is.
 //
 // Depth, altimeter, speed log, compass and gyro are always there, by default without errors and measured at

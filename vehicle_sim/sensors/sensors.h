@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a vehicle measures of itself: the readings of its sensors, without errors (measure) and with them
 // (SensorSuite).
 //

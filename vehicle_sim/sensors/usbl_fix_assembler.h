@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A vehicle's USBL array: fixes from the true directions of arrival and the packets received.
 //
 // Model: the true direction of an arrival is in OUTCOME (elevation of the ray, azimuth of the straight line), which the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which of many vehicles may be near each other: the cheap first look before contacts are searched.
 //
 // Model: a list of pairs with a margin of their movement (Verlet 1967), made anew from columns of cells when any

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The ODE side of a VehicleWorld, for vehicle_world.cc alone: bodies and contacts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Owners of the Open Dynamics Engine's handles, for vehicle_world.cc alone.
 //
 // ODE keeps global tables, set up once in the process before the first world. Each world steps by an

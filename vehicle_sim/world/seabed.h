@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The ground as a vehicle feels it: near a point of the plane, a plane.
 //
 // World frame, NED, metres. The narrow view of a terrain that contact needs, so that any terrain (or a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where a hull touches the ground, or is about to.
 //
 // Model: the hull is the union of spheres along its axis (41 a hull, 4 cm apart for one of 1.6 m), each as

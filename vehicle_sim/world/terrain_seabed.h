@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A terrain as the ground that vehicles touch.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where two hulls touch, or are about to.
 //
 // Model: a spheroid with half axes a >= b is the union of all spheres whose centres lie between its foci, at s c with

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vehicles as rigid bodies in an ODE world, free in the water and in contact with the seabed, with each other
 // and with tethers.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/rays/arcs/arc_steps.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One step of a ray within layered water, and where it meets a bottom profile: what both ray tracers share.
 //
 // Model: acoustics/rays/arc_tracer.h. A step goes to the next knot of the water or through a turn back to the same

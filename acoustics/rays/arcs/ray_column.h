@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // All layers of a water at one Snell parameter at once: how far a ray goes through each, and how that changes.
 //
 // Model: acoustics/math/arc_math.h, dr = K xi / (s1 + s2), K = h (c1 + c2), s the sines of the ray's angle at the

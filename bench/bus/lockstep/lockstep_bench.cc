@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Lockstep steps per second: a conductor and N participants, each a process of its own, over udpm on loopback.
 //
 // All participants are due at every step and publish one vehicle state each, which the conductor puts in

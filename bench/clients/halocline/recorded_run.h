@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs of scenarios that benchmarks read again.
 #pragma once
 

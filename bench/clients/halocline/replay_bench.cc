@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How fast logs are read and replayed, and how many packets go through one channel server on a bus.
 #include <cstdint>
 #include <filesystem>

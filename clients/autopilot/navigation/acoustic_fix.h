@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A place from where a beacon's sound came from and how long it was on its way.
 //
 // Model: the beacon's place is known; the slant range is travel time times a mean sound speed; the horizontal

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Heading, pitch and roll by the compass, integrated from the gyro while the compass is unavailable.
 //
 // Model: the compass's reading is taken as it is; until the next one the attitude turns with the angular

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Position by the vehicle's own sensors: dead reckoning between fixes.
 //
 // Model: position moves by the velocity over ground where a Doppler log measures it, else by the speed

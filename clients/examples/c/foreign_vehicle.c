@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A vehicle with a modem in C, of LCM and the message types alone. It circles, announces its modem, sends packets, and prints
 // what becomes of them and what it receives. By hand, from the root of the tree (docs/extending.md has other languages):
 //

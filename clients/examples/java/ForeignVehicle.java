@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import halocline.modem_config_t;
 import halocline.modem_receipt_t;
 import halocline.modem_receive_t;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Answers each packet that a vehicle receives, through the modem library: echo-modem VEHICLE ID
 //
 // The vehicle itself is moved by another program: the vehicle simulator, or one that publishes STATE.VEHICLE.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // ALOHA with collision avoidance (Chirdchoo, Soh and Chua 2007): a vehicle knows how long sound takes between all vehicles, and learns of
 // each packet that it overhears who sent it and for whom. It so knows when sound is wherever it is to be received, and sends
 // nothing that would meet it there.

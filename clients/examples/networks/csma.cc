@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Non-persistent carrier sense multiple access (Kleinrock and Tobagi 1975): a frame is transmitted when no carrier is sensed; else the
 // channel is sensed again after a random wait, `tries` times in all.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // DACAP, the distance-aware collision avoidance protocol (Peleato and Stojanovic 2007): MACA whose sender waits between the leave to
 // send and its data, and drops the exchange when others threaten it meanwhile.
 //

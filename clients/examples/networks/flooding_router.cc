@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Flooding: every vehicle passes every packet on once, after a random wait (clients/traffic/relay.h has the model).
 #include <algorithm>
 #include <cstdint>

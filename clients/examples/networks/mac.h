@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Medium access control: when a vehicle transmits the frames that wait in its queue.
 //
 // A protocol is a class with attempt(), which is called when the first frame is due, and what else it needs of what the modem

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // MACA (Karn 1990): a short request to send, the receiver's short leave to send, then the data; who overhears them is silent meanwhile.
 //
 // The first byte of each of its packets tells them apart. A request that is not answered within `handshake` is repeated after a

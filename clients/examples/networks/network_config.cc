@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/examples/networks/network_config.h"
 
 #include <algorithm>

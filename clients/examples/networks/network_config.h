@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sections [network] and [vehicle.network] of a scenario file: protocols and offered load of the example networks.
 #pragma once
 

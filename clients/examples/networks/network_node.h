@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs the example protocols for the vehicles of a scenario, on top of the modem library: each offers packets at random instants, a router
 // says to whom they go, a MAC when they are transmitted.
 //

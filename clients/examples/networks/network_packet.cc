@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/examples/networks/network_packet.h"
 
 #include <type_traits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A packet of the network layer, as it travels in a modem's packet.
 //
 // | bytes | content (little-endian) |

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Routing: to which neighbours a packet goes on its way.
 //
 // Values in, values out, as a MAC (mac.h), which transmits what a router hands down.

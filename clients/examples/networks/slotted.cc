@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // MACs whose frames leave at the begin of a slot: slotted ALOHA (Roberts 1975) in any slot, TDMA in the vehicle's own.
 //
 // Slots begin at multiples of `slot`, by the vehicles' clocks. Slotted ALOHA has S = G exp(-G) where all sound takes the same time to

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // T-Lohi, conservative and unsynchronised (Syed, Ye and Heidemann 2008): vehicles contend for the channel with tones; who hears no
 // other's tone in a contention round sends its data.
 //

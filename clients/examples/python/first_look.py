@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """A first look at a run and its sea with the Python package: cells (# %%) for Jupyter, Spyder or VS Code, or a program.
 
    $ PYTHONPATH=build/release/python /usr/bin/python3 clients/examples/python/first_look.py [SCENARIO [LOG [PICTURE]]]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """A vehicle with a modem in Python, of LCM and the message types alone.
 
 It circles, announces its modem, sends packets, and prints what becomes of them and what it receives. By hand, from the root of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """LCM for Python in Python alone, for machines without LCM's own module, as Debian 12: the calls that a vehicle needs.
 
     bus = lcm.LCM()                          # LCM_DEFAULT_URL, or LCM("udpm://239.255.76.67:7667?ttl=0")

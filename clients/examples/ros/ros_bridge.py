@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Halocline's bus in ROS 1: what vehicles do as standard messages, every message of the bus as it is, packets both ways.
 
 docs/bridges.md has all topics and fields, and what ROS 2 needs. By hand, from the root of the tree, with python3-rospy, python3-rosmaster,

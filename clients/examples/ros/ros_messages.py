@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Every message type of Halocline as a ROS message of the same fields: ros_messages.py LCMTYPES OUT
 
 Writes OUT/VehicleState.msg and so on, of LCMTYPES/vehicle_state_t.lcm: the folder msg of a package halocline_msgs, for ROS 1 and 2.

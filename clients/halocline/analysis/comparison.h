@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Two logs of one mission side by side: which packets changed their outcome, and the inputs that differ.
 //
 // A packet at a receiver is found again in the other log by its name (sender, kind, session, sequence),

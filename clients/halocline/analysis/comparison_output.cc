@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The comparison as text, JSON and CSV.
 #include <algorithm>
 #include <cstdint>

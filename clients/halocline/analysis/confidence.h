@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Confidence intervals of shares and means.
 //
 // Shares: Wilson's score interval (Wilson 1927, "Probable inference, the law of succession, and statistical

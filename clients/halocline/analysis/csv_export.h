@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Turns a log into CSV: a file for each channel family, a row for each message.
 //
 // The columns are event (its number in the log), stamp_us, channel, then the message's fields. A field that is a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a byte costs in joules, by the modem that sent it and the distance: of vehicles with batteries.
 //
 // Counted are outcomes at the packet's destination, or at each possible receiver where it went to all: the energy of the transmission, whole

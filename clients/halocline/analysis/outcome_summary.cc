@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/analysis/outcome_summary.h"
 
 #include <type_traits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The packet outcomes of a run: one for every packet at every possible receiver, counted by outcome, pair and time.
 //
 // Counted from the OUTCOMEs of a log; each (packet, receiver) counts once, however often its outcome stands in the

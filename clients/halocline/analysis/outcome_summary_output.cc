@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The outcome summary as text, JSON, CSV and a plot.
 #include <algorithm>
 #include <cstdint>

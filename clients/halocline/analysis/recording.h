@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The messages of a recorded log that are replayed: states, transmissions, modems and changes of the environment, each
 // at its time.
 //

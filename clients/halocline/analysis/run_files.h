@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where commands leave what they make: the files of a run, and the rule that no command replaces what is there unasked.
 #pragma once
 

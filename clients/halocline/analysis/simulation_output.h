@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The simulation output of a run, apart from how many programs made it: for comparing runs whose channel server or
 // vehicle simulator was split (channel_server/vehicles/shard.h, vehicle_sim/vehicle_block.h) with runs whose was not.
 //

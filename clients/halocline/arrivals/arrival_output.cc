@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/arrivals/arrival_output.h"
 
 #include <array>

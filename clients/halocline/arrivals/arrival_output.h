@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Arrivals as people and programs read them: a table, CSV with the columns of the reference arrivals, or JSON.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Arrivals as a picture: level against delay as stems, and the angles below.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sea of a search for eigenrays, from options of the command line and tables (CSV): water, bottom, surface, links.
 //
 // Files, with the column names of the reference arrivals (other columns are ignored):

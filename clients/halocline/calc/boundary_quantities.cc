@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Quantities of the sea's boundaries: reflection at the bottom, loss at the surface, its waves and their roughness.
 #include <numbers>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The calculator behind `halocline calc`: a table in, the same table with computed columns appended out.
 //
 // Rows keep their order, columns their text. A result whose column is already there is written as `computed_<name>`,

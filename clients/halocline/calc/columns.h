@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The columns that several quantities read, with the ranges that are allowed, and what they mean inside.
 #pragma once
 

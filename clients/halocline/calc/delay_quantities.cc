@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Quantities that need a profile of the water: delays, and the figures of the 2010 IEEE SMC paper.
 #include <functional>
 #include <memory>

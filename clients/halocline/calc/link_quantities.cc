@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Quantities of a straight link through uniform water: transmission loss, signal-to-noise ratio, capacity.
 #include <cmath>
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Quantities of packets: bit and packet errors, codes, durations, Doppler.
 #include <cmath>
 #include <cstdint>

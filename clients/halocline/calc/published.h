@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The range for which a formula of `halocline calc` was published, by quantity, model and column.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What `halocline calc` can compute: a description of every quantity, its formulas and its columns.
 //
 // A quantity has one or more forms, one a formula (`--model`). A form names the columns it reads, with unit and

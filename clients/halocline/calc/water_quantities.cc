@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Quantities of the water itself: sound speed, pressure, absorption, noise.
 #include <string>
 #include <utility>

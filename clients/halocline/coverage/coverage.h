@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How well a vehicle or a place is heard over an area, at several depths: a map of links from one end.
 //
 // Model: each cell and depth is the link from `from` to a receiver with the scenario's modem at rest in the middle of the cell,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A map of coverage as a file, its kind by the name's ending: .tif GeoTIFF, .nc netCDF after the CF conventions 1.8, .geojson
 // contours, .png a picture.
 //

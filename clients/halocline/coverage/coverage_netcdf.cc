@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Maps of coverage as netCDF-4 after the CF conventions 1.8 (grid mappings: appendix F). Part of the module
 // halocline_coverage_files.so, which only coverage_files.cc loads.
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the command line says of a map: its quantities and depths.
 #include <algorithm>
 #include <array>

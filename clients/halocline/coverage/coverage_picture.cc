@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A map of coverage drawn by gnuplot: quantities side by side at the best depth, mean delivery against depth.
 #include <cmath>
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/coverage/coverage_track.h"
 
 #include <array>

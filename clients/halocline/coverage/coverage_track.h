@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The best depth to be heard along a way, over time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/coverage/link_column.h"
 
 #include "acoustics/link/link_kernel.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Links from one end to receivers with the scenario's modem, wherever they are: what maps and tracks of coverage are made of.
 #pragma once
 

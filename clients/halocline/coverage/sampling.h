@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Smooth functions at many places from their values at few: the rest by interpolation that is verified on the way.
 //
 // Rule. Between two places that are at most `longest` apart the function is computed at five of the places in between, as evenly as

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Writes MCAP files (mcap.dev/spec, version 0): uncompressed chunks with an index, a summary and checksums.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mission in formats of others: MCAP for Foxglove and Lichtblick, GeoJSON and GPX for maps, netCDF for science.
 //
 // Instants are simulation time, written as if the mission had begun on 1970-01-01 at 0:00 UTC.

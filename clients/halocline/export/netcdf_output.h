@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A netCDF-4 file that is being written, through netCDF's C library: for modules that have it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tracks of a mission as netCDF-4, through netCDF's C library. Part of the module halocline_tracks_netcdf.so, which only
 // mission_export.cc loads.
 #include <cstddef>

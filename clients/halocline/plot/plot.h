@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Series of numbers drawn into a PNG or SVG file, by gnuplot.
 //
 //   Plot plot{.title = "Arrivals", .charts = {{.x = "delay, s", .y = "level, dB"}}};

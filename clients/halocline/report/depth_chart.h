@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Depth over time: a strip a vehicle, with the seabed under it and the depth it was commanded to.
 #pragma once
 

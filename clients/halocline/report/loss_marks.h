@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where packets were lost, as marks over the chart of a mission.
 #pragma once
 

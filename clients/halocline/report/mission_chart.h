@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The mission seen from above: seabed, contours, tracks, plans, and where packets were lost.
 #pragma once
 

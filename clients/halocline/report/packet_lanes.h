@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The time line of packets: a lane a vehicle, transmissions as bars, receptions at their travel time, the cause of each loss
 // under the pointer. Written as SVG directly: gnuplot writes no text for a pointer to rest on.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pictures by gnuplot for a page: axes, images and curves whose colours follow the page's scheme, and a known place of every
 // coordinate, so that marks with texts of their own can be drawn over them.
 // gnuplot has no mark in the shape of a bow tie and writes no text for a pointer to rest on, so such marks are ours

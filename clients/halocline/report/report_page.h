@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The report: one static HTML page with everything in it, about one log or about two side by side.
 //
 // It loads nothing and runs no script. Pictures of axes and curves are by gnuplot; where that is not installed the page has the

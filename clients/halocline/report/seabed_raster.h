@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The seabed as a picture: depth in cmocean's "deep" colours, shaded as if lit from the north-west.
 #pragma once
 

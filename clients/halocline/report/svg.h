@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pieces of SVG and HTML as text.
 //
 // Colours are CSS variables and classes (page_style.cc), so that a picture follows the light and the dark scheme of the page. A

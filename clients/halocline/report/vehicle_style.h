@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The look of a vehicle: one colour, the same in every picture of a page, and from the ninth vehicle on a dash as well.
 //
 // Eight colours for a light page and eight for a dark one. Each stands out from its paper (contrast 3 or more), and any two

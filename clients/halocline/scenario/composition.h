@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A whole scenario in one place: its file read and checked as a whole, and the nodes it is made of.
 //
 //   const ScenarioConfig config = load_scenario("scenarios/seamount.toml", {"modem.source_level_db=170"});

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs nodes in lockstep in this process into a log, as fast as they compute or paced by the wall clock.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The answer of `halocline link --json`, and the names in it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One link of a scenario between two points, computed here and now: budget, paths, and whether the bottom sends
 // echoes.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What arrives over links of a scenario, and what they deliver: for one link or for many, as at simulation time 0.
 //
 // Along rays, over the bottom that is given, or along the straight line, which the terrain may cut: whichever the scenario

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How large the log of a run becomes, from rates, vehicles and duration.
 //
 // Each message counts with its size in a log: 28 bytes of the event, the channel's name, and its content, as measured on

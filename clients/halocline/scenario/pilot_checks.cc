@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether each model has what its pilot steers with, and holds the set speeds.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Publishes what a recording holds, each message at its time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Checks of sense: what each section allows and the whole scenario cannot mean.
 //
 // What is surely wrong is refused in `file`, and thrown by its check_findings() with all else; what may be meant is

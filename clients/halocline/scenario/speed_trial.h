@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether a vehicle holds a speed: its model and its pilot's control laws in the open sea, before the run.
 //
 // A straight level way in still water without surface and bottom, from the set speed on, for kTrial_s. Left out: turns,

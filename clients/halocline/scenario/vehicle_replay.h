@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A vehicle run along a table of commands and written as a table of states: `halocline vehicle replay`.
 //
 // Columns written: t (s), x_n y_e z_d (m, NED of the body's origin), phi theta psi (rad), u v w (m/s) and

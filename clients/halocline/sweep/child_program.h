@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A program run as a child process, with its output in a file.
 #pragma once
 

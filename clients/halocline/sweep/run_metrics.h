@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The results of one run that a sweep keeps.
 //
 // A packet counts at a receiver that it was addressed to (or sent to all); those merely overheard count among

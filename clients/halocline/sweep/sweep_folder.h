@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where a sweep keeps its runs: OUT/plan.toml, OUT/runs/<identity>/, and the gathered tables.
 //
 // A run's folder is named by what it computes: the XXH3 hash (64 bits) of its effective configuration and of this

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a sweep runs: a scenario at every point of a grid of overrides, each with every seed.
 //
 //   [sweep]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The results of a sweep, point by point, with confidence intervals.
 //
 // Shares of packets (delivery, outcomes) pool the packets of all seeds and carry Wilson's interval, which takes

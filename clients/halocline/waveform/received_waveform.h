@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a hydrophone of a scenario records while others transmit waveforms.
 //
 // Each sender's sound goes along the paths of its link to the receiver, as packets' does (scenario_links.h): with the ends where a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a hydrophone of a scenario records where nobody transmits: the sea's noise, and that of vehicles.
 //
 // The sea's is shaped over the whole band of the samples, with its slow variation and its bursts (acoustics/noise/noise_variation.h).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The links between the vehicles of a recorded run: what arrives of a sound that one of them makes.
 //
 // Paths are searched for every kFrame of the departure, every search anew: a cell that shares one would step. The gains of paths are

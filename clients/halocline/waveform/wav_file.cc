@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/waveform/wav_file.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Addresses of modems of one kind, as their protocol has them, and the vehicles that carry them.
 //
 // Packets of the simulation bear ids of vehicles; hosts know addresses, which a host may set for its own modem. One book serves all doors

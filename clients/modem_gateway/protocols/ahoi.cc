@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // ahoi modem (Hamburg University of Technology): binary frames on a serial line.
 //
 //   10 02 content 10 03, a byte 10 of the content doubled

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/modem_gateway/protocols/door_options.h"
 
 #include "clients/modem_gateway/protocols/fields.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The options of a door: "name=value name=value", as its protocol knows them.
 //
 //   DoorOptions options("revision=0.94.0.00");

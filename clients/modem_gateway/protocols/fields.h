@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fields of text protocols: words, lists, numbers, hexadecimal bytes. Nothing depends on a locale.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Lines out of bytes that come in any pieces: a line ends at a carriage return, a line feed, or both.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What every modem protocol of the gateway is: a state machine between the bytes of a host and the happenings of one modem.
 //
 // Pure: bytes and messages of the bus come in by calls, bytes and packets go out through a ProtocolPort, the time is given. So a protocol

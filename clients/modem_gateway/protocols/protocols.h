@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The protocols that there are, by the kind that a door names.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // ../../../scripts/monitor_test starts this with the server's URL in HALOCLINE_MONITOR_URL.
 import { defineConfig } from "@playwright/test";
 

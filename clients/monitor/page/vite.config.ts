@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { svelte } from "@sveltejs/vite-plugin-svelte";
 import { defineConfig } from "vite";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands and messages from pages to vehicles, checked as the bus checks them. Pure: steady time is passed in.
 #pragma once
 

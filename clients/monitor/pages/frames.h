@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The binary messages to a page: README.md has their bytes. Pure.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The columns of the link table as the page shows them: in units for people, with the scale of their colours.
 #pragma once
 

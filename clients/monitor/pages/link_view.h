@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One link in detail: the query for its paths, and what a page is shown of the reply (README.md, `link`). Pure.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a page is shown of the mission as a whole, as JSON: README.md has its members. Pure.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Packets as the page is shown them: README.md has their members. Pure.
 #pragma once
 

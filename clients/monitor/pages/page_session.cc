@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/monitor/pages/page_session.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What one page is shown by itself: positions, packets, links and the state, each when it changed and no faster than the
 // connection takes it. Pure: messages go to an outbox, steady time is passed in.
 #pragma once

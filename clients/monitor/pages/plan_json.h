@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a vehicle's autopilot is to do, and does: README.md has the members. Pure.
 #pragma once
 

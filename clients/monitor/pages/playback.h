@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The instant that a connection shows: it follows the newest message, plays at a speed, or stands. Pure: steady time is passed
 // in, in seconds.
 #pragma once

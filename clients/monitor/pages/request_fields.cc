@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/monitor/pages/request_fields.h"
 
 #include "clients/mission/mission_vehicle.h"

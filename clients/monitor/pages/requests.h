@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Answers to a page's requests that the mission holds: README.md lists them. Pure.
 #pragma once
 

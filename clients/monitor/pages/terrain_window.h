@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A window of the terrain in the detail that a page wants, from the bathymetry service: in as many queries as it takes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The series of one vehicle over a window of time: README.md has their members. Pure.
 #pragma once
 

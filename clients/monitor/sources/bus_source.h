@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A bus as a source: what it carries now, and its recent past.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A channel server and a bathymetry service for a log, made of its configuration: they answer LINK_QUERY and TERRAIN_QUERY, as
 // those of the run would have. They run in a thread of their own, on a bus within the process.
 //

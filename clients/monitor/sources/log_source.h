@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A whole log as a source. What its configuration gives is computed by the nodes of log_nodes.h.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is known of modems beyond the messages: those that a configuration gives the vehicles, and what SINR a modem needs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where the monitor's messages come from: a bus or a log. Used by one thread; a bus is received by another behind it.
 #pragma once
 

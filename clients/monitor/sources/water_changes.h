@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What SET_ENVIRONMENT takes to make one water of another. Pure.
 #pragma once
 

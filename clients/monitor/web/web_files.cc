@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/monitor/web/web_files.h"
 
 #include <algorithm>

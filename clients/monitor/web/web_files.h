@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the monitor's web server answers to a request for a file: a file of the bundle, or why not.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Who may reach the monitor's web server, and which file a request names. Pure: no socket, no file.
 //
 // The server runs beside a browser that shows pages of strangers. A stranger's page can send requests to 127.0.0.1, and by

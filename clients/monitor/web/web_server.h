@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // HTTP and WebSocket for the monitor's page: files of the bundle, and connections at /ws.
 //
 // One thread: callbacks come from run_for(), and everything is called from the thread that calls it. Nothing here waits for a

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 r"""Halocline in Python: logs as NumPy arrays, paths of sound, link budgets.
 
     import halocline

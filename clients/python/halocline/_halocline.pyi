@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The compiled part of halocline, which wraps it: use that."""
 from typing import Any
 

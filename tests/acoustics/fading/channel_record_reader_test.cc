@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/fading/channel_record_reader.h"
 
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/fading/link_fading.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/fading/measured_channel.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Arrivals extrapolated from one link to another near by, against those that are searched for there.
 #include "acoustics/link/extrapolate_arrivals.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sound through a field of temperature and salinity: along the straight line, and as rays see it.
 #include "acoustics/link/field_section.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Eigenrays through a smooth front that was sampled on the grid of an ocean field, against rays integrated through the front itself.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The energy of links whose rays are mixed, against the integral over a channel of one speed and against every ray over rough
 // bottoms.
 #include "acoustics/link/mixed_link.h"

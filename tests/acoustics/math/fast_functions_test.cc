@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/math/fast_functions.h"
 
 #include <cmath>

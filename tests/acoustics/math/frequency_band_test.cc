@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/math/frequency_band.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Distributions against Boost.Math's.
 #include "acoustics/math/functions.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/math/gauss_legendre.h"
 
 #include <cmath>

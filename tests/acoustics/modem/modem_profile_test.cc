@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The modems of models/modems.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How packets are divided, and how long they last.
 #include "acoustics/modem/packet_format.h"
 

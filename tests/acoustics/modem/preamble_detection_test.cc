@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/modem/preamble_detection.h"
 
 #include <cmath>

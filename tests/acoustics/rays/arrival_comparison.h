@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Compares the arrivals of a solver with those of a dense fan (tests/acoustics/rays/brute_fan.h), within 30 dB of the
 // strongest: delay 1 us, level 0.05 dB, phase 1 degree, angles 0.01 degrees; bundles launched within 0.02 degrees of
 // each other as their sum.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/acoustics/rays/brute_fan.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // All rays of one link by a dense fan of plainly followed rays (tests/acoustics/rays/brute_ray.h): an independent
 // reference for tests, thousands of times slower than the solvers.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/acoustics/rays/brute_ray.h"
 
 #include <algorithm>

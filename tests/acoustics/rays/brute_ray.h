@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One ray through layered water over a polyline bottom, followed the plain way: an independent reference for
 // tests.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // All rays between two points of layered water over a flat bottom, found the slow and plain way: an
 // independent reference for tests.
 //

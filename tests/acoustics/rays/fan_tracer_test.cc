@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The fast fan tracer against the tracer of eigenrays.
 #include "acoustics/rays/fan_tracer.h"
 

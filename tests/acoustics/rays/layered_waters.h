@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Waters of layers, and a hill, like those that links run in, for tests and benchmarks of rays.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sound channels and caustics of water given by rows: what kinks of the table must not make of them.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rays in water that depends on depth alone: no ray of a dense fan is missing.
 #include <algorithm>
 #include <cmath>

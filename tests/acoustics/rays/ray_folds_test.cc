@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The field about folds of rays, on both sides of the caustic, against what follows from rays away from it.
 #include <cmath>
 #include <complex>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rays in water that depends on depth alone: closed forms, symmetries.
 #include <algorithm>
 #include <cmath>

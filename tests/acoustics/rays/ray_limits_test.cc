@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the limits of the search keep and drop, links of hardly any range, and what rays note of their bounces.
 #include <algorithm>
 #include <cmath>

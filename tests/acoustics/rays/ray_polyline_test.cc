@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The ways of paths: against images, arcs of circles, and the delays that the paths were found with.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rays over a bottom that changes with range: against a dense fan of straight lines, symmetries, moving ends.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Random links in three waters against a dense fan of plainly followed rays.
 //
 // A short set runs by default; HALOCLINE_RAY_LINKS=170 runs that many links of each water, and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The waters of tests/data/rays, and the comparison of arrivals with reference rows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every row of the reference arrivals, by every solver that can do its water.
 #include "tests/acoustics/rays/ray_reference.h"
 

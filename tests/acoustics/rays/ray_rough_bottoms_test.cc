@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rays over rough bottoms, where they are too many to be found one by one: strong paths and levels against the search of
 // every ray.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Water that changes along the link: closed forms, the layered search, and rays integrated by Runge and Kutta.
 #include "acoustics/sea/ray_section.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rays over bottoms of steep facets, where most rays turn back and those that arrive come through narrow windows,
 // against a dense fan of plainly followed rays.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rays that all but graze a boundary or turn beside a knot: the functions that give them the range of waves, and the field
 // about them against the integral over all waves.
 #include <algorithm>

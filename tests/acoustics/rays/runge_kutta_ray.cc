@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/acoustics/rays/runge_kutta_ray.h"
 
 #include <algorithm>

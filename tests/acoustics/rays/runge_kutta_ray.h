@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rays through water that changes with range and depth, integrated step by step: an independent reference for tests.
 //
 // The equations of a ray along its length s (Jensen and others 2011, section 3.2): dr/ds = cos, dz/ds = sin, dtau/ds = 1/c,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Waveforms against closed forms: tones through delays that stand still and move, noise against its spectrum.
 #include <algorithm>
 #include <cmath>

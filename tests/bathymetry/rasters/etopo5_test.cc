@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The real relief that ships with Debian's ferret-datasets: NOAA ETOPO5, netCDF, 5 arc-minutes,
 // node-registered.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rasters whose coordinates are metres of the scenario's own frame.
 #include <array>
 

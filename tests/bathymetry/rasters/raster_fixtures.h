@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Small rasters in GDAL's memory file system, for the tests of the loader.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rays against the long double reference at every cell crossing: no miss, no false hit, ranges to 1e-6 m.
 // HALOCLINE_REFERENCE_RAYS sets how many random rays of each kind (default 3000; 500 000 takes minutes).
 #include <algorithm>

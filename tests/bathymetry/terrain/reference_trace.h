@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The slow, plain answer that the fast rays are held against: long double, every cell crossing, no pyramid.
 #pragma once
 

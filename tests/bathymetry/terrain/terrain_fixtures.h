@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Terrains that several tests and the benchmark share.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rays in batches against single rays: every bit of every answer, for every vector unit of this processor.
 #include "bathymetry/terrain/wide_trace.h"
 

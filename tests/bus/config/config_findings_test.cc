@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is found beyond single keys: near keys, files that cannot be read, and findings of other rooms.
 #include <filesystem>
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bus/lockstep/agreement.h"
 
 #include <gmock/gmock.h>

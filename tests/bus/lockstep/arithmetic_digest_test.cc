@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bus/lockstep/arithmetic_digest.h"
 
 #include <gtest/gtest.h>

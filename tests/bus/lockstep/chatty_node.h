@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A node whose every message depends on all it has received and on their order: one message lost, duplicated, late or
 // reordered changes all that it publishes afterwards, and when.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bus/lockstep/lockstep_schedule.h"
 
 #include <cstdint>

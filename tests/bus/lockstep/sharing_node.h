@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Nodes whose stage shares lookahead, as channel servers do: each acts at instants of its own, asks a service now and then, and
 // tells the others at ticks alone. All that it publishes depends on all that it has received, and on the order.
 #pragma once

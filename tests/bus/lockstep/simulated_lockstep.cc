@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/bus/lockstep/simulated_lockstep.h"
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A conductor and participants on a simulated network, with fault injection from a seed: datagrams are lost, duplicated,
 // delayed and reordered; participants and the conductor crash in the middle of their work and are restarted.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Logs made by hand, in a file of the test's own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every event that does not overlap damaged bytes is found, wherever the damage is.
 #include "bus/logs/log_scan.h"
 

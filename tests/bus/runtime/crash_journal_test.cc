@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A node that adds numbers and publishes each sum: killed and restored from its journal it
 // publishes what it would have published without the kill.
 #include "bus/runtime/crash_journal.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The files of a journal for one test: none at first, removed at its end.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bus/runtime/message_batches.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Node programs as processes, on a private loopback bus (scripts/isolated; see tests/CMakeLists.txt).
 #include "bus/runtime/node_process.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The filter on sockets of a private loopback network (scripts/isolated).
 #include "bus/runtime/receive_filter.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bus/runtime/state_journal.h"
 
 #include <algorithm>

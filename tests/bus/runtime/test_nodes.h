@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Small nodes for the tests of those that run them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bus/sending/publication_pace.h"
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/links/echo_survey.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rows that hold on from tick to tick: for how long, what follows the ends meanwhile, and how far it is from a row computed anew.
 #include "channel_server/links/kept_rows.h"
 

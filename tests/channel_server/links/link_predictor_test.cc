@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rows state what acoustics/reception/link_prediction.h predicts of their paths.
 #include "channel_server/links/link_predictor.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/links/ray_query_client.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A busy sea: twenty vehicles under way in a box of 6 km, random packets, pings, queues, silences, odd bands and
 // families, modems that receive badly; every outcome occurs. All of it drawn by address, so a run is its seed and its length.
 #pragma once

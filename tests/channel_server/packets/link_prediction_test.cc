@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Predicted against realised: the probabilities of 10 000 packets, each decided as the medium decides it, have the mean that
 // the prediction of their link states, within 2 % of probability and what chance may add to 10 000 with 99 % confidence.
 #include "acoustics/reception/link_prediction.h"

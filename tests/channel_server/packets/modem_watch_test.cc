@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What modems report and how they listen: events, carrier, sleep, packets for others.
 #include "channel_server/packets/modem_watch.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What packets tell vehicles whose clocks are wrong.
 #include <string>
 #include <utility>

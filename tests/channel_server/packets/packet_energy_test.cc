@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What packets take from batteries, and what a modem does without power.
 #include <cstddef>
 #include <cstdint>

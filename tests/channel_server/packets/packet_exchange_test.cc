@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Modems that queue, and modems that answer pings.
 #include <cstdint>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Waveform families, and modems of one family whose bands overlap in part.
 #include <cmath>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Packets of several frames, kinds and rates of packets, and acknowledgements.
 #include <cmath>
 #include <cstdint>

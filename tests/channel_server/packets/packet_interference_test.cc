@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What other packets, and late paths of its own, do to a packet.
 #include <cmath>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The noise of vehicles, and that which varies, in the receptions of packets.
 #include <cmath>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One packet, one outcome: each from a water in which only that can happen, and the numbers that decided it.
 #include <cmath>
 #include <map>

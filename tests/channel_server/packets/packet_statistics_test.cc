@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Long random runs through the medium: nothing is lost, nothing is counted twice, losses are as frequent as the
 // model gives, and the order in which messages came does not matter.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/packets/receiver_state.h"
 
 #include <gmock/gmock.h>

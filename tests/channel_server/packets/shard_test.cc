@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Several media of one water, each following packets only to the receivers it serves: together they publish what
 // one publishes.
 #include "channel_server/vehicles/shard.h"

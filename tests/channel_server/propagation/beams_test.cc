@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A modem's pattern in elevation weighs the paths of sound at both ends, by rays and by the straight path.
 #include <cmath>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // While a vehicle moves, the level of its links changes as little as the vehicle moves: the bottom under a link is a
 // continuous function of its ends. What may step is the number of paths.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/propagation/environment_timeline.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Propagation through an ocean field: which water holds when, and what links make of it.
 #include <cmath>
 #include <cstdint>

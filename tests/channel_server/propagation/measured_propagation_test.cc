@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Measured channels in the place of modelled paths, and what becomes of packets over them.
 #include "channel_server/propagation/measured_propagation.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Links that share a search: what that changes, and what it never may.
 #include <algorithm>
 #include <cmath>

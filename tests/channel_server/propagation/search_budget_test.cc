@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A budget of searches a tick: who is searched first, what the others get, and that shards agree.
 #include "channel_server/propagation/search_budget.h"
 

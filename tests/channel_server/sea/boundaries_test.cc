@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What surface and bottom do to a link.
 #include <cmath>
 #include <memory>

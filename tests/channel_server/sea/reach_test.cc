@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The bound on levels behind the reach against the levels that rays give, at places drawn at random in waters that spread sound
 // least: shallow and deep, ducts at the surface, at depth and over the bottom, sand, gravel and rock, flat, sloping and wavy.
 #include <algorithm>

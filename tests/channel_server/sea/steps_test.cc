@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Predictions, averaged over fading, have no steps: what a sea-going engineer could not measure does not decide whether a
 // packet arrives. HALOCLINE_STEP_PLACES: how many places, 1300 unless given.
 #include <algorithm>

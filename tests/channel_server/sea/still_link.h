@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One link between two points at rest, and packets over it, decided as the medium decides them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The plainest coastal case: 171 links of frequency-hopped FSK in a summer column, 22 degC to 15 m, 15 degC at 30 m and
 // 13 degC at 50 m, over 100 m of medium sand. All have the noise that makes the
 // median of their SNR what a row says.

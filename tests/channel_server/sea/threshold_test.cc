@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A link at rest near its threshold: how wide the transition is, and how losses hang together in time.
 #include <cmath>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Servers that share the vehicles search for the paths between them once, and what is told changes no result.
 #include "channel_server/shards/shard_exchange.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The autopilot's node on memq, with one vehicle that has a mission, and what it published.
 #pragma once
 

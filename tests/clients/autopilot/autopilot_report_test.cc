@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // PLAN and AUTOPILOT: the plan, how far it has come, what the autopilot does and why.
 #include <cstdint>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The control laws steering the equations of motion of the fin-steered vehicles: what a mission looks like in
 // the water.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The laws of a glider, alone and with the glider that they steer.
 #include "clients/autopilot/glide_laws.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The hover laws steering the equations of motion of `hover`.
 #include "clients/autopilot/hover_laws.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A vehicle that seeks where it is heard: what it chooses, what it asks and when an answer counts.
 #include "clients/autopilot/link_seeker.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Navigation error after minutes by the vehicle's own sensors, from its true motion through messages to
 // its reckoning.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a person meets who starts `halocline run`: folders, silence, Ctrl-C, warnings.
 #include <chrono>
 #include <csignal>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `halocline sweep` as a person starts it: every run done once, whatever stopped it before, on one machine or
 // by a job array.
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The localiser against a sea of one's own: beacons that answer pings with the times of still water.
 #include "clients/localiser/localiser_node.h"
 

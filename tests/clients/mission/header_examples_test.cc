@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The examples in the headers' comments, compiled.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // SCENARIO, TERRAIN, PLAN and AUTOPILOT in the mission, and their texts.
 #include <cmath>
 #include <set>

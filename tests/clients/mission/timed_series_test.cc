@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/mission/timed_series.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The channel server's side of one modem, as far as a client sees it: what it receives, and answers made by
 // hand.
 #pragma once

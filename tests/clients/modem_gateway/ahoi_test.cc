@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The frames of the ahoi modem, one by one, in both directions.
 #include <string>
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Two Micromodems, two EvoLogics modems and a transponder in quiet water without losses: what hosts write at one end, and read at the other.
 #include <cstddef>
 #include <string>

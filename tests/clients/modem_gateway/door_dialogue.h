@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Doors of a mission in quiet water without losses, and their hosts, in steps of a twentieth of a second.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A scenario with doors in lockstep in this process, and hosts that talk to it between its instants.
 #pragma once
 

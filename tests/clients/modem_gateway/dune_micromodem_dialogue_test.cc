@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // DUNE's Micromodem tasks at a door: lines without checksums, data before its cycle, times as the first fields of SNTTA.
 //
 // Formats and order: LSTS/dune, src/Sensors/MLBLTracker/Task.cpp of 2025 and the LBL navigation task.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The lines of an EvoLogics modem about what it hears.
 #include <cmath>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The lines of the EvoLogics protocol, one by one, in both directions: settings, and what is sent.
 #include <string>
 

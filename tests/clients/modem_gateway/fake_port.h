@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A protocol's port that records what the protocol does, and the modem's answers made by hand.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The program by itself, on a private bus (scripts/isolated): doors of its command line, its trace, its end.
 #include <chrono>
 #include <csignal>

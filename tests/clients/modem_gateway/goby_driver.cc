@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/clients/modem_gateway/goby_driver.h"
 
 #include <cmath>

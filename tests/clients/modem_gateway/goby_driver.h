@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A host that talks to a Micromodem as Goby's driver does: one line at a time, released by its echo, each written again after five seconds;
 // a clock that the modem must show within a second; and receptions that are handed on when their statistics come.
 //

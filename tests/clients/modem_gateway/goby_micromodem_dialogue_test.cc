@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Goby's Micromodem driver at two doors a kilometre apart: how it starts, and what its own test asks of two modems.
 #include <cstddef>
 #include <string>

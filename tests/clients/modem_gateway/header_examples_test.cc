@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The examples in the comments of the headers of clients/modem_gateway/, compiled and run (tests/docs/check_examples).
 #include <string>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A Micromodem's door and the sentences that it writes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sentences of the Micromodem about what was received, and the commands of single packets.
 #include <cstdint>
 #include <string>

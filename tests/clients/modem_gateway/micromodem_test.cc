@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sentences of the Micromodem that hosts write, one by one: commands, settings, data cycles.
 #include <cstdint>
 #include <string>

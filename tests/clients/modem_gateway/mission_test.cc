@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Doors of three kinds over ten simulated minutes: what they report is what the channel decided.
 #include <algorithm>
 #include <cstdint>

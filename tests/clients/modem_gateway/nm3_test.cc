@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The lines of the Nanomodem's protocol, one by one, in both directions.
 #include <string>
 

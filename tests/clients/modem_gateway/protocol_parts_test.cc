@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What protocols share: addresses, options, fields, lines.
 #include <cstdint>
 #include <string>

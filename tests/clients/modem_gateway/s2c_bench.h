@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // An EvoLogics modem's door, and messages that arrive at it.
 #pragma once
 

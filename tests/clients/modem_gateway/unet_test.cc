@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The JSON lines of the UnetStack gateway, one by one, in both directions.
 #include <string>
 #include <vector>

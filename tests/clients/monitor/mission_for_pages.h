@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A small mission, and a source that shows it, for tests of what pages are shown.
 #pragma once
 

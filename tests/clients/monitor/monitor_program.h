@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The real program, pages that are open in it, and vehicles on its bus, for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The real program, on a bus of its own.
 #include <algorithm>
 #include <atomic>

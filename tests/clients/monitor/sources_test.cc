@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a source makes of the scenario: modems, and changes of the water.
 #include <optional>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/clients/monitor/web_client.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A small web client on plain sockets, for tests: HTTP requests and WebSocket frames as bytes, also wrong ones.
 #pragma once
 

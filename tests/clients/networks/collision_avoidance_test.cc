@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The protocols that avoid collisions, in lockstep, against what their papers promise: T-Lohi, DACAP and ALOHA-CA.
 #include <algorithm>
 #include <cmath>

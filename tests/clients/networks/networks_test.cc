@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The example protocols in lockstep against what textbooks say of them, by statistics. Bounds are those of 99.9 % confidence: 3.29 standard
 // deviations.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A hub and stations on a ring round it, in lockstep in this process, without capture: the water that textbooks assume.
 #pragma once
 

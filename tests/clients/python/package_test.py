@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Tests the Python package against the halocline command: tests/clients/python/package_test.py BIN
 
 BIN has the programs; PYTHONPATH leads to the package of the same build.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Tests the bridge to ROS 1, with a ROS master and a bus of its own: scripts/isolated tests/clients/ros/bridge_test.py"""
 import io
 import math

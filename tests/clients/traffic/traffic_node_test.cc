@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/traffic/traffic_node.h"
 
 #include <algorithm>

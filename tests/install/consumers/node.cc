@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A node: steps once a second of simulation time, and says so. node [SCENARIO] [OPTION...]
 #include "bus/runtime/node.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What any correct solution of the equations obeys: order of the method, invariances, energy, and key
 // figures.
 #include "vehicle_sim/dynamics/equations_of_motion.h"

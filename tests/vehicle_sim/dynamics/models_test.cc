@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What every programmed vehicle obeys, and how each behaves under way.
 #include <algorithm>
 #include <array>

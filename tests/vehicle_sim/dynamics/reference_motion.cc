@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tests/vehicle_sim/dynamics/reference_motion.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reads the reference motion of tests/data/vehicle and runs a model along its commands, for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The published vehicle against reference motion: accelerations of random states, and whole trajectories.
 #include "tests/vehicle_sim/dynamics/reference_motion.h"
 

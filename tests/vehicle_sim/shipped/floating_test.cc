@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Hulls that pierce the surface: hydrostatics, free heave, and motion in waves against closed forms.
 #include <algorithm>
 #include <cmath>

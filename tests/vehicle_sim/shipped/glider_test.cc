@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The glider against the closed form of its steady glide (Graver 2005, section 5.1).
 #include <cmath>
 #include <numbers>

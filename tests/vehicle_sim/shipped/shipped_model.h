@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A vehicle of models/vehicles, and how it moves when nothing but water is around.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the vehicles of models/vehicles that are files obey, and how those without fins move.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Grounds given by formulas, hulls put down somewhere, and how deep they lie in a ground: for contact tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vehicles on generated terrain, as the simulator meets it: bilinear cells, not formulas. And at the surface.
 #include <algorithm>
 #include <cmath>

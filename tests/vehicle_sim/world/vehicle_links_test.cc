@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vehicles that meet, and vehicles that tow: nothing passes through, momentum stays, ropes hold.
 #include <algorithm>
 #include <cmath>

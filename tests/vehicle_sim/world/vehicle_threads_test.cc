@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // That a world moves the same, bit by bit, however many threads share its step.
 #include <cstring>
 #include <functional>

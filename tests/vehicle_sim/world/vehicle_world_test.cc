@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vehicles in the ODE world: free flight is the equations' own, contact holds what it should.
 #include "vehicle_sim/world/vehicle_world.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // WHOI Micromodem, first and second generation: NMEA sentences, CC from the host, CA and SN from the modem.
 //
 // Options: `revision` (0.94.0.00 is the first generation, 2.0.31000 the second, 3.0.0 its newer firmware), `pps` (its clock has a pulse a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What all parts of a Micromodem share: its address, settings, clock and generation, and how it writes to hosts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The commands of a Micromodem that touch no sound: settings, clock, revision, reboot, noise, and sounds for tests, which are refused.
 #pragma once
 

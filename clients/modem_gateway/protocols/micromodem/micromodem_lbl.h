@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Long-baseline ranging of a Micromodem (CCPDT, CCPNT, CCPGT): the travel times to up to four transponders, vehicles of the scenario whose
 // modems answer pings.
 //

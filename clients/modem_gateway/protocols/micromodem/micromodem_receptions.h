@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The lines that a Micromodem writes when something was received, or lost after its detection.
 //
 // CARXP comes when a packet is detected, all else with its last bit.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands of a Micromodem's host that another modem may obey: a line of its connector (CCMEC), sleep (CCMSC).
 //
 // For this modem they are obeyed at once; to another they go as a mini-packet. It sets the line, which nothing is connected to, and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a Micromodem reports of a reception (CACST) and of a transmission (CAXST), filled from the reception itself.
 //
 //   CACST   mode, time of arrival, clock mode, peak, power, ratio, level, gain, 4 shifts, rate, source, destination, PSK error, packet

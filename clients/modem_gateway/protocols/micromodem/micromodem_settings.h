@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The settings of a Micromodem by name; what a host sets need not be known.
 #pragma once
 

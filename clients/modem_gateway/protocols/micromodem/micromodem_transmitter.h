@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sending side of a Micromodem: data cycles, and what it writes of each transmission.
 //
 // A cycle asks its host for its frames one by one (CADRQ), then sends them as one packet. At rate 0 a cycle packet goes out first, and the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The calendar clock of a modem: its vehicle's clock, shifted by what a host has set. All times given to it are readings of that clock.
 //
 // Before it is set it shows the vehicle's clock from 1970 on. With `pps`, a pulse each whole second to which all synchronised modems

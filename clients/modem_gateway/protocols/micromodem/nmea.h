@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sentences as NMEA 0183 frames them: $ body * HH, HH the exclusive or of the body's bytes in two hexadecimal digits.
 #pragma once
 

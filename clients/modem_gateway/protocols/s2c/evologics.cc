@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // EvoLogics S2C: AT commands in command mode, which is that of a network interface, and data mode (`+++AT`), instant, synchronous and
 // piggy-back messages, bursts, positions of a USBL head.
 //

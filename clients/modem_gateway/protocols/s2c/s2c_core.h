@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What all parts of an EvoLogics modem share: settings, clock, addresses, and how it tells its hosts.
 #pragma once
 

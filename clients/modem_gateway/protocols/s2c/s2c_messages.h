@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What an EvoLogics modem writes of a reception, filled from the reception itself.
 //
 // - duration: of the packet, us

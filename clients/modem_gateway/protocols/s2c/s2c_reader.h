@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Commands and data out of the bytes that a host writes to an EvoLogics modem, in any pieces.
 //
 // In command mode there are commands, ended by a carriage return, a line feed or both; those that send hold data of a stated length, which

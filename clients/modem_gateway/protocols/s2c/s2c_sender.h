@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What an EvoLogics modem has to send: one instant message at a time, one piggy-back message that waits for an acknowledgement to ride on,
 // and a queue of bursts.
 //

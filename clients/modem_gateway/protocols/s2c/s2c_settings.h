@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The commands of an EvoLogics modem that set, ask and reset: !, @, ?, &, Z, I and the like.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // UnetStack gateway: JSON lines of fjage, agents node, arp, phy, ranging and uwlink.
 //
 // A frame's protocol number goes in its header. Frames are sent one after the other; up to 16 wait. With `reliability` a frame is

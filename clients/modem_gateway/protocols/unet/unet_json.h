@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Messages of fjage as JSON: envelopes, arrays of bytes.
 #pragma once
 

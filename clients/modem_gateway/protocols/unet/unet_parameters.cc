@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "clients/modem_gateway/protocols/unet/unet_parameters.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The parameters of the agents node and phy, and what they stand for.
 #pragma once
 

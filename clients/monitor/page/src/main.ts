@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import "./theme.css";
 import { mount } from "svelte";
 import App from "./App.svelte";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The monitor's protocol, version 1: what ../../README.md states, as types, and the decoding of binary messages.
 
 export const PROTOCOL_VERSION = 1;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the page says when something is missing. The server's words are made up here; only the page itself is fetched.
 import type { Page, WebSocketRoute } from "@playwright/test";
 import { expect, test } from "./fixtures";

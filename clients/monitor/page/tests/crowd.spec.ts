@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // 100 vehicles at 10 Hz with packets under way: 30 frames a second, or the page says what it leaves out. The server is made up.
 import { chart, expect, test } from "./fixtures";
 import { COLLIDED, RECEIVED, hello, mission, state, vehicle } from "./made_up";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pictures of the views for the documentation: node tests/draw_pictures.mjs SEAMOUNT_URL HARBOUR_URL FOLDER
 import { join } from "node:path";
 import { chromium } from "@playwright/test";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the tests of the page share: pages without errors in their consoles, and programs that end with the tests.
 import { type ChildProcess, spawn } from "node:child_process";
 import { once } from "node:events";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether others understand the programs: node tests/interoperate.mjs BIN_FOLDER LOG
 // halocline log export --format mcap is read back by @mcap/core; halocline-monitor is a server for @foxglove/ws-protocol.
 import assert from "node:assert/strict";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The page beside a real run on a bus, whose services end and begin again. scripts/monitor_test gives the tests a network of their own.
 import type { ChildProcess } from "node:child_process";
 import type { Page } from "@playwright/test";

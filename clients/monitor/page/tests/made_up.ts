@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A server that is made up: its messages as the page gets them when all is well. Tests change what they are about.
 import type { Hello, Mission, OutcomeKind, ServerState, VehicleInfo } from "../src/protocol";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The page as a visitor uses it, on a log of scenarios/harbour.toml.
 import type { Page } from "@playwright/test";
 import { Programs, chart, expect, log, seconds, test, vehicle, vehicles } from "./fixtures";

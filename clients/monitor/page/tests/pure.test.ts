@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 import { describe, expect, it } from "vitest";
 import { squareAround } from "../src/chart/framing";
 import { depthAt, depthRange, exaggeration } from "../src/chart/ground";

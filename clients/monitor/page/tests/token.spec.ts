@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A monitor at an address that others reach: without its token there is a page that says so, and nothing else. scripts/monitor_test
 // gives the tests that address.
 import { Programs, chart, expect, log, test, vehicles } from "./fixtures";

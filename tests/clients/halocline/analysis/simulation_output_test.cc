@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What of a log is simulation output: two logs of the same output give the same file, others do not.
 #include "clients/halocline/analysis/simulation_output.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every row of every reference table through the calculator, text in and text out, as a person uses it.
 #include <cmath>
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Maps as those who read them see them: GDAL, netCDF.
 #include "clients/halocline/coverage/coverage_files.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Maps of coverage against the links they are made of.
 #include "clients/halocline/coverage/coverage.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether a page is well-formed as XML: every element closed in order, attributes quoted, no stray markup.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Each check of sense: a scenario that breaks it, and one beside it that does not.
 #include <filesystem>
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Waveforms through whole scenarios, against the link's own numbers.
 #include "clients/halocline/waveform/received_waveform.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The JavaScript gateway of fjage against two UnetStack doors of a running simulation: ports in HALOCLINE_DOORS ("1101 1102"), the vehicles
 // HALOCLINE_RANGE_M apart in water of 1500 m/s. scripts/door_test runs it.
 import assert from 'node:assert/strict';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the chart shows at first: the square that holds all places given, not larger than the terrain and not much smaller.
 
 export interface Square {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The seabed of a terrain tile as it is drawn: a mesh, its picture (depth colours under a hill-shade from the north-west), contours.
 // Drawing space: x east, y up (depth times the exaggeration), z south, metres.
 import { contours } from "d3-contour";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What moves on the chart: vehicles, their trails, wavefronts.
 import type { Step } from "../parts/shedding";
 import type { Packet, VehicleInfo } from "../protocol";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The chart in 3-D: camera, seabed and contours. These are drawn again only when the camera or the ground changed; whatever moves is
 // drawn by overlay.ts above them. So a computer without a graphics processor keeps up as well. Drawing space as in ground.ts.
 import {

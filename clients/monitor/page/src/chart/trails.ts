@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where each vehicle has been lately.
 import type { Track } from "../protocol";
 import type { Instant } from "../store/frame_clock";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Numbers as they are shown.
 
 /** With a true minus and narrow spaces between thousands; a dash for what does not exist. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The time line of packets on a canvas: a lane a vehicle, what it sends above, what arrives at it below. `hits` holds what lies where.
 import type { Outcome, OutcomeKind, Packet, VehicleInfo } from "../protocol";
 import { clock } from "./format";

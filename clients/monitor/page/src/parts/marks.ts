@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The marks of outcomes, alike in every view: as SVG paths in a box of -1..1, drawn on a canvas or in SVG.
 import type { Mark } from "../protocol";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Paths of sound as they are named and coloured: by the number of their bounces.
 import type { SoundPath } from "../protocol";
 import { degrees, number } from "./format";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Colours for numbers. Depth: cmocean's "deep"; diverging: orange to blue through a neutral centre, told apart by colour-blind eyes.
 import type { LinkColumn } from "../protocol";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is left out of the chart so that it keeps moving on a slow computer: one step more whenever frames took too long for two
 // seconds, one step back after six quick ones, later with more patience.
 

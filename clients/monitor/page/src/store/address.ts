@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of the URL after #: view, instant and selection, so that a link shows what its sender saw.
 //
 //   #time-line?t=61.2&vehicle=auv-1&packet=1.17.3.0&at=auv-2&link=auv-1~auv-2&column=snr_db

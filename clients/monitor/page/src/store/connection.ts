@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The WebSocket: requests with their answers, and opening it again with growing pauses when it closes.
 import { type Asks, type ServerBinary, type ServerText, SUBPROTOCOL, decodeBinary } from "../protocol";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Frames come at most 20 a second and unevenly; this is where everything is at any instant between two of them. What is shown lags
 // by one frame.
 import type { VehicleFrame } from "../protocol";

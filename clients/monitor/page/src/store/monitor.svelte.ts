@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The one store: what was received, what is selected, what is shown. Views read it; only it speaks to the server.
 import { SvelteMap } from "svelte/reactivity";
 import {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The packets that were received from the server, in the order of their departure.
 import type { Packet } from "../protocol";
 
