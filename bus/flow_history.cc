@@ -39,6 +39,30 @@ void FlowHistory::forget_oldest_message() {
   ++first_place_;
 }
 
+// The oldest message becomes the latest.
+void FlowHistory::renew_oldest_message() {
+  Message oldest = std::move(messages_.front());
+  messages_.pop_front();
+  ++first_place_;
+  oldest.flow->places[oldest.sequence] = first_place_ + messages_.size();
+  messages_.push_back(std::move(oldest));
+}
+
+void FlowHistory::forget_old(SimTime steady) {
+  constexpr SimDuration kBetweenMarks = SimDuration::from_milliseconds(1000);
+  if (!marks_.empty() && steady < marks_.back().steady + kBetweenMarks) return;
+  marks_.push_back({steady, first_place_ + messages_.size()});
+  for (; marks_.front().steady + kMaxAge <= steady; marks_.pop_front()) {
+    while (first_place_ < marks_.front().place) {
+      const Message& oldest = messages_.front();
+      if (oldest.flow != flows_.end() && oldest.sequence == oldest.flow->flow.last)
+        renew_oldest_message();
+      else
+        forget_oldest_message();
+    }
+  }
+}
+
 void FlowHistory::forget_oldest_flow() {
   const Kept& oldest = flows_.front();
   for (const auto& [sequence, place] : oldest.places) {

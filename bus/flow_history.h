@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Retransmission buffer of one publisher: its latest messages by flow and sequence number, from which repair
-// requests are answered. Bounded: the oldest messages of all flows make room, then the flow published on longest ago.
+// requests are answered. Bounded: the oldest messages of all flows make room, then the flow published on longest ago; of messages older
+// than kMaxAge only the last of each flow is kept.
 #pragma once
 
 #include <cstddef>
@@ -27,6 +28,8 @@ class FlowHistory {
   static constexpr std::size_t kMaxListed = 500;
   // A message is answered at most once in this: as long as its receivers wait before they request it again (flow_watch.h).
   static constexpr SimDuration kAnswerInterval = SimDuration::from_milliseconds(40);
+  // Much longer than any receiver requests a message (flow_watch.h), so that a node's memory settles within it.
+  static constexpr SimDuration kMaxAge = SimDuration::from_milliseconds(120'000);
   // `max_bytes` of messages are kept, and the last message whatever its size.
   explicit FlowHistory(std::size_t max_bytes) : max_bytes_(max_bytes) {}
   FlowHistory(const FlowHistory&) = delete;
@@ -34,6 +37,8 @@ class FlowHistory {
 
   // A message of the flow (channel, session) was published. One with a number that is kept already changes nothing.
   void keep(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message);
+  // Forgets what was kept more than kMaxAge ago, to a second; to be called every now and then. `steady` never decreases.
+  void forget_old(SimTime steady);
   // Whether a requested message is to be answered: it is kept, not wanted already, and was not answered within kAnswerInterval. It is
   // wanted then.
   bool want(std::string_view channel, std::int64_t session, std::int64_t sequence, SimTime steady);
@@ -50,6 +55,7 @@ class FlowHistory {
   // message of a flow says more than a listing: first those listed the fewest times since their last message, then those silent longest.
   std::vector<Flow> take_listing();
   std::size_t num_flows() const { return flows_.size(); }
+  std::size_t num_messages() const { return messages_.size(); }
 
   // How many messages were published so far.
   std::uint64_t published() const { return published_; }
@@ -87,6 +93,7 @@ class FlowHistory {
   const Message* find(const Kept& kept, std::int64_t sequence) const;
   Message* find_message(std::string_view channel, std::int64_t session, std::int64_t sequence);
   void forget_oldest_message();
+  void renew_oldest_message();
   void forget_oldest_flow();
 
   std::size_t max_bytes_, bytes_ = 0;
@@ -94,6 +101,11 @@ class FlowHistory {
   Flows flows_;
   std::unordered_map<FlowName, Flows::iterator, HashOfName> by_name_;
   std::deque<Message> messages_;
+  struct Mark {
+    SimTime steady;
+    std::uint64_t place = 0;  // of the first message kept after it
+  };
+  std::deque<Mark> marks_;  // at least a second apart
 };
 
 }  // namespace halocline::bus

@@ -52,6 +52,7 @@ bool FlowRepair::is_known(SimTime steady, std::int64_t session) {
 flow_heartbeat_t FlowRepair::take_heartbeat(SimTime sim, SimTime steady) {
   if (next_heartbeat_ == SimTime::at_once()) began_ = steady;
   next_heartbeat_ = steady + kHeartbeatPeriod;
+  history_.forget_old(steady);
   flow_heartbeat_t heartbeat{};
   heartbeat.utime = sim.to_utime();
   heartbeat.session = session_;

@@ -39,6 +39,51 @@ TEST(FlowHistory, AMessageBeyondTheBoundIsKeptAlone) {
   EXPECT_NE(history.find("A", 1, 1), nullptr);
 }
 
+TEST(FlowHistory, OfOldMessagesTheLastOfEachFlowIsKept) {
+  FlowHistory history(1 << 20);
+  constexpr std::int64_t kAge = FlowHistory::kMaxAge.nanoseconds() / 1'000'000'000;
+  history.keep("QUIET", 1, 4, {1, 2});
+  for (std::int64_t t = 0; t < 10 * kAge; ++t) {  // ten messages a second
+    for (std::int64_t i = 0; i < 10; ++i) history.keep("BUSY", 1, 10 * t + i, message_of(10));
+    history.forget_old(SimTime::from_seconds(static_cast<double>(t)));
+    ASSERT_LE(history.num_messages(), static_cast<std::size_t>(10 * (kAge + 2) + 1)) << t;
+    for (const std::int64_t age : {std::int64_t{0}, kAge - 2}) {
+      EXPECT_EQ(history.find("BUSY", 1, 10 * (t - age)) != nullptr, t >= age)
+          << t << " s, of " << age << " s ago";
+    }
+    EXPECT_EQ(history.find("BUSY", 1, 10 * (t - kAge - 2)), nullptr) << t;
+    ASSERT_NE(history.find("QUIET", 1, 4), nullptr) << t;
+  }
+  EXPECT_EQ(*history.find("QUIET", 1, 4), (Bytes{1, 2}));
+  ASSERT_EQ(history.last_messages().size(), 2u);
+  EXPECT_EQ(*history.last_messages().front().message, (Bytes{1, 2}));
+}
+
+TEST(FlowHistory, TheLastMessageOfAFlowIsForgottenOnceItIsNotTheLast) {
+  FlowHistory history(1 << 20);
+  const auto at = [](int minutes) { return SimTime::from_seconds(60.0 * minutes); };
+  history.keep("A", 1, 0, message_of(10));
+  for (int minute = 0; minute < 6; ++minute) history.forget_old(at(minute));
+  ASSERT_NE(history.find("A", 1, 0), nullptr);
+  history.keep("A", 1, 1, message_of(10));
+  for (int minute = 6; minute < 12; ++minute) history.forget_old(at(minute));
+  EXPECT_EQ(history.find("A", 1, 0), nullptr);
+  EXPECT_NE(history.find("A", 1, 1), nullptr);
+  EXPECT_EQ(history.num_messages(), 1u);
+}
+
+TEST(FlowHistory, AForgottenFlowAndItsOldMessagesGoTogether) {
+  FlowHistory history(1 << 20);
+  history.keep("OLD", 1, 0, message_of(10));
+  history.forget_old(SimTime::from_seconds(0));
+  for (std::size_t i = 0; i < FlowHistory::kMaxFlows; ++i)
+    history.keep("FLOW." + std::to_string(i), 1, 0, message_of(1));
+  history.forget_old(SimTime::from_seconds(300));
+  history.forget_old(SimTime::from_seconds(600));
+  EXPECT_EQ(history.find("OLD", 1, 0), nullptr);
+  EXPECT_EQ(history.num_messages(), FlowHistory::kMaxFlows);
+}
+
 TEST(FlowHistory, ListsTheLastNumberOfEachFlowEvenWhenItsMessagesAreGone) {
   FlowHistory history(10);
   history.keep("A", 1, 3, message_of(10));
