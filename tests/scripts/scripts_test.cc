@@ -103,8 +103,9 @@ TEST(Scripts, HelpIsTheFirstCommentOfEachAndStartsNothing) {
     if (entry.is_directory()) continue;  // modules of a script
     const std::string path = entry.path().string();
     std::ifstream file(path);
-    std::string interpreter, first;
+    std::string interpreter, licence, first;
     std::getline(file, interpreter);
+    std::getline(file, licence);
     std::getline(file, first);
     const bool python = interpreter.ends_with("python3");
     const std::string expected =
