@@ -4,11 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "core/check.h"
 #include "core/units.h"
@@ -21,8 +24,10 @@
 namespace halocline::ocean {
 namespace {
 
-constexpr double kMostValues = 1e8;  // of a variable, 0.4 GB
-constexpr double kKelvin = 273.15;   // of 0 degC
+constexpr double kMostValues = 1e8;             // of a variable, 0.4 GB
+constexpr double kMostValuesOfAByte = 300;      // deflate packs 1032 bytes into one; more were never written
+constexpr std::size_t kMostPlaces = 1'000'000;  // of an axis
+constexpr double kKelvin = 273.15;              // of 0 degC
 
 using Names = std::vector<std::string_view>;
 
@@ -143,7 +148,10 @@ class Axes {
 
  private:
   Axis read(const std::string& name) const {
-    Axis axis{name, file_.values(name, 0, file_.length_of(name))};
+    const std::size_t length = file_.length_of(name);
+    if (length > kMostPlaces)
+      file_.refuse(name, "has " + std::to_string(length) + " values; allowed are 1000000");
+    Axis axis{name, file_.values(name, 0, length)};
     if (kind_of(file_, name) == AxisKind::kDepth) {
       unit_of(file_, name, kDepthUnits);
       const bool is_up = file_.text(name, "positive") == "up";
@@ -265,9 +273,10 @@ OceanField* read_field(const FieldQuery& query) {
   const NetcdfFile file(query.path);
   const Found found = find_all(file);
   const Axes axes(file, found.east ? *found.east : *found.salinity);
-  require(axes.points() <= kMostValues, query.path + ": has " +
-                                            std::to_string(static_cast<long>(axes.points())) +
-                                            " values a variable; allowed are 100000000: cut out a region");
+  const auto bytes = std::filesystem::file_size(query.path);
+  require(axes.points() <= std::min(kMostValues, kMostValuesOfAByte * static_cast<double>(bytes)),
+          query.path + ": has " + fmt::format("{:.0f}", axes.points()) + " values a variable in " +
+              std::to_string(bytes) + " bytes; allowed are 100000000, and 300 a byte: cut out a region");
   OceanGrid grid;
   set_times(file, axes, query.start_date, grid);
   grid.depths_m = rising(axes.at(AxisKind::kDepth));

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netcdf.h>
 #include <unistd.h>
@@ -21,6 +24,7 @@
 namespace halocline::ocean {
 namespace {
 
+using ::testing::HasSubstr;
 using testing::tolerance;
 
 constexpr GeodeticOrigin kOrigin{to_radians(40), to_radians(-50)};
@@ -217,6 +221,47 @@ TEST(OceanFieldReader, NamesFileVariableAndWhatIsAllowed) {
       refusal(file, "elsewhere").find("latitude of the scenario's origin is 40 deg; allowed is 50 to 52 deg"),
       std::string::npos);
   EXPECT_THROW(read_ocean_field({"/nonexistent.nc", "", kOrigin}), InvalidArgument);
+}
+
+// A header may claim any size: that of a file of 4 kB is refused before memory is asked for.
+TEST(OceanFieldReader, RefusesMoreValuesThanAFileCanHold) {
+  const auto claimed = [](std::size_t longitudes, std::size_t depths) {
+    const std::string path = ::testing::TempDir() + "claims.nc";
+    int file = 0, ids[4], on[4];
+    good(nc_create(path.c_str(), NC_CLOBBER | NC_NETCDF4, &file));
+    const std::vector<std::pair<std::string, std::size_t>> axes{
+        {"time", 1}, {"depth", depths}, {"lat", 500}, {"lon", longitudes}};
+    const std::vector<std::string> units{"hours since 2026-05-01 00:00:00", "m", "degrees_north",
+                                         "degrees_east"};
+    for (int i = 0; i < 4; ++i) {
+      good(nc_def_dim(file, axes[i].first.c_str(), axes[i].second, &ids[i]));
+      good(nc_def_var(file, axes[i].first.c_str(), NC_DOUBLE, 1, &ids[i], &on[i]));
+      good(nc_def_var_deflate(file, on[i], 1, 1, 1));
+      put_text(file, on[i], "units", units[i]);
+      if (i == 1) put_text(file, on[i], "positive", "down");
+      if (axes[i].second > 1000) continue;
+      std::vector<double> rising(axes[i].second);
+      std::iota(rising.begin(), rising.end(), 0.0);
+      good(nc_put_var_double(file, on[i], rising.data()));
+    }
+    for (const std::string name : {"water_u", "water_v"}) {
+      int id = 0;
+      good(nc_def_var(file, name.c_str(), NC_FLOAT, 4, ids, &id));
+      good(nc_def_var_deflate(file, id, 1, 1, 1));
+      put_text(file, id, "units", "m/s");
+    }
+    good(nc_close(file));
+    try {
+      read_ocean_field({path, "", kOrigin});
+    } catch (const InvalidArgument& error) {
+      return std::string(error.what());
+    }
+    return std::string("it was read");
+  };
+  EXPECT_THAT(claimed(4'000'000'000, 10), HasSubstr("lon: has 4000000000 values; allowed are 1000000"));
+  EXPECT_THAT(claimed(1000, 100), HasSubstr("claims.nc: has 50000000 values a variable in "));
+  EXPECT_THAT(claimed(1000, 100), HasSubstr("allowed are 100000000, and 300 a byte: cut out a region"));
+  EXPECT_THAT(claimed(1000, 900), HasSubstr("claims.nc: has 450000000 values a variable in "));
 }
 
 TEST(OceanFieldReader, ReadsCurrentsAlone) {
