@@ -147,8 +147,6 @@ std::string problem_between_fields(const modem_send_t& m) {
   const bool is_ping = m.packet_kind == modem_send_t::PING;
   if (m.packet_kind == modem_send_t::PING_REPLY || m.packet_kind == modem_send_t::ACK)
     return "packet_kind is one that modems make by themselves";
-  if (is_ping && m.destination_id == kBroadcastId)
-    return "destination_id is 0 for all; a PING goes to one vehicle";
   if (m.wants_ack != 0 && m.destination_id == kBroadcastId)
     return "destination_id is 0 for all; wants_ack goes to one vehicle";
   if (m.wants_ack != 0 && is_ping) return "wants_ack is 1 of a PING, which is answered by a PING_REPLY";

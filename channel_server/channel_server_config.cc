@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/packets/extra_loss.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_power.h"
 #include "core/check.h"
 
@@ -83,6 +85,8 @@ void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicl
   }
   v.boolean("has_modem", vehicle.carries_modem,
             "false: a ship or a jammer, which sends and receives nothing");
+  v.boolean("transponder", vehicle.is_transponder,
+            "its modem answers pings to all, of long-baseline ranging");
   vehicle.has_modem = v.given("modem");
   if (!vehicle.has_modem) return;
   if (vehicle.modem == VehicleModem()) vehicle.modem = standard;
@@ -217,9 +221,11 @@ ConfiguredModems make_modems(const ChannelServerConfig& config) {
 VehicleEquipment make_equipment(const ChannelServerConfig& config, const bus::Scenario& scenario) {
   std::vector<ClockOf> clocks;
   std::vector<NoiseOf> noise;
+  std::set<VehicleId> transponders;
   for (const auto& vehicle : config.vehicles) {
     const bus::VehicleEntry* entry = scenario.find(vehicle.name);
     if (entry == nullptr) continue;
+    if (vehicle.is_transponder) transponders.insert(entry->id);
     if (vehicle.clock) clocks.push_back({vehicle.name, entry->id, *vehicle.clock});
     if (vehicle.noise) {
       noise.push_back(*vehicle.noise);
@@ -234,7 +240,7 @@ VehicleEquipment make_equipment(const ChannelServerConfig& config, const bus::Sc
   }
   const SimDuration lag = config.rules.position.state_lag;
   return {VehicleClocks(clocks, scenario.seed, lag), VehiclePower(std::move(batteries), lag),
-          VehicleNoise(std::move(noise), lag)};
+          VehicleNoise(std::move(noise), lag), std::move(transponders)};
 }
 
 LinkPredictor make_predictor(const ServerRules& rules) {

@@ -132,6 +132,7 @@ struct ChannelServerConfig {
     bool has_modem = false;
     VehicleModem modem;
     bool carries_modem = true;  // false: a ship, a jammer
+    bool is_transponder = false;
     std::optional<ClockSettings> clock;
     std::optional<NoiseOf> noise;
   };

@@ -107,7 +107,8 @@ void evaluate_signals(Flight& first, std::vector<Flight*> soon, const acoustics:
                       std::uint64_t seed, const ForEach& for_each) {
   std::erase_if(soon, [](const Flight* flight) {
     return flight->is_evaluated || outcome_before_acquisition(*flight) != OutcomeKind::kReceived ||
-           is_shifted_too_far(*flight) || flight->sounds_at->followed_at(flight->signal.preamble_end);
+           is_shifted_too_far(*flight) ||
+           flight->sounds_at->followed_at(flight->signal.preamble_end, *flight->packet);
   });
   soon.push_back(&first);
   for_each(soon.size(), [&](std::size_t i) { evaluate_signal(*soon[i], fading, seed); });
@@ -192,9 +193,12 @@ void add_receiving(const Flight& flight, const PacketOutcome& outcome, SimTime a
   events.push_back({at, EnergyUse{flight.receiver, false, outcome.receive_energy_j, flight.packet->name()}});
 }
 
-bool asks_for_answer(const PacketOutcome& outcome) {
+bool asks_for_answer(const PacketOutcome& outcome, const VehicleEquipment& equipment) {
   const SendRequest& request = outcome.packet->request;
-  return outcome.deliver && request.destination_id == outcome.receiver_id && wants_answer(request);
+  const bool is_asked =
+      request.destination_id == outcome.receiver_id ||
+      (request.destination_id == kBroadcastId && equipment.transponders.contains(outcome.receiver_id));
+  return outcome.deliver && is_asked && wants_answer(request);
 }
 
 // The clock that gains g over the turnaround makes it g shorter (to the first order in its drift).

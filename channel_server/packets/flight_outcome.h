@@ -47,8 +47,9 @@ PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m);
 void add_sending(const Packet& packet, const VehiclePower& power, std::vector<MediumEvent>& events);
 void add_receiving(const Flight& flight, const PacketOutcome& outcome, SimTime at, const VehiclePower& power,
                    std::vector<MediumEvent>& events);
-// Whether the receiver's modem answers by itself: a ping, or a packet that wants an acknowledgement, received by its addressee.
-bool asks_for_answer(const PacketOutcome& outcome);
+// Whether the receiver's modem answers by itself: a ping, or a packet that wants an acknowledgement, received by its addressee; a ping
+// to all received by a transponder.
+bool asks_for_answer(const PacketOutcome& outcome, const VehicleEquipment& equipment);
 // The answer to a packet that was received by `at`: it leaves a turnaround later by the receiver's clock.
 ModemReply answer_of(const Flight& flight, SimTime at, const VehicleClocks& clocks);
 

@@ -24,9 +24,9 @@ namespace halocline::channel_server {
 // In the order of modem_send_t.
 enum class PacketKind {
   kData,
-  kPing,        // to one vehicle, whose modem answers by itself
-  kPingReply,   // that answer; carries session and packet_sequence of the ping
-  kAck,         // the answer to a packet that wants one, likewise; the payload says which frames were right
+  kPing,       // to one vehicle, whose modem answers by itself; to all: transponders do (vehicle_equipment.h)
+  kPingReply,  // that answer; carries session and packet_sequence of the ping
+  kAck,        // the answer to a packet that wants one, likewise; the payload says which frames were right
   kMiniPacket,  // a few bits
   kJanus,       // JANUS's baseline packet, without cargo
   kJanusCargo,  // the same with cargo
@@ -60,7 +60,7 @@ struct SendRequest {
   std::vector<std::int32_t> frame_bytes = {};    // of the payload's frames; none: as the modem divides it
 };
 
-// Whether the addressee's modem answers it by itself.
+// Whether modems answer it by themselves.
 inline bool wants_answer(const SendRequest& request) {
   return request.kind == PacketKind::kPing || request.wants_ack;
 }

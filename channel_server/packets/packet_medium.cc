@@ -276,7 +276,7 @@ void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEv
                              is_shifted_too_far(flight) ||
                              fleet_.sleeps_during(flight.receiver_id, signal.begin, signal.preamble_end) ||
                              !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
-  if (!is_impossible) flight.followed = receiver.followed_at(signal.preamble_end);
+  if (!is_impossible) flight.followed = receiver.followed_at(signal.preamble_end, *flight.packet);
   if (!is_impossible && !flight.followed) {
     if (!flight.is_evaluated)
       evaluate_signals(flight, flights_.due_by(at + kSoon, Flight::Stage::kPreamble), rule_.fading,
@@ -306,7 +306,7 @@ void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEven
   PacketOutcome outcome =
       outcome_of(flight, kind, fleet_.equipment(), fleet_.listening(flight.receiver_id, at).promiscuous);
   add_receiving(flight, outcome, at, power(), events);
-  const bool is_answered = asks_for_answer(outcome);
+  const bool is_answered = asks_for_answer(outcome, fleet_.equipment());
   ModemWatch::end(flight, at, kind, events);
   events.push_back({at, std::move(outcome)});
   if (is_answered) {

@@ -14,8 +14,8 @@
 // packet.h lists the possible outcomes and in which order the first that holds is found. A packet lasts
 // duration / doppler factor at a receiver. A modem that has acquired a packet follows it to its end, even if
 // weak or for another; what arrives meanwhile it does not acquire. A transmission of its own ends that, and every
-// reception it overlaps. A ping that its addressee received is answered kReplyTurnaround later, as is a packet that wants an
-// acknowledgement, unless that modem is busy then: the answer is a packet like any other.
+// reception it overlaps. A ping that its addressee received is answered kReplyTurnaround later, one to all by each transponder that
+// received it, as is a packet that wants an acknowledgement, unless that modem is busy then: the answer is a packet like any other.
 //
 // Repeatability. Decisions depend on the contents of states and requests, on the seed, and on instants of
 // simulation time, not on the order they were given in. Events are sorted by time, then receipts before

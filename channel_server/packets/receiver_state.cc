@@ -16,6 +16,15 @@ bool overlap(const PacketInterval& span, SimTime begin, SimTime end) {
   return begin < span.end && (span.begin < end || span.begin == begin);
 }
 
+// Whether both answer one ping to all. Each transponder has a frequency or a code of its own, for which receivers have a filter each:
+// such answers neither disturb nor displace one another.
+bool answer_one_ping(const Packet& a, const Packet& b) {
+  const SendRequest &one = a.request, &other = b.request;
+  return one.kind == PacketKind::kPingReply && other.kind == PacketKind::kPingReply &&
+         one.source_id != other.source_id && one.destination_id == other.destination_id &&
+         one.session == other.session && one.packet_sequence == other.packet_sequence;
+}
+
 }  // namespace
 
 bool ReceiverState::overlaps_decided(const PacketInterval& span, SimTime decided_by) const {
@@ -59,9 +68,10 @@ std::vector<PacketPointer> ReceiverState::transmitted_during(SimTime begin, SimT
   return packets;
 }
 
-std::shared_ptr<const Packet> ReceiverState::followed_at(SimTime instant) const {
+std::shared_ptr<const Packet> ReceiverState::followed_at(SimTime instant, const Packet& other) const {
   for (const Acquisition& acquisition : acquisitions_) {
     if (acquisition.instant > instant || acquisition.reception.end <= instant) continue;
+    if (answer_one_ping(*acquisition.reception.packet, other)) continue;
     const auto sends = [&](const PacketInterval& span) {
       return overlap(span, acquisition.reception.begin, instant);
     };
@@ -77,7 +87,8 @@ Interferers ReceiverState::interferers_of(const Packet& packet, SimTime begin, S
   auto sound = std::lower_bound(sounds_.begin(), sounds_.end(), begin - longest_,
                                 [](const AudiblePacket& h, SimTime time) { return h.begin < time; });
   for (; sound != sounds_.end() && sound->begin < end; ++sound) {
-    if (sound->end <= begin || sound->packet.get() == &packet) continue;
+    if (sound->end <= begin || sound->packet.get() == &packet || answer_one_ping(*sound->packet, packet))
+      continue;
     const double share = band_share(sound->packet->modem.band(), band);
     if (share == 0) continue;
     for (const AudiblePath& path : sound->paths) {

@@ -76,9 +76,11 @@ class ReceiverState {
 
   // What the receiver itself sends at any instant of [begin, end), by begin.
   std::vector<PacketPointer> transmitted_during(SimTime begin, SimTime end) const;
-  // The packet that the receiver follows at `instant`; null without one. A transmission of its own ends that.
-  std::shared_ptr<const Packet> followed_at(SimTime instant) const;
-  // All other packets than `packet` during [begin, end), in its band; those of no power in it left out.
+  // The packet that the receiver follows at `instant` and that keeps it from `other`; null without one. A transmission of its own
+  // ends that. Answers to one ping are followed beside each other.
+  std::shared_ptr<const Packet> followed_at(SimTime instant, const Packet& other) const;
+  // All packets that disturb `packet` during [begin, end), in its band: all others but answers to the ping that it answers; those of no
+  // power in it left out.
   Interferers interferers_of(const Packet& packet, SimTime begin, SimTime end) const;
 
   // Whether it transmits at `instant`, and until when; never() where it does not.

@@ -2,7 +2,10 @@
 // What vehicles carry besides their modems, as the scenario gives it, and what has become of it.
 #pragma once
 
+#include <set>
+
 #include "channel_server/vehicles/vehicle_clocks.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_noise.h"
 #include "channel_server/vehicles/vehicle_power.h"
 #include "core/sim_time.h"
@@ -13,6 +16,7 @@ struct VehicleEquipment {
   VehicleClocks clocks = {};
   VehiclePower power = {};
   VehicleNoise noise = {};
+  std::set<VehicleId> transponders = {};  // that answer pings to all
 
   // Drops what no instant at or after `time` needs.
   void forget_before(SimTime time) {

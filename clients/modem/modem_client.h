@@ -47,8 +47,8 @@ struct ModemAddress {
 
 // How a packet is sent.
 struct SendOptions {
-  std::int8_t kind =
-      modem_send_t::DATA;  // or PING: to one vehicle, whose modem answers with a PING_REPLY; MINI_PACKET ...
+  std::int8_t kind = modem_send_t::
+      DATA;  // or PING: to one vehicle, whose modem answers with a PING_REPLY, or to all, for transponders; MINI_PACKET ...
   bool stamped = true;     // carries the instant of its departure: the receiver computes the delay
   bool wants_ack = false;  // to one vehicle, whose modem answers with an ACK; not for a PING
   std::optional<std::int32_t> rate_number = {};  // of a rate of the modem, 0..255; none: its own

@@ -188,12 +188,17 @@ TEST(MessageChecks, FramesTogetherAreThePayloadOfData) {
   EXPECT_NE(with_frames({1, 2}, modem_send_t::JANUS_CARGO), "");
 }
 
-TEST(MessageChecks, APingGoesToOneVehicle) {
-  EXPECT_NE(problem_after<modem_send_t>([](auto& m) {
-              m.destination_id = 0;
-              m.packet_kind = modem_send_t::PING;
-            }),
-            "");
+TEST(MessageChecks, APingGoesToOneVehicleOrToAll) {
+  for (const std::int32_t destination : {0, 2}) {
+    EXPECT_EQ(problem_after<modem_send_t>([&](auto& m) {
+                m.destination_id = destination;
+                m.packet_kind = modem_send_t::PING;
+                m.wants_ack = 0;
+                m.num_frames = 0;
+                m.frame_bytes.clear();
+              }),
+              "");
+  }
 }
 
 TEST(MessageChecks, RefusesAClientNameThatNoChannelMayHave) {

@@ -220,9 +220,9 @@ class Nm3 : public Protocol {
     const bool is_ping = command.letter == 'P';
     port_.write(client, is_ping ? fmt::format("$P{:03}\r\n", command.address)
                                 : fmt::format("$M{:03}{:02}\r\n", command.address, command.data.size()));
-    const auto sequence = send(
-        command, destination,
-        is_ping ? clients::SendOptions{.kind = modem_send_t::PING} : clients::SendOptions{.wants_ack = true});
+    const clients::SendOptions options =
+        is_ping ? clients::SendOptions{.kind = modem_send_t::PING} : clients::SendOptions{.wants_ack = true};
+    const auto sequence = destination == kBroadcastId ? kNotSent : send(command, destination, options);
     const SimTime start = std::max(port_.now(), command.at.value_or(SimTime()));
     waiting_ = {sequence, command.address, start + kReplyWithin};
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Modems that queue, and modems that answer pings.
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -18,6 +19,7 @@
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/frames.h"
+#include "core/names.h"
 #include "core/sim_time.h"
 #include "tests/channel_server/scripted_water.h"
 #include "tests/support/tolerance.h"
@@ -209,6 +211,60 @@ TEST_F(PingTest, APingThatWasLostIsNotAnswered) {
   fleet_.announce_modem("v2", at_s(0), insensitive, at_s(0));
   ping(1, 2, 10, 5);
   EXPECT_TRUE(replies_in(run()).empty());
+}
+
+// Transponders 11 to 14 at four ranges of vehicle 1; 2 and 3 are none.
+class TransponderTest : public PingTest {
+ protected:
+  static constexpr double kRangesM[] = {1000, 1060, 1130, 2000};
+
+  TransponderTest() {
+    for (VehicleId id = 11; id <= 14; ++id) {
+      const double angle = id;
+      testing::move_steadily(fleet_, id,
+                             place_of(1) + range_m(id) * Vec3(std::cos(angle), std::sin(angle), 0),
+                             Vec3::Zero(), 0, 60);
+      fleet_.equipment().transponders.insert(id);
+    }
+  }
+  static double range_m(VehicleId id) { return kRangesM[id - 11]; }
+  std::vector<PacketOutcome> answers_at(VehicleId receiver, VehicleId asked) {
+    ping(receiver, asked, 10, 5);
+    std::vector<PacketOutcome> answers = replies_in(run());
+    std::erase_if(answers, [&](const PacketOutcome& answer) { return answer.receiver_id != receiver; });
+    return answers;
+  }
+};
+
+// Each answer takes 0.2 s: the second begins 0.08 s after the first, the third 0.09 s after that.
+TEST_F(TransponderTest, OnePingToAllIsAnsweredByEachTransponderAndNoAnswerHidesAnother) {
+  const auto answers = answers_at(1, kBroadcastId);
+  ASSERT_EQ(answers.size(), 4u);
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const auto source = static_cast<VehicleId>(11 + i);
+    EXPECT_EQ(answers[i].packet->request.source_id, source);
+    EXPECT_EQ(answers[i].kind, OutcomeKind::kReceived) << source;
+    EXPECT_TRUE(answers[i].deliver);
+    EXPECT_TRUE(answers[i].statistics.colliders.empty());
+    // Three roundings to a nanosecond.
+    EXPECT_NEAR(answers[i].two_way_travel_time_s, 2 * range_m(source) / kSpeedMps, tolerance(3e-9));
+  }
+}
+
+TEST_F(TransponderTest, AnotherPacketHidesAnAnswerAsItHidesAny) {
+  const double answer_s = 10 + 2 * range_m(11) / kSpeedMps + 0.3;
+  const double way_s = (place_of(2) - place_of(1)).norm() / kSpeedMps;
+  send(2, answer_s - way_s - 0.21, 0, 30);  // 0.5 s, acquired just before the first answer begins
+  const auto answers = answers_at(1, kBroadcastId);
+  ASSERT_EQ(answers.size(), 4u);
+  EXPECT_EQ(answers[0].kind, OutcomeKind::kCollided);
+  EXPECT_EQ(answers[3].kind, OutcomeKind::kReceived);
+}
+
+TEST_F(TransponderTest, APingToOneIsAnsweredByThatOneAlone) {
+  const auto answers = answers_at(1, 3);
+  ASSERT_EQ(answers.size(), 1u);
+  EXPECT_EQ(answers[0].packet->request.source_id, 3);
 }
 
 // Both keep no session and count alike; the answers are two packets all the same.

@@ -45,18 +45,20 @@ TEST(ReceiverState, AnAcquiredPacketIsFollowedToItsEnd) {
   ReceiverState receiver(for_s(10));
   const auto packet = packet_of(1, 0);
   receiver.acquire({packet, at_s(10), at_s(12)}, at_s(10.5));
-  EXPECT_EQ(receiver.followed_at(at_s(10.4)), nullptr);
-  EXPECT_EQ(receiver.followed_at(at_s(10.5)), packet);
-  EXPECT_EQ(receiver.followed_at(at_s(11.9)), packet);
-  EXPECT_EQ(receiver.followed_at(at_s(12)), nullptr);
+  const Packet other = *packet_of(9, 0);
+  EXPECT_EQ(receiver.followed_at(at_s(10.4), other), nullptr);
+  EXPECT_EQ(receiver.followed_at(at_s(10.5), other), packet);
+  EXPECT_EQ(receiver.followed_at(at_s(11.9), other), packet);
+  EXPECT_EQ(receiver.followed_at(at_s(12), other), nullptr);
 }
 
 TEST(ReceiverState, ATransmissionEndsAReception) {
   ReceiverState receiver(for_s(10));
   receiver.acquire({packet_of(1, 0), at_s(10), at_s(12)}, at_s(10.5));
   receiver.transmit({packet_of(2, 0), at_s(11), at_s(11.1)});
-  EXPECT_NE(receiver.followed_at(at_s(10.9)), nullptr);
-  EXPECT_EQ(receiver.followed_at(at_s(11.5)), nullptr);
+  const Packet other = *packet_of(9, 0);
+  EXPECT_NE(receiver.followed_at(at_s(10.9), other), nullptr);
+  EXPECT_EQ(receiver.followed_at(at_s(11.5), other), nullptr);
 }
 
 TEST(ReceiverState, OwnTransmissionsComeInTheOrderOfTheirStarts) {

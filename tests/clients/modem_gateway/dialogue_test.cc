@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two Micromodems, two EvoLogics modems and a transponder in quiet water without losses: what hosts write at one end, and read at the other.
+#include <algorithm>
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "clients/modem_gateway/protocols/fields.h"
 #include "tests/clients/modem_gateway/door_dialogue.h"
 
 namespace halocline::modem_gateway {
@@ -13,6 +17,7 @@ namespace {
 
 using testing::has_in_turn;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // 1500 m/s: 1000 m are 0.6667 s, 750 m 0.5 s.
 class Dialogue : public ::testing::Test, public testing::DoorDialogue {
@@ -20,7 +25,7 @@ class Dialogue : public ::testing::Test, public testing::DoorDialogue {
   Dialogue()
       : DoorDialogue({{"one", 1, "micromodem-psk-1", 0, 0, "micromodem", "lbl=3"},
                       {"two", 2, "micromodem-psk-1", 1000, 0, "micromodem"},
-                      {"transponder", 3, "micromodem-psk-1", 0, 750, ""},
+                      {"transponder", 3, "micromodem-psk-1", 0, 750, "", "", testing::kTransponder},
                       {"four", 4, "s2c-im", 0, 300, "evologics"},
                       {"five", 5, "s2c-im", 750, 300, "evologics"}}) {}
 };
@@ -41,6 +46,41 @@ TEST_F(Dialogue, ATransponderAnswersWithItsTravelTime) {
   EXPECT_THAT(heard[0], has_in_turn({"$SNPDT,1,1,0,0,3000,1,0,0,0*", "$SNTTA,0.5000,,,,"}));
   say(0, "$CCPNT,9000,5,5,3000,9500,0,0,0,1\r\n", 6);
   EXPECT_THAT(heard[0], has_in_turn({"$SNPNT,9000,", "$SNTTA,0.5000,,,,"}));
+}
+
+// Four at unequal ranges, and a modem that is none. Answers of more than half a second overlap.
+TEST(LongBaseline, FourTranspondersAnswerOnePingAndEachHasItsTravelTime) {
+  std::vector<testing::DoorVehicle> fleet{
+      {"auv", 1, "micromodem-psk-1", 0, 0, "micromodem", "lbl=11/12/13/14"},
+      {"other", 2, "micromodem-psk-1", 200, 200, "micromodem"}};
+  const double ranges_m[] = {1000, 431.7, 1013.3, 777.7};
+  for (int i = 0; i < 4; ++i)
+    fleet.push_back({"t" + std::to_string(i), 11 + i, "micromodem-psk-1", i % 2 == 0 ? ranges_m[i] : 0,
+                     i % 2 == 0 ? 0 : ranges_m[i], "", "", testing::kTransponder});
+  testing::DoorDialogue lbl(fleet);
+  for (const auto* command : {"$CCPDT,1,1,0,0,3000,1,1,1,1\r\n", "$CCPNT,9000,5,5,3000,1,1,1,1,1\r\n"}) {
+    lbl.mission.outcomes.clear();
+    lbl.say(0, command, 8);
+    const std::size_t at = lbl.heard[0].find("$SNTTA,");
+    ASSERT_NE(at, std::string::npos) << lbl.heard[0];
+    const auto times = fields_of(std::string_view(lbl.heard[0]).substr(at), ',');
+    int answers = 0;
+    std::vector<double> begins_s;
+    for (const packet_outcome_t& outcome : lbl.mission.outcomes) {
+      if (outcome.packet_kind != modem_receive_t::PING_REPLY || outcome.receiver_id != 1) continue;
+      ++answers;
+      begins_s.push_back(1e-6 * static_cast<double>(outcome.departure_utime) + outcome.travel_time_s);
+      const auto place = static_cast<std::size_t>(outcome.source_id - 11);
+      EXPECT_EQ(outcome.outcome, packet_outcome_t::RECEIVED);
+      EXPECT_NEAR(number_in(times.at(1 + place), 0, 10).value_or(-1), outcome.travel_time_s, 1e-4);
+      EXPECT_NEAR(outcome.travel_time_s, ranges_m[place] / 1500, 1e-6);
+    }
+    EXPECT_EQ(answers, 4);
+    EXPECT_LT(*std::max_element(begins_s.begin(), begins_s.end()) -
+                  *std::min_element(begins_s.begin(), begins_s.end()),
+              1);
+    EXPECT_THAT(lbl.heard[1], Not(HasSubstr("CAMPA")));
+  }
 }
 
 TEST_F(Dialogue, AFlexiblePacketOf100BytesArrivesWholeAndIsAcknowledged) {
@@ -111,6 +151,32 @@ TEST_F(Dialogue, InstantMessagesOfEveryKindArriveAsWhatTheyAre) {
   EXPECT_THAT(heard[3], has_in_turn({"RECV,4,4,5,", ",500000,0.0000,abcd\r\n"}));  // 750 m
   say(3, "AT?P\n", 1);
   EXPECT_EQ(heard[3].substr(0, 11), "0 1000\n0 0\n");
+}
+
+// Three of ten packets are lost, data and acknowledgements: then a message is repeated, and none is reported twice.
+TEST(Repetitions, BurstsAndInstantMessagesThroughLossyWaterArriveOnceAndInTheirOrder) {
+  testing::DoorDialogue lossy(
+      {{"one", 1, "s2c-im", 0, 0, "evologics"}, {"two", 2, "s2c-im", 750, 0, "evologics"}}, 0.3);
+  std::string all;
+  for (char name = 'a'; name < 'k'; ++name) all += "AT*SEND,4,2,000" + std::string(1, name) + "\n";
+  lossy.say(0, "AT!RC9\n", 0.2);
+  lossy.say(0, all, 150);
+  EXPECT_THAT(lossy.heard[0], Not(HasSubstr("FAILED")));
+  std::size_t at = 0, received = 0;
+  std::vector<std::string> done, data;
+  for (int i = 0; i < 10; ++i) {
+    done.push_back("DELIVERED," + std::to_string(i + 1) + ",2\r\n");
+    data.push_back(",000" + std::string(1, static_cast<char>('a' + i)) + "\r\n");
+  }
+  EXPECT_THAT(lossy.heard[0], has_in_turn(done));
+  EXPECT_THAT(lossy.heard[1], has_in_turn(data));
+  while ((at = lossy.heard[1].find("RECV,", at)) != std::string::npos) ++received, ++at;
+  EXPECT_EQ(received, 10u);
+  const auto sent = std::count_if(
+      lossy.mission.outcomes.begin(), lossy.mission.outcomes.end(), [](const packet_outcome_t& outcome) {
+        return outcome.packet_kind == modem_receive_t::DATA && outcome.receiver_id == 2;
+      });
+  EXPECT_GT(sent, 10) << "nothing was repeated";
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ namespace halocline::modem_gateway::testing {
 
 class DoorDialogue {
  public:
-  // A host for each vehicle with a door, in their order.
-  explicit DoorDialogue(const std::vector<DoorVehicle>& vehicles) : mission(vehicles, 0) {
+  // A host for each vehicle with a door, in their order. `lost`: share of the packets.
+  explicit DoorDialogue(const std::vector<DoorVehicle>& vehicles, double lost = 0) : mission(vehicles, lost) {
     wait(1);
     std::size_t doors = 0;
     for (const DoorVehicle& vehicle : vehicles) doors += vehicle.kind.empty() ? 0 : 1;

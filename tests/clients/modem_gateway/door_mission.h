@@ -55,6 +55,9 @@ struct DoorVehicle {
   std::string more = {};     // keys of the vehicle, besides
 };
 
+// Key of a vehicle whose modem answers pings to all.
+inline constexpr const char* kTransponder = "transponder = true\n";
+
 class DoorMission {
  public:
   // `lost`: share of what would be received that is lost.

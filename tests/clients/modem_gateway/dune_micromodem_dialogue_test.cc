@@ -23,8 +23,8 @@ class DuneMicromodem : public ::testing::Test, public testing::DoorDialogue {
       : DoorDialogue(
             {{"console", 1, "micromodem-psk-1", 0, 0, "micromodem", "revision=0.94.0.00 lbl=3:26000/4:27000"},
              {"vehicle", 2, "micromodem-psk-1", 1000, 0, "micromodem", "revision=0.94.0.00"},
-             {"north", 3, "micromodem-psk-1", 0, 750, ""},
-             {"south", 4, "micromodem-psk-1", 0, -600, ""}}) {
+             {"north", 3, "micromodem-psk-1", 0, 750, "", "", testing::kTransponder},
+             {"south", 4, "micromodem-psk-1", 0, -600, "", "", testing::kTransponder}}) {
     for (const std::size_t host : {0, 1}) {
       say(host,
           "$CCCFG,SRC," + std::to_string(host + 1) + "\r\n$CCCFG,XST,0\r\n$CCCFG,CTO,10\r\n$CCCFG,TAT,20\r\n",

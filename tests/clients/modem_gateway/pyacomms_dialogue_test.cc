@@ -27,7 +27,7 @@ class Pyacomms : public ::testing::TestWithParam<const char*>, public testing::D
   Pyacomms()
       : DoorDialogue({{"one", 1, "micromodem-psk-1", 0, 0, "micromodem", GetParam()},
                       {"two", 2, "micromodem-psk-1", 1000, 0, "micromodem", GetParam()},
-                      {"transponder", 3, "micromodem-psk-1", 0, 750, ""}}) {}
+                      {"transponder", 3, "micromodem-psk-1", 0, 750, "", "", testing::kTransponder}}) {}
 
   bool is_newest() const { return std::string_view(GetParam()).find("revision=3") != std::string_view::npos; }
   void ask(std::size_t host, const std::string& body, double seconds) { say(host, nmea_line(body), seconds); }

@@ -74,11 +74,11 @@ void MicromodemCore::refuse(ClientId client, NmeaError error, std::string_view t
 }
 
 void MicromodemCore::refuse_argument(ClientId client, const NmeaSentence& sentence) const {
-  refuse(client, NmeaError::kArgument, "bad argument of " + std::string(sentence.id));
+  refuse(client, NmeaError::kArgument, "bad argument of " + sentence.id);
 }
 
 void MicromodemCore::echo(ClientId client, const NmeaSentence& sentence, std::string_view talker) const {
-  say(client, std::string(talker) + std::string(sentence.id.substr(2)) + sentence.all_fields());
+  say(client, std::string(talker) + sentence.id.substr(2) + sentence.all_fields());
 }
 
 }  // namespace halocline::modem_gateway

@@ -7,6 +7,7 @@
 
 #include "clients/modem_gateway/protocols/fields.h"
 #include "core/check.h"
+#include "core/names.h"
 
 namespace halocline::modem_gateway {
 namespace {
@@ -79,26 +80,12 @@ bool MicromodemLbl::obey(ClientId client, const NmeaSentence& sentence) {
     asked_[i] = named(sentence.field(ranging->first + i), i, ranging->by_code);
   const bool asks =
       std::any_of(asked_.begin(), asked_.end(), [](const auto& vehicle) { return vehicle.has_value(); });
-  if (asks) {
-    ask_from(0);
-    return true;
-  }
-  // Nobody answers: done after the time-out.
-  place_ = kTransponders - 1;
-  sequence_ = kNotSent;
-  until_ = core_.now() + timeout_;
+  // Where nobody answers it is done after the time-out.
+  sequence_ = asks ? core_.port().send(core_.now(), kBroadcastId, {},
+                                       {.kind = modem_send_t::PING, .stamped = false, .rate_number = 0})
+                   : kNotSent;
+  until_ = core_.now() + (asks ? kReceiptWithin : timeout_);
   return true;
-}
-
-void MicromodemLbl::ask_from(std::size_t place) {
-  for (place_ = place; place_ < kTransponders; ++place_) {
-    if (!asked_[place_]) continue;
-    sequence_ =
-        core_.port().send(core_.now(), *asked_[place_], {}, {.kind = modem_send_t::PING, .rate_number = 0});
-    until_ = core_.now() + kReceiptWithin;
-    return;
-  }
-  report();
 }
 
 bool MicromodemLbl::takes(const modem_receipt_t& receipt) {
@@ -113,21 +100,26 @@ bool MicromodemLbl::takes(const modem_receipt_t& receipt) {
 }
 
 bool MicromodemLbl::takes(const modem_receive_t& packet) {
-  if (!is_busy() || packet.packet_sequence != sequence_ || packet.packet_kind != modem_receive_t::PING_REPLY)
-    return false;
-  times_[place_] = packet.two_way_travel_time_s / 2;
-  ask_from(place_ + 1);
+  if (packet.packet_sequence != sequence_ || packet.packet_kind != modem_receive_t::PING_REPLY) return false;
+  if (!is_busy()) return true;
+  bool is_done = true;
+  for (std::size_t i = 0; i < kTransponders; ++i) {
+    if (asked_[i] == packet.source_id) times_[i] = packet.two_way_travel_time_s / 2;
+    is_done = is_done && (times_[i] || !asked_[i]);
+  }
+  if (is_done) report();
   return true;
 }
 
 void MicromodemLbl::report() {
+  until_ = SimTime::never();
   std::string body = "SNTTA";
   for (const auto& time : times_) body += time ? fmt::format(",{:.4f}", *time) : ",";
   core_.say_all(body + "," + core_.clock().hhmmss(core_.reading(), 2));
 }
 
 void MicromodemLbl::step() {
-  if (is_busy() && core_.now() >= until_) ask_from(place_ + 1);
+  if (is_busy() && core_.now() >= until_) report();
 }
 
 }  // namespace halocline::modem_gateway

@@ -2,9 +2,10 @@
 // Long-baseline ranging of a Micromodem (CCPDT, CCPNT, CCPGT): the travel times to up to four transponders, vehicles of the scenario whose
 // modems answer pings.
 //
-// The medium knows pings to one vehicle, so transponders are asked one after the other, each for the host's time-out after its ping has
-// ended; a real one asks all at once. A transponder has a place, A to D, and may have a code: the frequency or the sequence by which hosts
-// name its answer in CCPNT and CCPGT. Without one they name it by its place.
+// One ping asks all transponders at once (docs/packets.md). Each answers a turnaround after it has come, so that answers may overlap: the
+// modem has a filter for each. It waits for those that the host names, for the host's time-out after ping, turnaround and
+// answer. A transponder has a place, A to D, and may have a code: the frequency or the sequence by which hosts name its answer in CCPNT and
+// CCPGT. Without one they name it by its place.
 #pragma once
 
 #include <array>
@@ -34,11 +35,11 @@ class MicromodemLbl {
   void name_transponders(const std::string& text);
   // False for a command that is none of these.
   bool obey(ClientId client, const NmeaSentence& sentence);
-  // Whether that packet is a ping of its own, and takes its receipt or answer.
+  // Whether that packet is a ping of its own, and takes its receipt or answer; a late answer counts no more.
   bool takes(const modem_receipt_t& receipt);
   bool takes(const modem_receive_t& packet);
 
-  SimTime next() const { return is_busy() ? until_ : SimTime::never(); }
+  SimTime next() const { return until_; }
   void step();
 
  private:
@@ -47,9 +48,8 @@ class MicromodemLbl {
     std::string code = "";
   };
 
-  bool is_busy() const { return place_ < kTransponders; }
+  bool is_busy() const { return until_ != SimTime::never(); }
   std::optional<std::int32_t> named(std::string_view field, std::size_t place, bool by_code) const;
-  void ask_from(std::size_t place);
   void report();
 
   MicromodemCore& core_;
@@ -58,9 +58,8 @@ class MicromodemLbl {
   std::array<std::optional<std::int32_t>, kTransponders> asked_;  // vehicles
   std::array<std::optional<double>, kTransponders> times_;        // one-way, s; none where not heard
   SimDuration timeout_;
-  std::size_t place_ = kTransponders;  // that is asked
-  std::int64_t sequence_ = -1;
-  SimTime until_;
+  std::int64_t sequence_ = kNotSent;  // of the last ping
+  SimTime until_ = SimTime::never();  // it waits for answers
 };
 
 }  // namespace halocline::modem_gateway

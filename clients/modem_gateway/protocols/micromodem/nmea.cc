@@ -29,7 +29,7 @@ NmeaSentence nmea_sentence(std::string_view line) {
     sentence.problem = NmeaSentence::Problem::kNoSentence;
     return sentence;
   }
-  std::string_view body = line.substr(begin + 1);
+  std::string_view body = line.substr(begin + 1, line.find_last_not_of(" \t") - begin);
   if (const auto star = body.rfind('*'); star != std::string_view::npos) {
     const auto sum = bytes_of_hex(body.substr(star + 1));
     body = body.substr(0, star);
@@ -37,7 +37,8 @@ NmeaSentence nmea_sentence(std::string_view line) {
       sentence.problem = NmeaSentence::Problem::kChecksum;
   }
   sentence.fields = fields_of(body, ',');
-  sentence.id = sentence.fields.front();
+  for (const char c : sentence.fields.front())
+    sentence.id += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   sentence.fields.erase(sentence.fields.begin());
   return sentence;
 }

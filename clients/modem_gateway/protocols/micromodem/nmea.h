@@ -17,7 +17,7 @@ namespace halocline::modem_gateway {
 struct NmeaSentence {
   enum class Problem { kNone, kNoSentence, kChecksum };
   Problem problem = Problem::kNone;
-  std::string_view id;                   // what stands before the first comma: CCCFG
+  std::string id;                        // what stands before the first comma, in capitals: CCCFG
   std::vector<std::string_view> fields;  // what stands between commas after that, empty ones included
 
   // "" beyond the last field.
@@ -40,7 +40,7 @@ struct NmeaSentence {
 std::uint8_t nmea_checksum(std::string_view body);
 // With $, checksum, carriage return and line feed.
 std::string nmea_line(std::string_view body);
-// A line without its end; the checksum may be missing, and in either case. Refers to `line`.
+// A line without its end; the checksum may be missing, and in either case; blanks may follow. Refers to `line`.
 NmeaSentence nmea_sentence(std::string_view line);
 
 }  // namespace halocline::modem_gateway

@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,9 @@ constexpr std::size_t kMaxRecent = 32;
 constexpr std::size_t kLeastPaths = 8;
 // An answer to ?P that the channel does not give in time is empty.
 constexpr SimDuration kPathsWithin = SimDuration::from_milliseconds(800);
+
+// A message of the same number within this is a repetition: longer than all tries of one take, shorter than seven messages' that fail.
+constexpr SimDuration kRepeatedWithin = SimDuration::from_milliseconds(30'000);
 
 class Evologics : public Protocol {
  public:
@@ -97,7 +101,7 @@ class Evologics : public Protocol {
     const bool is_for_us =
         packet.destination_id == core_.vehicle_id() || packet.destination_id == kBroadcastId;
     if (!is_for_us && core_.setting("!RP") == 0) return;
-    report(packet);
+    if (!is_repetition(packet)) report(packet);
     if (is_for_us && packet.wants_ack) sender_.on_acknowledged(packet);
   }
 
@@ -195,6 +199,17 @@ class Evologics : public Protocol {
     return text;
   }
 
+  // Of a message whose acknowledgement was lost.
+  bool is_repetition(const modem_receive_t& packet) {
+    const int number = s2c_payload(packet).number;
+    if (number == 0) return false;
+    auto& [last, since] = numbers_[{packet.source_id, packet.destination_id, packet.rate_number}];
+    const bool is_same = last == number && port_.now() < since + kRepeatedWithin;
+    last = number;
+    since = port_.now();
+    return is_same;
+  }
+
   void report(const modem_receive_t& packet) {
     const S2cPayload payload = s2c_payload(packet);
     const bool is_burst = packet.rate_number == kS2cBurstRate;
@@ -245,6 +260,8 @@ class Evologics : public Protocol {
   S2cCore core_;
   ProtocolPort& port_;
   S2cSender sender_;
+  // The last of (source, destination, rate), and when it came.
+  std::map<std::tuple<std::int32_t, std::int32_t, std::int32_t>, std::pair<int, SimTime>> numbers_;
   S2cSettings settings_;
   bool begins_in_data_mode_ = false;
   std::map<ClientId, S2cReader> hosts_;

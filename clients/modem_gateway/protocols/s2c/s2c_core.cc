@@ -8,7 +8,8 @@
 namespace halocline::modem_gateway {
 
 S2cPayload s2c_payload(const modem_receive_t& packet) {
-  return {static_cast<S2cKind>(packet.header_number & 3), packet.header_number >> 2 & 7, packet.payload};
+  return {static_cast<S2cKind>(packet.header_number & 3), packet.header_number >> 2 & 7, packet.payload,
+          packet.header_number >> 5 & 7};
 }
 
 S2cCore::S2cCore(ProtocolContext& context, Tell tell)

@@ -25,8 +25,9 @@ struct S2cPayload {
   S2cKind kind = S2cKind::kPlain;
   int protocol = 0;
   std::vector<std::uint8_t> bytes;
+  int number = 0;  // 1 to 7 of what may be repeated, by which a repetition is known; 0: none
 
-  std::int32_t header_number() const { return static_cast<int>(kind) | protocol << 2; }
+  std::int32_t header_number() const { return static_cast<int>(kind) | protocol << 2 | number << 5; }
 };
 S2cPayload s2c_payload(const modem_receive_t& packet);
 

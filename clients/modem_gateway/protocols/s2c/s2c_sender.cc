@@ -129,11 +129,18 @@ void S2cSender::begin(std::optional<OnItsWay>& place, S2cMessage message, SimTim
   const bool is_burst = message.type == S2cMessage::Type::kBurst;
   place = OnItsWay{std::move(message), -1, core_.setting(is_burst ? "!RC" : "!RI"), start};
   OnItsWay& sent = *place;
+  if (sent.message.wants_ack) sent.message.payload.number = next_number(is_burst, sent.message.address);
   if (start >= core_.now() &&
       (!is_receiving() || is_burst || sent.message.payload.kind == S2cKind::kForced || start > core_.now()))
     return transmit(sent);
   // Told by step(), after the answer to the command.
   sent.until = core_.now();
+}
+
+int S2cSender::next_number(bool is_burst, std::int32_t address) {
+  int& number = numbers_[{is_burst, address}];
+  number = number % 7 + 1;
+  return number;
 }
 
 void S2cSender::transmit(OnItsWay& sent) {

@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "bus/messages.h"
 #include "clients/modem_gateway/protocols/s2c/s2c_core.h"
@@ -75,9 +76,13 @@ class S2cSender {
   void finish(std::optional<OnItsWay>& place, bool delivered);
   void next_burst();
 
+  // The next number of what goes to that address.
+  int next_number(bool is_burst, std::int32_t address);
+
   S2cCore& core_;
-  std::optional<OnItsWay> instant_, burst_;  // under way
-  std::optional<OnItsWay> piggy_back_;       // likewise
+  std::map<std::pair<bool, std::int32_t>, int> numbers_;  // the last, of bursts or not, by address
+  std::optional<OnItsWay> instant_, burst_;               // under way
+  std::optional<OnItsWay> piggy_back_;                    // likewise
   std::optional<S2cMessage> waiting_piggy_back_;
   std::deque<S2cMessage> bursts_;
   SimTime burst_due_ = SimTime::never();
