@@ -26,6 +26,7 @@
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/embedded_run.h"
 #include "clients/halocline/scenario/log_estimate.h"
+#include "clients/halocline/waveform/live_sea.h"
 #include "clients/mission/mission_store.h"
 #include "core/check.h"
 #include "core/sim_time.h"
@@ -102,7 +103,8 @@ int run(const RunOptions& options) {
   }
   write_text(files.config, effective_toml(config));
   lcm::LCM lcm("memq://");
-  Composition all(lcm, config, Composition::kRun, nullptr, std::move(checked.terrain));
+  Composition all(lcm, config, Composition::kRun, nullptr, checked.terrain,
+                  live_sea_maker(config, checked.terrain));
   bus::catch_stop_signals();
   EmbeddedRun run;
   run.end = SimTime() + config.scenario.duration;

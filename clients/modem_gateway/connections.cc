@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <iterator>
 #include <utility>
 
+#include <netinet/in.h>
 #include <poll.h>
 #include <sys/epoll.h>
 #include <sys/resource.h>
@@ -160,6 +162,19 @@ void Connections::write(std::size_t door, ClientId client, std::string_view byte
   for (auto& [id, each] : clients_) {
     if (each.door == door) write_to(id, each, bytes);
   }
+}
+
+void Connections::send_datagram(ClientId client, std::uint16_t port, std::string_view bytes) {
+  const auto found = clients_.find(client);
+  if (found == clients_.end()) return;
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  auto* any = reinterpret_cast<sockaddr*>(&address);
+  if (getpeername(found->second.connection.get(), any, &size) != 0) return;  // a pseudo-terminal
+  if (datagrams_.get() < 0) datagrams_ = File(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  address.sin_port = htons(port);
+  if (sendto(datagrams_.get(), bytes.data(), bytes.size(), 0, any, sizeof address) > 0)
+    counters_.bytes_out += std::ssize(bytes);
 }
 
 void Connections::write_to(ClientId id, Client& client, std::string_view bytes) {

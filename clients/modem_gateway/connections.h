@@ -52,6 +52,9 @@ class Connections {
   // To a host, or with kAllClients to all of the door.
   void write(std::size_t door, ClientId client, std::string_view bytes);
 
+  // By UDP, to that port of the machine that a host on TCP is on; what the network does not take at once is lost.
+  void send_datagram(ClientId client, std::uint16_t port, std::string_view bytes);
+
   // Readable when take() has something to do, but for pseudo-terminals that are opened.
   int ready_file() const { return epoll_.get(); }
   bool is_ready() const;
@@ -87,6 +90,7 @@ class Connections {
   void follow_room(ClientId id, Client& client);
 
   File epoll_;
+  File datagrams_;  // none before the first
   std::vector<Door> doors_;
   std::map<ClientId, Client> clients_;
   ClientId last_ = 0;

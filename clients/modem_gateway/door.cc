@@ -9,6 +9,7 @@
 #include "bus/subscription.h"
 #include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/protocols.h"
+#include "clients/modem_gateway/protocols/sound_field.h"
 #include "core/check.h"
 
 namespace halocline::modem_gateway {
@@ -39,10 +40,12 @@ SimTime whole_microsecond_from(SimTime time) {
 }  // namespace
 
 Door::Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway,
-           const channel_server::VehicleClocks& clocks, AddressBook& addresses, Writer writer, Trace trace)
+           const channel_server::VehicleClocks& clocks, AddressBook& addresses, SoundField* sound,
+           Writer writer, DatagramWriter datagram_writer, Trace trace)
     : bus_(bus),
       clocks_(clocks),
       writer_(std::move(writer)),
+      datagram_writer_(std::move(datagram_writer)),
       trace_(std::move(trace)),
       modem_(bus, address_of(bus, config)),
       vehicles_(gateway.vehicles),
@@ -50,7 +53,7 @@ Door::Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway
                    std::to_string(static_cast<std::uint64_t>(modem_.address().session) % 1'000'000'000'000)) {
   protocol_ = make_protocol(
       config.kind, {*this, addresses, config.vehicle_id, DoorOptions(config.options), gateway.vehicles,
-                    gateway.origin_latitude_deg, gateway.origin_longitude_deg});
+                    gateway.origin_latitude_deg, gateway.origin_longitude_deg, sound});
   listens_ = protocol_->listening();
   next_listen_ = listens_ ? SimTime() : SimTime::never();
   modem_.on_receipt([this](const modem_receipt_t& receipt) { happenings_.emplace_back(receipt); });

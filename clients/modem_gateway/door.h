@@ -23,6 +23,7 @@
 #include "clients/modem_gateway/gateway_config.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/protocol.h"
+#include "clients/modem_gateway/protocols/sound_field.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
@@ -31,13 +32,15 @@ class Door : private ProtocolPort {
  public:
   // To hosts of this door, by Connections.
   using Writer = std::function<void(ClientId client, std::string_view bytes)>;
+  using DatagramWriter = std::function<void(ClientId client, std::uint16_t port, std::string_view bytes)>;
   // Of everything that passes, for a person: `direction` is '<' from a host, '>' to it, '*' of the bus. May be empty.
   using Trace = std::function<void(char direction, std::string_view text)>;
 
   // Subscribes on the bus. Throws InvalidArgument for a configuration that makes no door.
-  // `clocks` must outlive it.
+  // `clocks` must outlive it, and `sound`, which may be null where the kind needs none.
   Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway,
-       const channel_server::VehicleClocks& clocks, AddressBook& addresses, Writer writer, Trace trace);
+       const channel_server::VehicleClocks& clocks, AddressBook& addresses, SoundField* sound, Writer writer,
+       DatagramWriter datagram_writer, Trace trace);
 
   const std::string& vehicle() const { return modem_.address().vehicle; }
   std::int32_t vehicle_id() const { return modem_.address().vehicle_id; }
@@ -70,6 +73,9 @@ class Door : private ProtocolPort {
   }
   void sleep_until(SimTime wakes) override;
   void write(ClientId client, std::string_view bytes) override;
+  void send_datagram(ClientId client, std::uint16_t port, std::string_view bytes) override {
+    datagram_writer_(client, port, bytes);
+  }
   std::int64_t send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
                     clients::SendOptions options) override;
   bool is_own(std::int64_t send_session) const override { return send_session == modem_.address().session; }
@@ -88,6 +94,7 @@ class Door : private ProtocolPort {
   bus::Bus& bus_;
   const channel_server::VehicleClocks& clocks_;
   Writer writer_;
+  DatagramWriter datagram_writer_;
   Trace trace_;
   clients::ModemClient modem_;
   std::unique_ptr<Protocol> protocol_;

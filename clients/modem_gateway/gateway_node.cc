@@ -8,11 +8,13 @@
 #include "bus/channels.h"
 #include "bus/subscription.h"
 #include "clients/modem_gateway/protocols/protocol.h"
+#include "clients/modem_gateway/protocols/protocols.h"
 #include "core/check.h"
 
 namespace halocline::modem_gateway {
 GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const GatewayConfig& config,
-                         SimDuration look_period, const std::string& trace_path)
+                         SimDuration look_period, const std::string& trace_path,
+                         const SoundFieldMaker& make_sound)
     : Node(lcm, std::move(identity)),
       clocks_(config.clocks, config.seed, config.state_lag),
       look_period_(look_period),
@@ -20,7 +22,7 @@ GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Gatewa
   if (!trace_path.empty()) trace_ = std::make_unique<TraceLog>(trace_path);
   if (config.rate != 1)
     bus().log().warning("rate", "rate=" + std::to_string(config.rate) + ": hosts keep wall time");
-  for (const DoorConfig& door : config.doors) add_door(config, door);
+  for (const DoorConfig& door : config.doors) add_door(config, door, make_sound);
   if (clocks_.need_fixes()) {
     bus().subscribe<vehicle_gps_t>(
         bus::channels::kGps,
@@ -36,7 +38,15 @@ GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Gatewa
                                     [this](const packet_outcome_t& outcome) { take_outcome(outcome); });
 }
 
-void GatewayNode::add_door(const GatewayConfig& config, const DoorConfig& door) {
+void GatewayNode::add_door(const GatewayConfig& config, const DoorConfig& door,
+                           const SoundFieldMaker& make_sound) {
+  if (needs_sound(door.kind) && !sound_) {
+    require(make_sound != nullptr,
+            "a door of kind '" + door.kind +
+                "' needs the water of the scenario, which `halocline run` has and this "
+                "program has not");
+    sound_ = make_sound(bus());
+  }
   AddressBook& addresses = addresses_[door.kind];
   assign_addresses(addresses, door.addresses, config.vehicles);
   const std::size_t number = connections_.add(door.place);
@@ -47,8 +57,11 @@ void GatewayNode::add_door(const GatewayConfig& config, const DoorConfig& door) 
     };
   }
   doors_.push_back(std::make_unique<Door>(
-      bus(), door, config, clocks_, addresses,
+      bus(), door, config, clocks_, addresses, sound_.get(),
       [this, number](ClientId client, std::string_view bytes) { connections_.write(number, client, bytes); },
+      [this](ClientId client, std::uint16_t port, std::string_view bytes) {
+        connections_.send_datagram(client, port, bytes);
+      },
       std::move(trace)));
   bus().log().info("door", "vehicle=" + door.vehicle + " kind=" + door.kind + " place=" + place_of(number));
 }

@@ -20,6 +20,7 @@
 #include "clients/modem_gateway/door.h"
 #include "clients/modem_gateway/gateway_config.h"
 #include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/modem_gateway/protocols/sound_field.h"
 #include "clients/modem_gateway/trace_log.h"
 #include "core/sim_time.h"
 
@@ -31,9 +32,10 @@ class GatewayNode : public bus::Node {
   static constexpr SimDuration kLockstepPeriod = SimDuration::from_milliseconds(5);
 
   // `look_period`: kLockstepPeriod in lockstep; 0 where the runner watches ready_file(). `trace_path`: trace_log.h; empty: none.
+  // `make_sound`: for doors of waveforms; empty: there can be none.
   // Throws InvalidArgument for a place that cannot be opened, and for doors of vehicles that there are not.
   GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const GatewayConfig& config, SimDuration look_period,
-              const std::string& trace_path = {});
+              const std::string& trace_path = {}, const SoundFieldMaker& make_sound = {});
 
   // Of the i-th door, with the port that was free where its configuration left it open.
   std::string place_of(std::size_t door) const { return connections_.place_of(door); }
@@ -49,7 +51,7 @@ class GatewayNode : public bus::Node {
   std::string status_text() const override;
 
  private:
-  void add_door(const GatewayConfig& config, const DoorConfig& door);
+  void add_door(const GatewayConfig& config, const DoorConfig& door, const SoundFieldMaker& make_sound);
   void take_outcome(const packet_outcome_t& outcome);
   void serve_hosts(SimTime steady);
 
@@ -60,6 +62,7 @@ class GatewayNode : public bus::Node {
   std::unique_ptr<TraceLog> trace_;
   SimTime now_;
   std::map<std::string, AddressBook> addresses_;  // by kind
+  std::unique_ptr<SoundField> sound_;             // where a door needs it
   std::vector<std::unique_ptr<Door>> doors_;
 };
 

@@ -155,7 +155,8 @@ void Composition::add(bus::Stage stage, const std::string& name, Arguments&&... 
 }
 
 Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded,
-                         std::optional<bathymetry::PreparedTerrain> terrain)
+                         std::optional<bathymetry::PreparedTerrain> terrain,
+                         const modem_gateway::SoundFieldMaker& make_sound)
     : lcm_(lcm),
       seed_(config.scenario.seed),
       threads_(std::max(config.vehicle_sim.threads, config.channel_server.rules.threads)),
@@ -172,7 +173,7 @@ Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind,
     if (config.network.rules.mac != networks::MacKind::kNone)
       add<networks::NetworkNode>(bus::Stage::kTraffic, "network", config.network, config.scenario.seed);
     add<LocaliserNode>(bus::Stage::kClients, "localiser", config.localiser);
-    add_gateway(config);
+    add_gateway(config, make_sound);
   }
   add_channel_servers(config);
 }
@@ -186,14 +187,15 @@ void Composition::add_vehicle_sims(const ScenarioConfig& config) {
   }
 }
 
-void Composition::add_gateway(const ScenarioConfig& config) {
+void Composition::add_gateway(const ScenarioConfig& config,
+                              const modem_gateway::SoundFieldMaker& make_sound) {
   if (config.gateway.doors.empty()) return;
   modem_gateway::GatewayConfig gateway = config.gateway;
   gateway.seed = config.scenario.seed;
   gateway.origin_latitude_deg = config.scenario.origin_latitude_deg;
   gateway.origin_longitude_deg = config.scenario.origin_longitude_deg;
   add<modem_gateway::GatewayNode>(bus::Stage::kClients, "modem-gateway", gateway,
-                                  modem_gateway::GatewayNode::kLockstepPeriod);
+                                  modem_gateway::GatewayNode::kLockstepPeriod, "", make_sound);
 }
 
 void Composition::add_channel_servers(const ScenarioConfig& config) {

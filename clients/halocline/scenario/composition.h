@@ -22,6 +22,7 @@
 #include "clients/examples/networks/network_config.h"
 #include "clients/localiser/localiser_config.h"
 #include "clients/modem_gateway/gateway_config.h"
+#include "clients/modem_gateway/protocols/sound_field.h"
 #include "clients/traffic/traffic_config.h"
 #include "vehicle_sim/vehicle_sim_config.h"
 
@@ -77,9 +78,10 @@ class Composition {
   enum Kind { kRun, kReplay };
 
   // Sessions are made of the scenario's seed and the nodes' names. `recorded` steps where the vehicle simulator
-  // would; it must outlive the composition. The terrain is made unless it is given.
+  // would; it must outlive the composition. The terrain is made unless it is given. `make_sound`: for doors of waveforms.
   Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded = nullptr,
-              std::optional<bathymetry::PreparedTerrain> terrain = {});
+              std::optional<bathymetry::PreparedTerrain> terrain = {},
+              const modem_gateway::SoundFieldMaker& make_sound = {});
 
   // In the order in which they step: who moves vehicles before who pilots them, the channel server last.
   std::vector<bus::Node*> nodes() const { return order_; }
@@ -91,7 +93,7 @@ class Composition {
   template <class NodeType, class... Arguments>
   void add(bus::Stage stage, const std::string& name, Arguments&&... arguments);
   void add_vehicle_sims(const ScenarioConfig& config);
-  void add_gateway(const ScenarioConfig& config);
+  void add_gateway(const ScenarioConfig& config, const modem_gateway::SoundFieldMaker& make_sound);
   void add_channel_servers(const ScenarioConfig& config);
 
   lcm::LCM& lcm_;

@@ -19,7 +19,9 @@ namespace halocline::clients {
 
 Recording record_run(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, SimTime end) {
   lcm::LCM lcm("memq://");
-  Composition all(lcm, config, Composition::kRun, nullptr, terrain);
+  ScenarioConfig without_doors = config;  // nobody is to come
+  without_doors.gateway.doors.clear();
+  Composition all(lcm, without_doors, Composition::kRun, nullptr, terrain);
   EmbeddedRun run{.end = end,
                   .log_path = std::filesystem::temp_directory_path() /
                               ("halocline-track-" + std::to_string(getpid()) + ".lcm")};

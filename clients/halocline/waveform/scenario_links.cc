@@ -50,18 +50,6 @@ std::vector<PathGain> gains_of(const Reception& reception, const acoustics::Fadi
   return gains;
 }
 
-// What absorption takes of a frequency beyond what it takes of the band's centre.
-std::vector<double> absorption_taps(const acoustics::Environment& water, const Way& way, double rate_hz) {
-  const acoustics::AbsorptionSpectrum alpha = acoustics::absorption_spectrum_at(water, way.depth_m);
-  const double centre_db_per_km = alpha.components_at(way.centre_hz).total_db_per_km;
-  return acoustics::linear_phase_taps(
-      [&](double frequency_hz) {
-        const double more_db_per_km = alpha.components_at(frequency_hz).total_db_per_km - centre_db_per_km;
-        return amplitude_of(Decibels{-more_db_per_km * way.length_m / 1000});
-      },
-      rate_hz);
-}
-
 }  // namespace
 
 double amplitude_of(Decibels level) { return elementary::exp10(level.value / 20); }
@@ -82,23 +70,35 @@ std::int32_t ScenarioLinks::id_of(const std::string& vehicle) const {
 
 Way ScenarioLinks::between(const std::string& from, const acoustics::Modem& modem, const std::string& to,
                            double begin_s, double end_s) {
-  const VehicleTrack sender(run_, from), receiver(run_, to);
-  const acoustics::FadingLink pair{
-      config_.scenario.seed, static_cast<std::uint32_t>(std::min(id_of(from), id_of(to))),
-      static_cast<std::uint32_t>(std::max(id_of(from), id_of(to))), id_of(from) > id_of(to)};
-  std::vector<std::vector<PathGain>> frames;
-  double delay_s = -1, length_m = 0, depth_m = 0;
-  const auto count = static_cast<int>(std::ceil((end_s - begin_s) / kFrame.seconds())) + 2;
-  for (int k = 0; k < count; ++k) {
-    const SimTime departure = SimTime::from_seconds(begin_s) + kFrame * k;
-    const Reception reception = reception_of(departure, {id_of(from), modem, sender.at(departure)},
-                                             {id_of(to), modem_of(to), {}}, receiver, delay_s);
-    frames.push_back(gains_of(reception, config_.channel_server.propagation.fading, pair, departure, modem));
-    length_m += reception.budget.delay_s * reception.budget.mean_sound_speed_mps / count;
-    depth_m +=
-        (sender.at(departure).position_ned_m.z() + receiver.at(departure).position_ned_m.z()) / 2 / count;
-  }
-  return {{begin_s, kFrame.seconds(), std::move(frames)}, length_m, depth_m, modem.centre_frequency_hz};
+  Course course{from, modem, to, begin_s};
+  return onward(course, static_cast<int>(std::ceil((end_s - begin_s) / kFrame.seconds())) + 2);
+}
+
+Way ScenarioLinks::onward(Course& course, int frames) {
+  const VehicleTrack sender(run_, course.from), receiver(run_, course.to);
+  const double since_s = course.end_s();
+  std::vector<std::vector<PathGain>> paths;
+  if (course.frames > 0) paths.push_back(course.last);
+  for (int k = 0; k < frames; ++k) paths.push_back(next_frame(course, sender, receiver));
+  course.last = paths.back();
+  return {{since_s, kFrame.seconds(), std::move(paths)},
+          course.sum_length_m / course.frames,
+          course.sum_depth_m / course.frames,
+          course.modem.centre_frequency_hz};
+}
+
+std::vector<PathGain> ScenarioLinks::next_frame(Course& course, const VehicleTrack& sender,
+                                                const VehicleTrack& receiver) {
+  const std::int32_t from = id_of(course.from), to = id_of(course.to);
+  const acoustics::FadingLink pair{config_.scenario.seed, static_cast<std::uint32_t>(std::min(from, to)),
+                                   static_cast<std::uint32_t>(std::max(from, to)), from > to};
+  const SimTime departure = SimTime::from_seconds(course.begin_s) + kFrame * course.frames++;
+  const Reception reception = reception_of(departure, {from, course.modem, sender.at(departure)},
+                                           {to, modem_of(course.to), {}}, receiver, course.delay_s);
+  course.sum_length_m += reception.budget.delay_s * reception.budget.mean_sound_speed_mps;
+  course.sum_depth_m +=
+      (sender.at(departure).position_ned_m.z() + receiver.at(departure).position_ned_m.z()) / 2;
+  return gains_of(reception, config_.channel_server.propagation.fading, pair, departure, course.modem);
 }
 
 // `delay_s`: of the departure before, below 0 of none; set to that of this one.
@@ -119,9 +119,22 @@ Reception ScenarioLinks::reception_of(SimTime departure, const End& from, End to
   return reception;
 }
 
+std::vector<double> ScenarioLinks::absorption_taps(const Way& way, SimTime at, double rate_hz,
+                                                   double highest_hz) const {
+  const acoustics::AbsorptionSpectrum alpha = acoustics::absorption_spectrum_at(water(at), way.depth_m);
+  const double centre_db_per_km = alpha.components_at(way.centre_hz).total_db_per_km;
+  return acoustics::linear_phase_taps(
+      [&](double frequency_hz) {
+        if (frequency_hz > highest_hz) return 0.0;
+        const double more_db_per_km = alpha.components_at(frequency_hz).total_db_per_km - centre_db_per_km;
+        return amplitude_of(Decibels{-more_db_per_km * way.length_m / 1000});
+      },
+      rate_hz);
+}
+
 void ScenarioLinks::add_received(const Way& way, const acoustics::Samples& sound,
                                  acoustics::Samples& received) const {
-  const auto taps = absorption_taps(water(SimTime::from_seconds(sound.begin_s)), way, sound.rate_hz);
+  const auto taps = absorption_taps(way, SimTime::from_seconds(sound.begin_s), sound.rate_hz);
   way.link.add_received({sound.rate_hz, acoustics::filtered(sound.values, taps)}, sound.begin_s, received);
 }
 

@@ -6,7 +6,9 @@
 // between the depths of the ends.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,21 @@ struct Way {
   double centre_hz;
 };
 
+// A link whose paths are searched as time goes on (ScenarioLinks::onward).
+struct Course {
+  std::string from;
+  acoustics::Modem modem;
+  std::string to;
+  double begin_s;
+  // So far.
+  int frames = 0;
+  double delay_s = -1;                         // of the last frame; below 0 of none
+  std::vector<acoustics::PathGain> last = {};  // of the last frame
+  double sum_length_m = 0, sum_depth_m = 0;
+  // The departure up to which its paths are known.
+  double end_s() const { return begin_s + kFrame.seconds() * std::max(frames - 1, 0); }
+};
+
 class ScenarioLinks {
  public:
   // All must outlive it but `config`.
@@ -50,6 +67,13 @@ class ScenarioLinks {
   // Of what leaves between those times.
   Way between(const std::string& from, const acoustics::Modem& sender, const std::string& to, double begin_s,
               double end_s);
+  // The next so many frames, with what they begin at: the same paths as between() finds, however they are taken. Of states that the run
+  // holds by now.
+  Way onward(Course& course, int frames);
+  // A filter of linear phase: what absorption takes of a frequency beyond what it takes of the band's centre, in the water at that
+  // instant. Nothing above `highest_hz` passes.
+  std::vector<double> absorption_taps(const Way& way, SimTime at, double rate_hz,
+                                      double highest_hz = std::numeric_limits<double>::infinity()) const;
   // Adds what arrives by it of a sound, pressure at 1 m.
   void add_received(const Way& way, const acoustics::Samples& sound, acoustics::Samples& received) const;
 
@@ -63,6 +87,8 @@ class ScenarioLinks {
     }
   };
 
+  std::vector<acoustics::PathGain> next_frame(Course& course, const VehicleTrack& sender,
+                                              const VehicleTrack& receiver);
   channel_server::Reception reception_of(SimTime departure, const End& from, End to,
                                          const VehicleTrack& receiver, double& delay_s);
 

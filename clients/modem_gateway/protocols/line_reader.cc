@@ -11,7 +11,7 @@ void LineReader::take(std::string_view bytes, const std::function<void(std::stri
   while (!bytes.empty()) {
     const std::size_t end = std::min(bytes.find_first_of("\r\n"), bytes.size());
     const bool ends = end < bytes.size();
-    if (!is_too_long_ && line_.size() + end > kMaxLine) {
+    if (!is_too_long_ && line_.size() + end > max_line_) {
       is_too_long_ = true;
       line_.clear();
       on_too_long();

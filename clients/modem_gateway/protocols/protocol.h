@@ -19,6 +19,7 @@
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/door_options.h"
+#include "clients/modem_gateway/protocols/sound_field.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
@@ -47,6 +48,8 @@ class ProtocolPort {
   SimTime instant_of(SimTime reading) const;
   // To one host, or to all that are connected. What does not fit into the buffer of a host that does not read is dropped whole.
   virtual void write(ClientId client, std::string_view bytes) = 0;
+  // By UDP, to a port of the machine that a host is on.
+  virtual void send_datagram(ClientId /*client*/, std::uint16_t /*port*/, std::string_view /*bytes*/) {}
   // Sends a packet at `start`, or now where that has passed; returns its packet_sequence, which its receipt, events and answers bear.
   // `payload` and `options`: as ModemClient::send. kNotSent, and no receipt, for what no modem sends.
   virtual std::int64_t send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
@@ -74,6 +77,7 @@ struct ProtocolContext {
   DoorOptions options;
   std::vector<NamedVehicle> vehicles = {};  // of the scenario
   double origin_latitude_deg = 0, origin_longitude_deg = 0;
+  SoundField* sound = nullptr;  // never null where needs_sound(kind), but while options are checked alone
 
   // The door's own; empty for a vehicle that is not among them.
   std::string vehicle_name() const {

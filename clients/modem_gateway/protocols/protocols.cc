@@ -15,9 +15,9 @@ struct Kind {
   const char* name;
   std::unique_ptr<Protocol> (*make)(ProtocolContext);
 };
-constexpr std::array kKinds{Kind{"ahoi", make_ahoi}, Kind{"evologics", make_evologics},
-                            Kind{"micromodem", make_micromodem}, Kind{"nm3", make_nm3},
-                            Kind{"unet", make_unet}};
+constexpr std::array kKinds{
+    Kind{"ahoi", make_ahoi}, Kind{"evologics", make_evologics}, Kind{"micromodem", make_micromodem},
+    Kind{"nm3", make_nm3},   Kind{"uasp2", make_uasp2},         Kind{"unet", make_unet}};
 
 }  // namespace
 
@@ -33,6 +33,8 @@ std::vector<std::string> protocol_kinds() {
   for (const Kind& kind : kKinds) names.emplace_back(kind.name);
   return names;
 }
+
+bool needs_sound(std::string_view kind) { return kind == "uasp2"; }
 
 std::unique_ptr<Protocol> make_protocol(std::string_view kind, ProtocolContext context) {
   const auto found =

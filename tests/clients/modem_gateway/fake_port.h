@@ -18,6 +18,7 @@
 #include "clients/modem_gateway/protocols/fields.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
+#include "clients/modem_gateway/protocols/sound_field.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway::testing {
@@ -43,6 +44,9 @@ class FakePort : public ProtocolPort {
     written += bytes;
     written_to.push_back(client);
   }
+  void send_datagram(ClientId, std::uint16_t to, std::string_view b) override {
+    datagrams.emplace_back(to, b);
+  }
   std::int64_t send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
                     clients::SendOptions options) override {
     const auto sequence = static_cast<std::int64_t>(sent.size());
@@ -58,7 +62,6 @@ class FakePort : public ProtocolPort {
     return true;
   }
   void note(std::string_view, std::string_view) override { ++notes; }
-
   // What was written since the last call.
   std::string take() {
     written_to.clear();
@@ -71,6 +74,7 @@ class FakePort : public ProtocolPort {
   std::string written;
   std::vector<ClientId> written_to;
   std::vector<Sent> sent;
+  std::vector<std::pair<std::uint16_t, std::string>> datagrams;
   std::optional<vehicle_sensors_t> measured;
   std::optional<vehicle_state_t> place;
   std::optional<vehicle_battery_t> charge;
@@ -84,8 +88,8 @@ class ProtocolBench {
   static constexpr std::int32_t kVehicle = 1;
   static constexpr ClientId kHost = 5;
 
-  explicit ProtocolBench(std::string_view kind, std::string_view options = "")
-      : protocol(make_protocol(kind, {port, addresses, kVehicle, DoorOptions(options)})) {
+  explicit ProtocolBench(std::string_view kind, std::string_view options = "", SoundField* sound = nullptr)
+      : protocol(make_protocol(kind, {port, addresses, kVehicle, DoorOptions(options), {}, 0, 0, sound})) {
     protocol->on_opened(kHost);
     port.take();
   }
@@ -95,7 +99,6 @@ class ProtocolBench {
     protocol->on_bytes(kHost, bytes);
     return port.take();
   }
-  // The same bytes one by one.
   std::string ask_in_pieces(std::string_view bytes) {
     for (const char byte : bytes) protocol->on_bytes(kHost, std::string_view(&byte, 1));
     return port.take();

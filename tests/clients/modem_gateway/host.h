@@ -12,6 +12,7 @@
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -36,6 +37,8 @@ class Host {
     inet_pton(AF_INET, place.host.c_str(), &address.sin_addr);
     is_open_ = connect(file_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
     fcntl(file_.get(), F_SETFL, O_NONBLOCK);
+    const int yes = 1;  // simulation time may pass while a system waits for more to send
+    setsockopt(file_.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
   }
 
   bool is_open() const { return is_open_; }
