@@ -18,6 +18,7 @@ static_assert(static_cast<int>(QueryMode::kOccluded) == ray_query_t::OCCLUDED);
 static_assert(static_cast<int>(QueryMode::kDepth) == ray_query_t::DEPTH);
 static_assert(static_cast<int>(QueryMode::kUniformProfile) == ray_query_t::UNIFORM_PROFILE);
 static_assert(static_cast<int>(QueryMode::kExactProfile) == ray_query_t::EXACT_PROFILE);
+static_assert(static_cast<int>(QueryMode::kDepthTiles) == ray_query_t::DEPTH_TILES);
 static_assert(static_cast<int>(RayStatus::kHit) == ray_reply_t::HIT);
 static_assert(static_cast<int>(RayStatus::kMiss) == ray_reply_t::MISS);
 static_assert(static_cast<int>(RayStatus::kOutside) == ray_reply_t::OUTSIDE);

@@ -15,6 +15,10 @@ bool is_profile(QueryMode mode) {
   return mode == QueryMode::kUniformProfile || mode == QueryMode::kExactProfile;
 }
 
+std::size_t results_a_ray(QueryMode mode) {
+  return mode == QueryMode::kDepthTiles ? kTileSide * kTileSide : 1;
+}
+
 RayStatus as_ray_status(DepthStatus status) {
   switch (status) {
     case DepthStatus::kOk:
@@ -34,9 +38,19 @@ void append(RayAnswers& answers, RayStatus status, double result_m) {
   answers.results_m.push_back(status == RayStatus::kHit ? result_m : 0);
 }
 
-void append_depth(const Terrain& terrain, const Ray& ray, RayAnswers& answers) {
-  const DepthSample sample = terrain.depth_at(ray.origin_ned_m.x(), ray.origin_ned_m.y());
+void append_depth(const Terrain& terrain, double x_m, double y_m, RayAnswers& answers) {
+  const DepthSample sample = terrain.depth_at(x_m, y_m);
   append(answers, as_ray_status(sample.status), sample.z_m);
+}
+
+// Points are products of whole numbers and the spacing, so that they are the same to the last bit whoever computes them.
+void append_tile(const Terrain& terrain, const Vec3& origin, double spacing_m, RayAnswers& answers) {
+  const double north = std::round(origin.x() / spacing_m), east = std::round(origin.y() / spacing_m);
+  for (std::size_t i = 0; i < kTileSide; ++i) {
+    for (std::size_t j = 0; j < kTileSide; ++j)
+      append_depth(terrain, (north + static_cast<double>(i)) * spacing_m,
+                   (east + static_cast<double>(j)) * spacing_m, answers);
+  }
 }
 
 RayAnswers too_many_samples(double count) {
@@ -88,17 +102,19 @@ RayAnswers answer_profile(const Terrain& terrain, const RayBatch& batch) {
 // Why the batch as a whole cannot be answered; Refusal::kNone when it can.
 RayAnswers refusal_of(const std::string& terrain_version, const RayBatch& batch) {
   const std::size_t count = batch.rays.size();
-  if (batch.mode > QueryMode::kExactProfile)
-    return refused(Refusal::kBadQuery, "query_mode is none of the five");
+  if (batch.mode > QueryMode::kDepthTiles)
+    return refused(Refusal::kBadQuery, "query_mode is none of the six");
   if (count == 0) return refused(Refusal::kBadQuery, "there is no ray");
-  if (count > kMaxRays) {
+  const std::size_t max_count = kMaxRays / results_a_ray(batch.mode);
+  if (count > max_count) {
     return refused(Refusal::kTooMany,
-                   "there are " + std::to_string(count) + " rays; allowed are " + std::to_string(kMaxRays));
+                   "there are " + std::to_string(count) + " rays; allowed are " + std::to_string(max_count));
   }
   if (is_profile(batch.mode) && count != 1)
     return refused(Refusal::kBadQuery, "a profile takes exactly one ray");
   const bool spacing_possible = std::isfinite(batch.sample_spacing_m) && batch.sample_spacing_m > 0;
-  if (batch.mode == QueryMode::kUniformProfile && !spacing_possible) {
+  if ((batch.mode == QueryMode::kUniformProfile || batch.mode == QueryMode::kDepthTiles) &&
+      !spacing_possible) {
     return refused(Refusal::kBadQuery, "sample_spacing_m must be above 0");
   }
   if (!batch.expected_terrain.empty() && batch.expected_terrain != terrain_version) {
@@ -113,10 +129,16 @@ RayAnswers answer(const Terrain& terrain, const std::string& terrain_version, co
   RayAnswers answers = refusal_of(terrain_version, batch);
   if (answers.refusal != Refusal::kNone) return answers;
   if (is_profile(batch.mode)) return answer_profile(terrain, batch);
-  answers.statuses.reserve(batch.rays.size());
-  answers.results_m.reserve(batch.rays.size());
+  const std::size_t results = batch.rays.size() * results_a_ray(batch.mode);
+  answers.statuses.reserve(results);
+  answers.results_m.reserve(results);
   if (batch.mode == QueryMode::kDepth) {
-    for (const Ray& ray : batch.rays) append_depth(terrain, ray, answers);
+    for (const Ray& ray : batch.rays)
+      append_depth(terrain, ray.origin_ned_m.x(), ray.origin_ned_m.y(), answers);
+    return answers;
+  }
+  if (batch.mode == QueryMode::kDepthTiles) {
+    for (const Ray& ray : batch.rays) append_tile(terrain, ray.origin_ned_m, batch.sample_spacing_m, answers);
     return answers;
   }
   // Occlusion is a closest hit: the search runs along the ray and ends at the first one.

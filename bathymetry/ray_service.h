@@ -2,8 +2,9 @@
 // Answers a batch of questions about the terrain: what the bathymetry service computes, without the bus.
 //
 // Model: a query is of one mode. closest_hit and occluded follow each ray; depth looks below each origin; the two
-// profiles take one ray, whose horizontal direction and range give the line. A query is answered whole or
-// refused whole, with the reason: never cut. Stateless: the same query always has the same answer.
+// profiles take one ray, whose horizontal direction and range give the line. depth_tiles looks below kTileSide x kTileSide
+// points of the lattice that has one point in the world's origin: the first is that nearest to the ray's origin, the others lie
+// north and east of it. A query is answered whole or refused whole, with the reason: never cut. Stateless: the same query always has the same answer.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +19,24 @@ namespace halocline::bathymetry {
 
 // The largest batch that is advised: a message of this many rays is 57 kB.
 inline constexpr std::size_t kUsualRays = 1024;
-// More rays, or more samples of a profile, are refused.
+// More rays, points of tiles or samples of a profile are refused.
 inline constexpr std::size_t kMaxRays = 4096;
+// Points of a tile along each side.
+inline constexpr std::size_t kTileSide = 8;
 
-enum class QueryMode : std::uint8_t { kClosestHit, kOccluded, kDepth, kUniformProfile, kExactProfile };
+enum class QueryMode : std::uint8_t {
+  kClosestHit,
+  kOccluded,
+  kDepth,
+  kUniformProfile,
+  kExactProfile,
+  kDepthTiles
+};
 
 struct RayBatch {
   QueryMode mode = QueryMode::kClosestHit;
   std::string expected_terrain = {};  // version_text of the terrain relied upon; empty: any
-  double sample_spacing_m = 0;        // uniform_profile: above 0
+  double sample_spacing_m = 0;        // uniform_profile, depth_tiles: above 0
   std::vector<Ray> rays = {};         // 1 to kMaxRays; exactly 1 for a profile
 };
 
@@ -35,8 +45,8 @@ enum class Refusal : std::uint8_t { kNone, kTooMany, kOtherTerrain, kBadQuery };
 struct RayAnswers {
   Refusal refusal = Refusal::kNone;
   std::string reason = {};               // empty unless refused
-  std::vector<RayStatus> statuses = {};  // one a ray, in order; empty when refused
-  // One a ray: the range of a hit; for depth z of the bottom (status hit); for a profile its length (status hit).
+  std::vector<RayStatus> statuses = {};  // one a result, in order; empty when refused
+  // One a ray (of a tile one a point, eastwards row by row): the range of a hit; for depths z of the bottom (status hit); for a profile its length (status hit).
   // 0 with any other status.
   std::vector<double> results_m = {};
   std::vector<ProfilePoint> samples = {};  // of a profile

@@ -104,6 +104,18 @@ link_answer_t to_message(const LinkAnswer& answer) {
   return message;
 }
 
+std::int8_t mode_of(RayKind kind) {
+  switch (kind) {
+    case RayKind::kDepths:
+      return ray_query_t::DEPTH;
+    case RayKind::kWays:
+      return ray_query_t::OCCLUDED;
+    case RayKind::kTiles:
+      break;
+  }
+  return ray_query_t::DEPTH_TILES;
+}
+
 }  // namespace
 
 link_t to_message(const LinkRow& row) {
@@ -206,7 +218,8 @@ ray_query_t to_message(const RayQueryBatch& batch, std::string_view client, SimT
   message.utime = asked_at.to_utime();
   message.client_name = client;
   message.request_id = batch.request_id;
-  message.query_mode = batch.kind == RayKind::kDepths ? ray_query_t::DEPTH : ray_query_t::OCCLUDED;
+  message.query_mode = mode_of(batch.kind);
+  message.sample_spacing_m = batch.spacing_m;
   message.num_rays = static_cast<std::int32_t>(batch.rays.size());
   for (const TerrainRay& ray : batch.rays) {
     message.offset_m.push_back(as_vector(ray.origin_ned_m));

@@ -86,8 +86,8 @@ template <class DepthAt>
 void answer_requests(SeabedMap& seabed, DepthAt seabed_z_m) {
   for (TileSurvey& tile : seabed.take_requests()) {
     std::vector<RayAnswer> answers;
-    for (const TerrainRay& ray : tile.rays()) {
-      answers.push_back({RayAnswer::Kind::kHit, seabed_z_m(ray.origin_ned_m)});
+    for (const Vec3& point : tile.points_ned_m()) {
+      answers.push_back({RayAnswer::Kind::kHit, seabed_z_m(point)});
     }
     tile.take(answers);
     seabed.store(tile);

@@ -2,6 +2,8 @@
 #include "bus/lockstep/lockstep_wire.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include "core/hash.h"
 
@@ -32,9 +34,13 @@ std::optional<Bytes> SliceCollector::add(std::int64_t key, int number, int count
 }
 
 std::int64_t digest_of(std::int64_t before, std::span<const lockstep_message_t> published) {
-  auto sum = static_cast<std::uint64_t>(before) ^ kFnvStart;
-  for (const lockstep_message_t& message : published) sum = fnv1a(encoded(message), sum);
-  return static_cast<std::int64_t>(sum ^ kFnvStart);
+  auto sum = static_cast<std::uint64_t>(before);
+  for (const lockstep_message_t& message : published) {
+    const auto instant =
+        std::bit_cast<std::array<std::uint8_t, sizeof message.instant_ns>>(message.instant_ns);
+    sum = xxh3(message.message_bytes, xxh3(message.channel_name, xxh3(instant, sum)));
+  }
+  return static_cast<std::int64_t>(sum);
 }
 
 }  // namespace halocline::bus

@@ -34,7 +34,7 @@ class SliceCollector {
   std::vector<std::optional<Bytes>> slices_;
 };
 
-// Digest of all messages published so far (FNV-1a over instants, channels and bytes), continued from `before`: shows
+// Digest of all messages published so far (XXH3 over instants, channels and bytes), continued from `before`: shows
 // whether an incarnation that replays the history publishes the same.
 std::int64_t digest_of(std::int64_t before, std::span<const lockstep_message_t> published);
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <variant>
 
+#include "channel_server/propagation/seabed_map.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
@@ -78,13 +80,17 @@ std::vector<RayQueryBatch> RayQueryClient::take_batches(SimTime steady) {
   return batches;
 }
 
-// Surveys are not split: all rays of one stage of one survey go in one batch.
+// Surveys are not split: all rays of one stage of one survey go in one batch. All tiles have one spacing, that of the seabed's map.
 RayQueryBatch RayQueryClient::send_from(Queue& queue, SimTime steady) {
-  InFlight sent{{++last_request_, *next_query(queue.front().survey), {}}, {}, steady};
+  const RayKind kind = *next_query(queue.front().survey);
+  const std::size_t max_rays = kind == RayKind::kTiles ? kTilesPerBatch : rule_.rays_per_batch;
+  InFlight sent{{++last_request_, kind, {}}, {}, steady};
+  if (const auto* tile = std::get_if<TileSurvey>(&queue.front().survey))
+    sent.batch.spacing_m = tile->spacing_m();
   if (!queue.front().urgent) ++sent_this_tick_;
-  while (!queue.empty()) {
+  while (!queue.empty() && next_query(queue.front().survey) == kind) {
     const auto rays = rays_of(queue.front().survey);
-    const bool fits = sent.batch.rays.size() + rays.size() <= rule_.rays_per_batch;
+    const bool fits = sent.batch.rays.size() + rays.size() <= max_rays;
     if (!fits && !sent.surveys.empty()) break;
     sent.batch.rays.insert(sent.batch.rays.end(), rays.begin(), rays.end());
     sent.surveys.push_back(std::move(queue.front()));
@@ -134,9 +140,10 @@ void RayQueryClient::answer(std::int64_t request_id, std::span<const RayAnswer> 
   auto found = in_flight_.extract(request_id);
   if (found.empty()) return;
   InFlight& answered = found.mapped();
-  if (answers.size() != answered.batch.rays.size()) return fail_all(std::move(answered.surveys));
+  const std::size_t a_ray = answers_a_ray(answered.batch.kind);
+  if (answers.size() != answered.batch.rays.size() * a_ray) return fail_all(std::move(answered.surveys));
   for (Waiting& waiting : answered.surveys) {
-    const std::size_t count = rays_of(waiting.survey).size();
+    const std::size_t count = rays_of(waiting.survey).size() * a_ray;
     advance(std::move(waiting), answers.first(count));
     answers = answers.subspan(count);
   }

@@ -2,8 +2,8 @@
 // Has surveys of the terrain answered by a service that may be slow or absent: batches their rays, limits the batches
 // in flight, repeats and times out, and detects when the service is away and back.
 //
-// Surveys go through their queries (depths; an echo survey then ways), each in batches of one kind of up to
-// `rays_per_batch` rays. No more than `batches_in_flight` wait for an answer, no more than `batches_per_tick`
+// Surveys go through their queries (a tile; of an echo survey depths, then ways), each in batches of one kind of up to
+// `rays_per_batch` rays or kTilesPerBatch tiles. No more than `batches_in_flight` wait for an answer, no more than `batches_per_tick`
 // are sent between two begin_tick(); routine surveys that have not been sent by the next tick are dropped and
 // counted: their rows hold unknown, and they come first then. Urgent surveys go before routine ones and
 // do not count.
@@ -39,10 +39,13 @@ struct RayQueryBatch {
   std::int64_t request_id = 0;
   RayKind kind = RayKind::kDepths;
   std::vector<TerrainRay> rays;
+  double spacing_m = 0;  // of tiles: of their points
 };
 
 class RayQueryClient {
  public:
+  // 4096 depths, a reply of 37 kB.
+  static constexpr std::size_t kTilesPerBatch = 64;
   // Identity of a survey, ascending from 1.
   using SurveyId = std::int64_t;
   struct Finished {

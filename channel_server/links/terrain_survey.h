@@ -24,7 +24,7 @@ inline std::optional<RayKind> next_query(const TerrainSurvey& survey) {
 inline std::vector<TerrainRay> rays_of(const TerrainSurvey& survey) {
   return std::visit([](const auto& one) { return one.rays(); }, survey);
 }
-// As many answers as rays.
+// As many answers as there are to those rays.
 inline void take(TerrainSurvey& survey, std::span<const RayAnswer> answers) {
   std::visit([&](auto& one) { one.take(answers); }, survey);
 }

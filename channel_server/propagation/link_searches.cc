@@ -237,12 +237,14 @@ std::vector<LinkSearches::Paths> LinkSearches::find_all(const std::vector<Task>&
   return found;
 }
 
-void LinkSearches::find_own(const std::vector<Task>& tasks, const ForEach& for_each) {
+void LinkSearches::find_shared(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) {
   std::vector<Task> own;
-  for (const Task& task : tasks) {
-    const auto& [from, to] = task.ends;
-    if (!is_shared(task) || exchange_->is_owner(from.id, to.id)) {
-      own.push_back(task);
+  for (const auto& [from, to] : links) {
+    if (!exchange_->is_shared(from.id, to.id)) continue;
+    Task task = for_table(at, from, to);
+    if (!is_shared(task)) continue;
+    if (exchange_->is_owner(from.id, to.id)) {
+      own.push_back(std::move(task));
     } else if (!task.waits && !known(task)) {
       exchange_->await(from.id, to.id);
     }

@@ -90,8 +90,8 @@ class LinkSearches {
   // Of each task, in their order; those that wait find nothing.
   std::vector<Paths> find_all(const std::vector<Task>& tasks, const ForEach& for_each);
 
-  // The searches of a table before it is made: those that another server owns are awaited.
-  void find_own(const std::vector<Task>& tasks, const ForEach& for_each);
+  // Of the links of a table, those that this server and another share: what it owns is searched for, what the other owns awaited.
+  void find_shared(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each);
 
   std::shared_ptr<const SeabedProfile> seabed_of(const PathQuery& query) const;
   std::int64_t searches() const { return searches_; }  // since the start

@@ -146,7 +146,7 @@ class Propagation {
   virtual void begin_tick(SimTime /*at*/, const std::vector<EndPair>& /*all*/) {}
   // Whether this server and others tell each other what they search for, through `exchange`, from now on; it must outlive the
   // propagation. Then prepare_tables() is to be called with the links of a tick before receptions() may be, at once where it
-  // awaits nothing. It changes no result.
+  // awaits nothing: it searches for what others wait for. It changes no result.
   virtual bool share_searches(PathExchange& /*exchange*/) { return false; }
   virtual void prepare_tables(SimTime /*at*/, const std::vector<EndPair>& /*links*/,
                               const ForEach& /*for_each*/) {}

@@ -79,7 +79,7 @@ class RayPropagation : public Propagation {
     return true;
   }
   void prepare_tables(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) override {
-    searches_.find_own(table_tasks(at, links), for_each);
+    searches_.find_shared(at, links, for_each);
   }
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;

@@ -45,16 +45,16 @@ double mean_of_known(const std::array<double, 4>& z_m, const std::array<double, 
 
 }  // namespace
 
-std::vector<TerrainRay> TileSurvey::rays() const {
-  std::vector<TerrainRay> rays;
-  for (std::int64_t north = 0; north < kSide; ++north) {
-    for (std::int64_t east = 0; east < kSide; ++east) {
-      rays.push_back(depth_ray({static_cast<double>(kSide * tile_.north + north) * spacing_m_,
-                                static_cast<double>(kSide * tile_.east + east) * spacing_m_, 0}));
-    }
+std::vector<Vec3> TileSurvey::points_ned_m() const {
+  std::vector<Vec3> points;
+  for (std::int64_t i = 0; i < kSide * kSide; ++i) {
+    points.emplace_back(static_cast<double>(kSide * tile_.north + i / kSide) * spacing_m_,
+                        static_cast<double>(kSide * tile_.east + i % kSide) * spacing_m_, 0);
   }
-  return rays;
+  return points;
 }
+
+std::vector<TerrainRay> TileSurvey::rays() const { return {depth_ray(points_ned_m().front())}; }
 
 void TileSurvey::take(std::span<const RayAnswer> answers) {
   require(answers.size() == static_cast<std::size_t>(kSide * kSide), "one answer a depth");

@@ -52,20 +52,23 @@ struct TileIndex {
 // Queries the depths of one tile.
 class TileSurvey {
  public:
-  static constexpr int kPoints = 8;  // along each side
+  static constexpr int kPoints = kTileSide;
 
   TileSurvey() = default;
   TileSurvey(TileIndex tile, double spacing_m) : tile_(tile), spacing_m_(spacing_m) {}
 
   // As EchoSurvey's: there is one query.
   std::optional<RayKind> next_query() const {
-    return z_m_.empty() ? std::optional(RayKind::kDepths) : std::nullopt;
+    return z_m_.empty() ? std::optional(RayKind::kTiles) : std::nullopt;
   }
-  std::vector<TerrainRay> rays() const;
+  std::vector<TerrainRay> rays() const;  // one
+  // Where the depths are, eastwards row by row; z is 0.
+  std::vector<Vec3> points_ned_m() const;
+  double spacing_m() const { return spacing_m_; }
   void take(std::span<const RayAnswer> answers);
 
   const TileIndex& tile() const { return tile_; }
-  // z of the seabed, m, eastwards row by row; NaN: outside, no data. Empty until answered.
+  // z of the seabed at the points, m; NaN: outside, no data. Empty until answered.
   const std::vector<double>& z_m() const { return z_m_; }
 
  private:

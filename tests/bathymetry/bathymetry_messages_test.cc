@@ -47,9 +47,9 @@ TEST(BathymetryMessages, AQueryComesBackAsItWas) {
 
 TEST(BathymetryMessages, AnImpossibleModeStaysImpossible) {
   ray_query_t message = to_message({0, "alpha", 1}, {.rays = {{}}}, Vec3::Zero());
-  for (const int mode : {-1, -128, 5, 127}) {
+  for (const int mode : {-1, -128, 6, 127}) {
     message.query_mode = static_cast<std::int8_t>(mode);
-    EXPECT_GT(from_message(message).mode, QueryMode::kExactProfile) << mode;
+    EXPECT_GT(from_message(message).mode, QueryMode::kDepthTiles) << mode;
   }
 }
 

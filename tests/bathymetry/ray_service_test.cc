@@ -56,6 +56,47 @@ TEST(RayService, DepthIgnoresDirections) {
   EXPECT_EQ(answers.results_m, (std::vector<double>{100, 0, 0, 0}));
 }
 
+// To the last bit: 24 times 0.1 m and 3 times 0.1 m together are not 27 times 0.1 m.
+TEST(RayService, ATileHasTheDepthsUnderTheProductsOfItsNumbersAndTheSpacing) {
+  const Terrain slope(
+      make_grid({-100, -100, 10, 21, 21}, [](double x, double y) { return 100 + 0.3 * x - 0.7 * y; }));
+  for (const double spacing_m : {0.1, 0.7, 2.5}) {
+    RayBatch points{.mode = QueryMode::kDepth};
+    for (int i = 0; i < 64; ++i)
+      points.rays.push_back({{(24 + i / 8) * spacing_m, (-16 + i % 8) * spacing_m, 0}, {0, 0, 1}, 1});
+    const RayBatch tile{.mode = QueryMode::kDepthTiles,
+                        .sample_spacing_m = spacing_m,
+                        .rays = {{{24 * spacing_m, -16 * spacing_m, 0}, {0, 0, 1}, 1}}};
+    const RayAnswers answers = answer(slope, kVersion, tile), expected = answer(slope, kVersion, points);
+    EXPECT_EQ(answers.results_m, expected.results_m) << spacing_m;
+    EXPECT_EQ(answers.statuses, std::vector(64, RayStatus::kHit)) << spacing_m;
+  }
+}
+
+TEST(RayService, EachPointOfATileHasItsStatus) {
+  const RayAnswers answers =
+      answers_to({.mode = QueryMode::kDepthTiles,
+                  .sample_spacing_m = 10,
+                  .rays = {{{70, 70, 0}, {0, 0, 1}, 1}, {{std::nan(""), 0, 0}, {0, 0, 1}, 1}}});
+  using enum RayStatus;
+  ASSERT_EQ(answers.statuses.size(), 128u);
+  EXPECT_EQ(answers.statuses[0], kHit);             // 70 m north, 70 m east
+  EXPECT_EQ(answers.statuses[3], kHit);             // 100 m east
+  EXPECT_EQ(answers.statuses[4], kOutside);         // 110 m east
+  EXPECT_EQ(answers.statuses[3 * 8 + 3], kNoData);  // the hole in the corner
+  EXPECT_EQ(answers.statuses[4 * 8], kOutside);     // 110 m north
+  EXPECT_EQ(answers.statuses[64], kBadInput);
+}
+
+TEST(RayService, TakesSixtyFourTilesAndRefusesOneMore) {
+  RayBatch batch{.mode = QueryMode::kDepthTiles,
+                 .sample_spacing_m = 1,
+                 .rays = std::vector<Ray>(64, {{0, 0, 0}, {0, 0, 1}, 1})};
+  EXPECT_EQ(answers_to(batch).statuses.size(), kMaxRays);
+  batch.rays.push_back(batch.rays.front());
+  EXPECT_EQ(answers_to(batch).refusal, Refusal::kTooMany);
+}
+
 TEST(RayService, UniformProfileSamplesAtTheSpacingAlongTheHorizontalDirection) {
   const RayAnswers answers = answers_to(
       {.mode = QueryMode::kUniformProfile, .sample_spacing_m = 2.5, .rays = {{{0, 0, 7}, {0, 2, 5}, 100}}});
@@ -116,12 +157,14 @@ TEST(RayService, RefusesToAnswerForAnotherTerrain) {
 TEST(RayService, RefusesQueriesThatAreNone) {
   const Ray ray{{0, 0, 40}, {1, 0, 0}, 50};
   EXPECT_EQ(answers_to({.rays = {}}).refusal, Refusal::kBadQuery);
-  EXPECT_EQ(answers_to({.mode = static_cast<QueryMode>(5), .rays = {ray}}).refusal, Refusal::kBadQuery);
+  EXPECT_EQ(answers_to({.mode = static_cast<QueryMode>(6), .rays = {ray}}).refusal, Refusal::kBadQuery);
   EXPECT_EQ(answers_to({.mode = static_cast<QueryMode>(255), .rays = {ray}}).refusal, Refusal::kBadQuery);
   EXPECT_EQ(answers_to({.mode = QueryMode::kExactProfile, .rays = {ray, ray}}).refusal, Refusal::kBadQuery);
   for (const double spacing : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
-    const RayBatch batch{.mode = QueryMode::kUniformProfile, .sample_spacing_m = spacing, .rays = {ray}};
-    EXPECT_EQ(answers_to(batch).refusal, Refusal::kBadQuery) << spacing;
+    for (const QueryMode mode : {QueryMode::kUniformProfile, QueryMode::kDepthTiles}) {
+      const RayBatch batch{.mode = mode, .sample_spacing_m = spacing, .rays = {ray}};
+      EXPECT_EQ(answers_to(batch).refusal, Refusal::kBadQuery) << spacing;
+    }
   }
 }
 

@@ -94,8 +94,8 @@ void survey(SeabedMap& seabed, const Vec3& one, const Vec3& other, DepthAt depth
   while (!seabed.is_surveyed(one, other)) {
     for (TileSurvey& tile : seabed.take_requests()) {
       std::vector<RayAnswer> answers;
-      for (const TerrainRay& ray : tile.rays()) {
-        answers.push_back({RayAnswer::Kind::kHit, static_cast<double>(depth_at(ray.origin_ned_m))});
+      for (const Vec3& point : tile.points_ned_m()) {
+        answers.push_back({RayAnswer::Kind::kHit, static_cast<double>(depth_at(point))});
       }
       tile.take(answers);
       seabed.store(tile);

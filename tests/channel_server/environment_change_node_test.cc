@@ -168,8 +168,8 @@ TEST_F(RayNodeTest, AVehicleAtRestIsQueriedOnce) {
   FlatBottom bottom(rays_.lcm(), 100);
   two_at_rest();
   rays_.run_to(14);
-  EXPECT_EQ(bottom.queries().size(), 1u);           // depths
-  EXPECT_EQ(bottom.queries()[0].num_rays % 64, 0);  // whole tiles
+  ASSERT_EQ(bottom.queries().size(), 1u);
+  EXPECT_EQ(bottom.queries()[0].query_mode, ray_query_t::DEPTH_TILES);
 }
 
 TEST_F(RayNodeTest, WithoutTheServicePathsAreStraightAndRaysComeBackByThemselves) {

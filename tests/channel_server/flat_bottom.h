@@ -2,6 +2,7 @@
 // A bathymetry service over a bottom of the test's own.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -49,17 +50,24 @@ class FlatBottom {
     }
   }
   void answer(const ray_query_t& query) {
-    const bool depth = query.query_mode == ray_query_t::DEPTH;
     ray_reply_t reply{};
     reply.utime = query.utime;
     reply.session = 11;
     reply.request_id = query.request_id;
     reply.terrain_version = terrain_;
-    reply.num_rays = query.num_rays;
-    reply.ray_status.assign(static_cast<std::size_t>(query.num_rays),
-                            depth ? ray_reply_t::HIT : ray_reply_t::MISS);
-    for (const auto& place : query.offset_m)
-      reply.result_m.push_back(depth ? bottom_z_m_(place[0], place[1]) : 0);
+    for (const auto& place : query.offset_m) {
+      if (query.query_mode == ray_query_t::DEPTH_TILES) {
+        for (int i = 0; i < 64; ++i)
+          reply.result_m.push_back(bottom_z_m_(place[0] + query.sample_spacing_m * (i / 8),
+                                               place[1] + query.sample_spacing_m * (i % 8)));
+      } else {
+        reply.result_m.push_back(query.query_mode == ray_query_t::DEPTH ? bottom_z_m_(place[0], place[1])
+                                                                        : 0);
+      }
+    }
+    reply.num_rays = static_cast<std::int32_t>(reply.result_m.size());
+    reply.ray_status.assign(reply.result_m.size(),
+                            query.query_mode == ray_query_t::OCCLUDED ? ray_reply_t::MISS : ray_reply_t::HIT);
     bus_.publish(channels::kRayReply.of(query.client_name), reply);
   }
 

@@ -170,9 +170,9 @@ TEST_F(SeabedNodeTest, OutsideOfTheTerrainPathsAreStraightAndNothingWaits) {
     reply.session = 11;
     reply.request_id = query.request_id;
     reply.terrain_version = "none";
-    reply.num_rays = query.num_rays;
-    reply.ray_status.assign(static_cast<std::size_t>(query.num_rays), ray_reply_t::OUTSIDE);
-    reply.result_m.assign(static_cast<std::size_t>(query.num_rays), 0);
+    reply.num_rays = 64 * query.num_rays;  // of tiles
+    reply.ray_status.assign(static_cast<std::size_t>(reply.num_rays), ray_reply_t::OUTSIDE);
+    reply.result_m.assign(static_cast<std::size_t>(reply.num_rays), 0);
     service.publish(testing::channels::kRayReply.of(query.client_name), reply);
   });
   for (double t = 0; t < 3; t += 0.1) {

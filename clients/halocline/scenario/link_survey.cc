@@ -174,7 +174,9 @@ channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, con
 
 void answer_requests(const bathymetry::Terrain& terrain, channel_server::SeabedMap& seabed) {
   for (channel_server::TileSurvey& tile : seabed.take_requests()) {
-    tile.take(query(terrain, bathymetry::QueryMode::kDepth, tile.rays()));
+    std::vector<TerrainRay> rays;
+    for (const Vec3& point : tile.points_ned_m()) rays.push_back(channel_server::depth_ray(point));
+    tile.take(query(terrain, bathymetry::QueryMode::kDepth, rays));
     seabed.store(tile);
   }
 }

@@ -22,8 +22,8 @@ constexpr double kClock = 82, kStatus = 230, kState = 180, kSensors = 209, kComm
                  kDvl = 170, kGps = 130, kSonar = 90, kSonarRay = 8, kSend = 80, kReceipt = 106,
                  kOutcome = 262, kReceive = 155, kLinks = 80, kLink = 168, kActivity = 112, kTerrain = 47'000,
                  kScenario = 1500, kScenarioVehicle = 400;
-// A RAY_QUERY with its RAY_REPLY, and each ray in both.
-constexpr double kRayQuery = 270, kRay = 65;
+// A RAY_QUERY with its RAY_REPLY, each ray in both, and each depth of a tile.
+constexpr double kRayQuery = 270, kRay = 65, kTileDepth = 10;
 constexpr int kNodes = 7, kBeamsOfDvl = 4;
 // Rays a second for each link along a straight path: its bottom is surveyed again as the ends move.
 constexpr double kSurveyedRaysPerSecond = 4;
@@ -91,7 +91,7 @@ double once(const ScenarioConfig& config) {
   }
   const double lattice =
       config.terrain.domain.size_north_m * config.terrain.domain.size_east_m / (spacing_m * spacing_m);
-  return kTerrain + kRay * std::min(kDepthsAStep * steps, lattice);
+  return kTerrain + kTileDepth * std::min(kDepthsAStep * steps, lattice);
 }
 
 }  // namespace

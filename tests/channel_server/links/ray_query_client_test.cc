@@ -23,9 +23,10 @@ EchoSurvey survey() { return EchoSurvey({0, 0, 50}, {1000, 0, 50}, kPoints); }
 
 // A service that always answers: depth 100 m, every way free.
 void answer(RayQueryClient& rays, const RayQueryBatch& batch) {
-  const RayAnswer one = batch.kind == Kind::kDepths ? RayAnswer{RayAnswer::Kind::kHit, 100}
-                                                    : RayAnswer{RayAnswer::Kind::kMiss, 0};
-  rays.answer(batch.request_id, std::vector<RayAnswer>(batch.rays.size(), one));
+  const RayAnswer one = batch.kind == Kind::kWays ? RayAnswer{RayAnswer::Kind::kMiss, 0}
+                                                  : RayAnswer{RayAnswer::Kind::kHit, 100};
+  const std::size_t a_ray = batch.kind == Kind::kTiles ? 64 : 1;
+  rays.answer(batch.request_id, std::vector<RayAnswer>(a_ray * batch.rays.size(), one));
 }
 
 TEST(RayQueryClient, ASurveyGoesThroughDepthsAndWays) {
@@ -222,28 +223,42 @@ TEST(RayQueryClient, ImpossibleRulesAreRefused) {
   EXPECT_THROW(RayQueryClient({.answer_deadline = for_s(0)}), InvalidArgument);
 }
 
-TEST(RayQueryClient, ATileIsThroughAfterItsDepths) {
+TEST(RayQueryClient, ATileIsOneRayAndThroughAfterItsDepths) {
   RayQueryClient rays(kRule);
   rays.submit_urgent(TileSurvey({3, -4}, 25));
-  const auto depths = rays.take_batches(at_s(0));
-  ASSERT_EQ(depths.size(), 1u);
-  EXPECT_EQ(depths[0].rays.size(), 64u);
-  answer(rays, depths[0]);
+  const auto tiles = rays.take_batches(at_s(0));
+  ASSERT_EQ(tiles.size(), 1u);
+  EXPECT_EQ(tiles[0].kind, Kind::kTiles);
+  EXPECT_EQ(tiles[0].spacing_m, 25);
+  ASSERT_EQ(tiles[0].rays.size(), 1u);
+  EXPECT_EQ(tiles[0].rays[0].origin_ned_m, Vec3(600, -800, 0));
+  answer(rays, tiles[0]);
   const auto finished = rays.take_finished();
   ASSERT_EQ(finished.size(), 1u);
   EXPECT_EQ(std::get<TileSurvey>(finished[0].survey).z_m(), std::vector<double>(64, 100));
   EXPECT_EQ(rays.due(), SimTime::never());
 }
 
-TEST(RayQueryClient, TilesAndEchoesShareABatchOfDepths) {
+TEST(RayQueryClient, TilesAndEchoesGoInBatchesOfTheirOwn) {
   RayQueryClient rays(kRule);
   rays.submit_routine(survey());
   rays.submit_routine(TileSurvey({0, 0}, 25));
   const auto batches = rays.take_batches(at_s(0));
-  ASSERT_EQ(batches.size(), 1u);
-  EXPECT_EQ(batches[0].rays.size(), 8u + 64u);
+  ASSERT_EQ(batches.size(), 2u);
+  EXPECT_EQ(batches[0].kind, Kind::kDepths);
+  EXPECT_EQ(batches[0].rays.size(), 8u);
+  EXPECT_EQ(batches[1].kind, Kind::kTiles);
   answer(rays, batches[0]);
   EXPECT_EQ(rays.take_batches(at_s(0)).at(0).kind, Kind::kWays);  // the echoes'
+}
+
+TEST(RayQueryClient, SixtyFourTilesShareABatch) {
+  RayQueryClient rays(kRule);
+  for (int i = 0; i < 65; ++i) rays.submit_urgent(TileSurvey({i, 0}, 25));
+  const auto batches = rays.take_batches(at_s(0));
+  ASSERT_EQ(batches.size(), 2u);
+  EXPECT_EQ(batches[0].rays.size(), 64u);
+  EXPECT_EQ(batches[1].rays.size(), 1u);
 }
 
 TEST(RayQueryClient, ASurveyLongerThanABatchGoesWhole) {

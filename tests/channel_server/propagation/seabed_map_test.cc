@@ -122,9 +122,8 @@ TEST_F(SeabedMapTest, InsideTheTerrainTheBottomIsKnownUpToTheEdge) {
     while (!map_.is_surveyed(from, to)) {
       for (TileSurvey& tile : map_.take_requests()) {
         std::vector<RayAnswer> answers;
-        for (const TerrainRay& ray : tile.rays()) {
-          const Vec3& p = ray.origin_ned_m;
-          const bool inside = std::abs(p.x()) <= 510 && std::abs(p.y()) <= 490;
+        for (const Vec3& point : tile.points_ned_m()) {
+          const bool inside = std::abs(point.x()) <= 510 && std::abs(point.y()) <= 490;
           answers.push_back({inside ? RayAnswer::Kind::kHit : RayAnswer::Kind::kOutside, inside ? 80.0 : 0});
         }
         tile.take(answers);
