@@ -2,7 +2,7 @@
 # Toolchain: Halocline for arm64 on an amd64 host, with what scripts/arm64_root has made. Programs run by qemu-user.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
-set(root ${CMAKE_CURRENT_LIST_DIR}/../build/arm64-root)
+cmake_path(SET root NORMALIZE ${CMAKE_CURRENT_LIST_DIR}/../build/arm64-root)
 set(CMAKE_CXX_COMPILER ${root}/bin/g++)
 set(CMAKE_CROSSCOMPILING_EMULATOR ${root}/bin/run)
 foreach(tool AR RANLIB STRIP NM OBJDUMP)
