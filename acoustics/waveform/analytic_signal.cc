@@ -71,27 +71,32 @@ HALOCLINE_VECTOR_CLONES std::complex<double> tapped(const SincRow& low, const Si
           (turned_sums[0] + turned_sums[1]) + (turned_sums[2] + turned_sums[3])};
 }
 
+// The sum over the taps of h_k (x[n - k] - x[n + k]), in the order of k, of each sample.
+HALOCLINE_VECTOR_CLONES void add_turned(const double* x, const std::vector<double>& taps, double* turned,
+                                        std::size_t count) {
+  for (std::size_t i = 0; i < taps.size(); ++i) {
+    const double tap = taps[i];
+    const double *before = x - (2 * i + 1), *after = x + (2 * i + 1);
+    for (std::size_t n = 0; n < count; ++n) turned[n] += tap * (before[n] - after[n]);
+  }
+}
+
 }  // namespace
 
 AnalyticSignal::AnalyticSignal(double rate_hz, const std::vector<double>& samples)
     : rate_hz_(rate_hz), count_(std::ssize(samples)) {
   require(std::isfinite(rate_hz) && rate_hz > 0, "the sampling rate of a signal must be above 0");
   for (const double x : samples) require(std::isfinite(x), "the samples of a signal must be finite");
-  const std::vector<double> taps = hilbert_taps();
-  const auto sample = [&](std::ptrdiff_t i) {
-    return i < 0 || i >= count_ ? 0.0 : samples[static_cast<std::size_t>(i)];
-  };
   real_.resize(samples.size() + 2 * kMargin);
   turned_.resize(real_.size());
   std::copy(samples.begin(), samples.end(), real_.begin() + kMargin);
-  for (std::ptrdiff_t n = 0; n < count_; ++n) {
-    double turned = 0;
-    for (std::size_t i = 0; i < taps.size(); ++i) {
-      const auto k = static_cast<std::ptrdiff_t>(2 * i + 1);
-      turned += taps[i] * (sample(n - k) - sample(n + k));
-    }
-    turned_[static_cast<std::size_t>(n + kMargin)] = turned;
-  }
+  std::vector<double> padded(samples.size() + 2 * kHilbertHalf);
+  std::copy(samples.begin(), samples.end(), padded.begin() + kHilbertHalf);
+  static const std::vector<double> taps = hilbert_taps();
+  constexpr std::size_t kBlock = 1024;  // samples that stay in the nearest cache
+  for (std::size_t begin = 0; begin < samples.size(); begin += kBlock)
+    add_turned(&padded[begin + kHilbertHalf], taps, &turned_[begin + kMargin],
+               std::min(kBlock, samples.size() - begin));
 }
 
 std::complex<double> AnalyticSignal::at(double time_s) const {

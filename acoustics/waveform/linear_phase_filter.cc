@@ -8,12 +8,23 @@
 #include "acoustics/waveform/kaiser_window.h"
 #include "core/check.h"
 #include "core/elementary.h"
+#include "core/vector_clones.h"
 
 namespace halocline::acoustics {
 namespace {
 
 constexpr int kHalf = static_cast<int>(kFilterHalf);  // frequencies as well
 constexpr double kBeta = 6;                           // 63 dB
+constexpr std::size_t kBlock = 1024;                  // samples that stay in the nearest cache
+
+// Sample by sample the sums are taken in the order of the taps, however many are taken side by side.
+HALOCLINE_VECTOR_CLONES void add_block(const double* padded, const std::vector<double>& taps, double* result,
+                                       std::size_t count) {
+  for (std::size_t k = 0; k < taps.size(); ++k) {
+    const double tap = taps[k];
+    for (std::size_t n = 0; n < count; ++n) result[n] += tap * padded[n + k];
+  }
+}
 
 }  // namespace
 
@@ -41,13 +52,18 @@ std::vector<double> linear_phase_taps(const std::function<double(double)>& ampli
   return taps;
 }
 
-std::vector<double> filtered(const std::vector<double>& samples, const std::vector<double>& taps) {
-  std::vector<double> padded(samples.size() + taps.size() - 1), result(samples.size());
-  std::copy(samples.begin(), samples.end(), padded.begin() + kHalf);
-  for (std::size_t k = 0; k < taps.size(); ++k) {
-    for (std::size_t n = 0; n < result.size(); ++n) result[n] += taps[k] * padded[n + k];
-  }
+std::vector<double> convolved(const std::vector<double>& padded, const std::vector<double>& taps) {
+  if (padded.size() < taps.size()) return {};
+  std::vector<double> result(padded.size() - taps.size() + 1);
+  for (std::size_t begin = 0; begin < result.size(); begin += kBlock)
+    add_block(&padded[begin], taps, &result[begin], std::min(kBlock, result.size() - begin));
   return result;
+}
+
+std::vector<double> filtered(const std::vector<double>& samples, const std::vector<double>& taps) {
+  std::vector<double> padded(samples.size() + taps.size() - 1);
+  std::copy(samples.begin(), samples.end(), padded.begin() + kHalf);
+  return convolved(padded, taps);
 }
 
 }  // namespace halocline::acoustics

@@ -16,6 +16,8 @@ inline constexpr std::size_t kFilterHalf = 512;  // taps to either side
 // `amplitude`: at 0 < f <= rate_hz / 2, 0 and up. Throws InvalidArgument unless that holds and the rate is above 0.
 std::vector<double> linear_phase_taps(const std::function<double(double frequency_hz)>& amplitude,
                                       double rate_hz);
+// result[n] is the sum over k of taps[k] padded[n + k], in the order of k; as many as there are samples with all of theirs.
+std::vector<double> convolved(const std::vector<double>& padded, const std::vector<double>& taps);
 // Of as many samples, which are 0 before the first and after the last.
 std::vector<double> filtered(const std::vector<double>& samples, const std::vector<double>& taps);
 

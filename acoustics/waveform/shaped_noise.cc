@@ -20,11 +20,7 @@ std::vector<double> ShapedNoise::samples(std::int64_t first, std::size_t count,
     address.which = static_cast<std::uint64_t>(sample);
     white[i] = normal_at(address) * (weight ? weight(sample) : 1);
   }
-  std::vector<double> shaped(count);
-  for (std::size_t n = 0; n < count; ++n) {
-    for (std::size_t k = 0; k < taps_.size(); ++k) shaped[n] += taps_[k] * white[n + k];
-  }
-  return shaped;
+  return convolved(white, taps_);
 }
 
 }  // namespace halocline::acoustics

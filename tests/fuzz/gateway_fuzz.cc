@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A protocol of the modem gateway (HALOCLINE_FUZZ_PROTOCOL): what two hosts write, in pieces, between what happens to the modem and as time goes on.
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "bus/message_codec.h"
 #include "clients/modem/modem_client.h"
@@ -15,6 +18,7 @@
 #include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
+#include "clients/modem_gateway/protocols/sound_field.h"
 #include "core/check.h"
 #include "core/sim_time.h"
 #include "tests/fuzz/bus_message.h"
@@ -60,12 +64,28 @@ std::optional<Message> message_from(fuzz::Input& input) {
   return bus::decoded<Message>(fuzz::with_fingerprint(Message::getHash(), input.block()));
 }
 
+// In which nothing is heard.
+class QuietSea : public SoundField {
+ public:
+  void emit(std::int32_t, SimTime, double, std::span<const float>) override {}
+  void silence(std::int32_t, SimTime) override {}
+  SimDuration lag() const override { return SimDuration::from_milliseconds(250); }
+  std::vector<double> record(std::int32_t, double, std::int64_t, std::size_t count) override {
+    return std::vector<double>(count);
+  }
+};
+
 class Door {
  public:
   Door()
-      : protocol_(make_protocol(
-            HALOCLINE_FUZZ_PROTOCOL,
-            {port_, addresses_, kVehicle, DoorOptions(""), {{"auv-1", kVehicle}, {"auv-2", 2}}, 40, -50})) {
+      : protocol_(make_protocol(HALOCLINE_FUZZ_PROTOCOL, {port_,
+                                                          addresses_,
+                                                          kVehicle,
+                                                          DoorOptions(""),
+                                                          {{"auv-1", kVehicle}, {"auv-2", 2}},
+                                                          40,
+                                                          -50,
+                                                          &sea_})) {
     protocol_->on_opened(1);
     protocol_->on_opened(2);
   }
@@ -192,6 +212,7 @@ class Door {
   }
 
   Port port_;
+  QuietSea sea_;
   AddressBook addresses_;
   std::unique_ptr<Protocol> protocol_;
 };
