@@ -139,7 +139,8 @@ void Bus::publish_bytes(std::string_view channel, const void* data, std::size_t 
 bool Bus::send(const std::string& channel, const void* data, std::size_t size) {
   constexpr std::size_t kLongestChannel = 63;  // LCM's
   require(channel.size() <= kLongestChannel, "channel " + printable(channel) + " is longer than LCM allows");
-  return lcm_.publish(channel, data, static_cast<unsigned int>(size)) == 0;
+  lcm::LCM& carrier = route_ ? route_(channel) : lcm_;
+  return carrier.publish(channel, data, static_cast<unsigned int>(size)) == 0;
 }
 
 void Bus::send_unsent() {

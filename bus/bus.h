@@ -59,7 +59,6 @@ class Bus {
   // Encodes and publishes. What the network refuses is counted, reported, and sent again by whatever is called next (unsent_messages.h).
   template <class Message>
   void publish(std::string_view channel, const Message& message);
-
   template <class Message>
   void subscribe(std::string_view channel, Handler<Message> handler, Wakeup wakeup = Wakeup::kMayAdvanceDue);
   template <class Message>
@@ -69,6 +68,9 @@ class Bus {
   // Redirects what is published to `outbox`, and nowhere else: the runner of the node delivers it. Returns the one before.
   using Outbox = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
   Outbox set_outbox(Outbox outbox) { return std::exchange(outbox_, std::move(outbox)); }
+  // Publishes on what `route` returns, in the place of the LCM instance that it receives by.
+  using Route = std::function<lcm::LCM&(std::string_view channel)>;
+  void set_route(Route route) { route_ = std::move(route); }
   // All subscriptions, in the order they were made, and the places of those that match a channel.
   const std::vector<Subscribed>& subscribed() const { return subscribed_; }
   std::vector<std::size_t> subscribed_to(std::string_view channel) const;
@@ -78,7 +80,6 @@ class Bus {
   using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
   void publish_bytes(std::string_view channel, const void* data, std::size_t size);
   void subscribe_to_all(RawHandler handler);
-
   // When LCM received the message that is being handled, wall time (Unix); the kernel's stamp over udpm.
   SimTime received_at() const { return received_at_; }
   // `tap` is called with each message that is accepted, before its handler.
@@ -142,10 +143,9 @@ class Bus {
   std::map<std::string, std::vector<const Subscription*>, std::less<>> subscriptions_to_;  // by channel
   Subscriptions receives_;
   Outbox outbox_;
+  Route route_;
   RawHandler tap_;
 };
-
-// ---- implementation of the templates
 
 template <class Message>
 void Bus::publish(std::string_view channel, const Message& message) {

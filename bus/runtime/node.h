@@ -85,6 +85,7 @@ class Node {
   }
   const Subscriptions& receives() const { return bus_.receives(); }
   void set_outbox(Bus::Outbox outbox) { bus_.set_outbox(std::move(outbox)); }
+  void set_route(Bus::Route route) { bus_.set_route(std::move(route)); }
 
   Due due() const;
   // When it is due in lockstep, where steady time is simulation time.

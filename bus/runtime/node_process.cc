@@ -23,6 +23,7 @@
 #include "bus/runtime/message_batches.h"
 #include "bus/runtime/node_command_line.h"
 #include "bus/runtime/state_journal.h"
+#include "bus/runtime/tile_groups.h"
 #include "bus/transport.h"
 #include "core/check.h"
 
@@ -178,9 +179,16 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
   if (program.run_otherwise && program.run_otherwise(context)) return;
   const auto time = program.make_time_source ? program.make_time_source(context)
                                              : make_time_source(run.time_source, *lcm, run.identity.name);
+  const auto tiles = run.scenario.tile_m > 0 ? std::make_unique<TileGroups>(url, run.scenario)
+                                             : std::unique_ptr<TileGroups>();
   const auto node = program.make_node(context);
   node->enable_repair();
   if (journal) node->keep_state_in(std::move(journal));
+  if (tiles) {
+    require_every_group(*lcm, url);
+    tiles->join(tiles->groups_of(node->subscribed()));
+    node->set_route([&](std::string_view channel) -> lcm::LCM& { return tiles->carrier_of(channel, *lcm); });
+  }
   log.info("started", "url=" + url);
   ReceiveFilter filter(*lcm, url, accepted_hosts(run.scenario.accept, url));
   run_node(*lcm, *node, *time, stop_requested, &filter);

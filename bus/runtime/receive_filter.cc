@@ -166,13 +166,15 @@ std::vector<sock_filter> receive_program(const std::multiset<std::string>& expre
   return program;
 }
 
-ReceiveFilter::ReceiveFilter(lcm::LCM& lcm, const std::string& url, AcceptedHosts hosts)
-    : hosts_(std::move(hosts)) {
+int receive_socket(lcm::LCM& lcm, const std::string& url) {
   const auto port = port_of(url);
-  if (!port || !url.starts_with("udpm://")) return;
+  if (!port || !url.starts_with("udpm://")) return -1;
   lcm.getFileno();  // begins to receive
-  socket_ = find_socket(*port);
+  return find_socket(*port);
 }
+
+ReceiveFilter::ReceiveFilter(lcm::LCM& lcm, const std::string& url, AcceptedHosts hosts)
+    : hosts_(std::move(hosts)), socket_(receive_socket(lcm, url)) {}
 
 void ReceiveFilter::follow(const Subscriptions* first, const Subscriptions* second) {
   if (socket_ < 0) return;

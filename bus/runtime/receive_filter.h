@@ -42,10 +42,13 @@ AcceptedHosts accepted_hosts(const std::string& text, const std::string& url);
 std::vector<sock_filter> receive_program(const std::multiset<std::string>& expressions,
                                          const AcceptedHosts& hosts = {});
 
+// The socket by which `lcm`, opened with `url`, receives; -1 where it is not found, not udpm or one of several on its port.
+int receive_socket(lcm::LCM& lcm, const std::string& url);
+
 class ReceiveFilter {
  public:
   // For `lcm`, opened with `url`, which must outlive this; nothing may subscribe to it but Buses whose subscriptions are followed.
-  // Where its socket is not found, not udpm or one of several on its port, nothing is left out.
+  // Where its socket is not found nothing is left out.
   ReceiveFilter(lcm::LCM& lcm, const std::string& url, AcceptedHosts hosts = {});
   // Passes what any of them subscribes to; null: nothing. Cheap where nothing has changed.
   void follow(const Subscriptions* first, const Subscriptions* second);

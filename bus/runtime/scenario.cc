@@ -124,12 +124,16 @@ void visit(ConfigVisitor& v, Scenario& s) {
     seconds(section, "clock_period_s", s.clock_period,
             {1e-3, 60, "s", "simulated time between CLOCK messages"});
   });
-  v.section("bus", "Who may publish", [&](ConfigVisitor& section) {
+  v.section("bus", "Who may publish, and on which multicast groups", [&](ConfigVisitor& section) {
     section.text(
         "accept", s.accept, {},
         "other hosts whose messages are received: any, or addresses and ranges as 10.0.3.7, 10.0.4.0/24; "
         "empty: any if the bus has ttl=1, none with ttl=0");
     report_refusal(section, "accept", [&] { accepted_hosts(s.accept, ""); });
+    section.number("tile_m", s.tile_m,
+                   {0, 1e6, "m",
+                    "side of tiles with a multicast group each for what a vehicle's own programs "
+                    "receive, by its start; 0: one group for all"});
   });
   v.section("ocean", "The ocean as fields of place and time",
             [&](ConfigVisitor& section) { visit_ocean(section, s.ocean); });

@@ -68,6 +68,7 @@ struct Scenario {
   double rate = 1;  // simulated seconds per wall second, for processes that keep pace with the wall
   SimDuration clock_period = SimDuration::from_milliseconds(100);  // between CLOCK messages, simulation time
   std::string accept;  // hosts whose datagrams are received (receive_filter.h)
+  double tile_m = 0;   // of the tiles with a multicast group each (tile_groups.h); 0: one group for all
   OceanEntry ocean;
   std::vector<VehicleEntry> vehicles;
   std::string configuration;  // configuration_of() its file, no key of it; empty where there is none

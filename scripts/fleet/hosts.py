@@ -15,7 +15,7 @@ from fleet.scenario import fleet
 
 MEASURED, DURATION_S = 300, 20  # vehicles, spread along straight paths; simulated
 TABLES_OFF, STATES_ONCE = "channel_server.link_rate_hz=0.0166667", "vehicle_sim.state_rate_hz=1"
-TILE_KM, RECKONED_HZ = 5, 1
+TILE_KM, RECKONED_HZ = 12.5, 1
 DATAGRAM_BYTES = 28 + 8  # headers of IP and UDP, and of LCM
 PEERS_AT = 48  # num_peers in a LINKS message
 
@@ -51,7 +51,6 @@ class Terms:
     outcome_us: float
     rows: float  # of a vehicle's table
     outcomes: float  # a vehicle and second
-    reach_km: float
     state_bytes: float
     row_bytes: float
     outcome_bytes: float
@@ -91,15 +90,15 @@ def measured(program, bench):
     outcomes = untabled_log.messages["OUTCOME"]
     return Terms(vehicle_us=1e6 * few_s / vehicle_seconds, state_us=state_over_udpm_us(bench),
                  row_us=1e6 * (all_s - untabled_s) / rows, outcome_us=1e6 * (untabled_s - unheard_s) / outcomes,
-                 rows=rows / tables, outcomes=outcomes / vehicle_seconds, reach_km=math.sqrt(rows / tables / math.pi),
+                 rows=rows / tables, outcomes=outcomes / vehicle_seconds,
                  state_bytes=all_log.message_bytes["STATE"] / all_log.messages["STATE"],
                  row_bytes=all_log.message_bytes["LINKS"] / all_log.rows, outcome_bytes=untabled_log.message_bytes["OUTCOME"] / outcomes)
 
 
-def in_tiles(own, terms):
-    """Vehicles in the tiles that a host joins whose own fill a square, one a square kilometre: those that its square and what is in reach
-    of it touch; a row of places of that length touches one tile more than it is long."""
-    return (math.sqrt(own) + 2 * terms.reach_km + TILE_KM) ** 2
+def in_tiles(own):
+    """Vehicles in the tiles that a host joins whose own fill a square, one a square kilometre: a row of places of that length touches one tile
+    more than it is long."""
+    return (math.sqrt(own) + TILE_KM) ** 2
 
 
 def hosts_tables(program, bench, vehicles, hosts):
@@ -110,14 +109,14 @@ def hosts_tables(program, bench, vehicles, hosts):
         ("a STATE over udpm, published and received", three_digits(terms.state_us), "10 a second, or 1 by dead reckoning", f"{terms.state_bytes:.0f}"),
         ("a row of a link table", three_digits(terms.row_us), f"{terms.rows:.0f} a table, 1 table a second", f"{terms.row_bytes:.0f}"),
         ("an outcome of a packet", three_digits(terms.outcome_us), f"{terms.outcomes:.2f} a vehicle and second", f"{terms.outcome_bytes:.0f}")])
-    near = min(in_tiles(own, terms), vehicles)
+    near = min(in_tiles(own), vehicles)
     rows = []
-    for name, rate, heard in (("states 10 times a second", 10, vehicles), ("by dead reckoning", RECKONED_HZ, vehicles),
+    for name, rate, tables in (("states 10 times a second", 10, vehicles), ("by dead reckoning", RECKONED_HZ, vehicles),
                               (f"by dead reckoning, tiles of {TILE_KM} km", RECKONED_HZ, near)):
-        states = heard * rate
+        states = vehicles * rate
         cpu = [own * terms.vehicle_us, states * terms.state_us, own * terms.rows * terms.row_us, own * terms.outcomes * terms.outcome_us]
-        received = states * terms.state_bytes + heard * (terms.rows * terms.row_bytes + terms.outcomes * terms.outcome_bytes)
-        without_tables = states * terms.state_bytes + heard * terms.outcomes * terms.outcome_bytes
+        without_tables = states * terms.state_bytes + vehicles * terms.outcomes * terms.outcome_bytes
+        received = without_tables + tables * terms.rows * terms.row_bytes
         rows.append((name, *(three_digits(1e-6 * part) for part in (*cpu, sum(cpu))), three_digits(8e-6 * received),
                      three_digits(8e-6 * without_tables)))
     model = markdown((f"a host of {hosts}, {own:.0f} of {vehicles} vehicles", "vehicles, s a second", "STATE", "link tables", "outcomes", "CPU, all",

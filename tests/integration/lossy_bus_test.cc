@@ -13,7 +13,6 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -28,11 +27,13 @@
 #include "bus/transport.h"
 #include "clients/modem/blocking_modem.h"
 #include "core/sim_time.h"
+#include "tests/integration/host.h"
 #include "tests/support/process.h"
 
 namespace halocline {
 namespace {
 
+using testing::Host;
 using testing::Process;
 
 const char* const kScenario = HALOCLINE_TEST_DATA "/scenarios/ten_vehicles.toml";
@@ -97,43 +98,6 @@ class Auditor {
  private:
   std::unique_ptr<lcm::LCM> lcm_;
   bus::Bus bus_;
-};
-
-// A host of its own: a network namespace at the end of a cable, whose other end cable<number> is in this one.
-class Host {
- public:
-  explicit Host(int number) : keeper_({"/usr/bin/unshare", "-n", "/bin/sleep", "1000"}) {
-    const std::string name = std::to_string(number), pid = std::to_string(keeper_.pid());
-    const std::string inside = "nsenter -n -t " + pid + " ";
-    // The keeper must have its namespace before the cable's end is put into it.
-    run("for i in $(seq 1500); do [ \"$(readlink /proc/" + pid +
-        "/ns/net)\" != \"$(readlink /proc/self/ns/net)\" ] && "
-        "break; sleep 0.02; done");
-    run("ip link add cable" + name + " type veth peer name eth0 netns " + pid);
-    run("ip link set cable" + name + " up");
-    run(inside + "ip addr add 10.99.0." + std::to_string(number + 10) + "/24 dev eth0");
-    run(inside + "ip link set lo up");
-    run(inside + "ip link set eth0 up");
-    run(inside + "ip route add 224.0.0.0/4 dev eth0");
-  }
-  void lose(int percent) const {
-    run("nsenter -n -t " + std::to_string(keeper_.pid()) + " " HALOCLINE_SOURCE_DIR "/scripts/lose " +
-        std::to_string(percent) + " eth0");
-  }
-  // A command as it runs on this host.
-  std::vector<std::string> command(const std::vector<std::string>& words) const {
-    std::vector<std::string> all{"/usr/bin/nsenter", "-n", "-t", std::to_string(keeper_.pid())};
-    all.insert(all.end(), words.begin(), words.end());
-    return all;
-  }
-  static void run(const std::string& command) {
-    if (std::system(("PATH=$PATH:/usr/sbin:/sbin; " + command).c_str()) != 0) {
-      throw std::runtime_error("failed: " + command);
-    }
-  }
-
- private:
-  Process keeper_;
 };
 
 class LossyBus : public ::testing::Test {
@@ -230,16 +194,7 @@ TEST_F(LossyBus, EveryDeliveredPacketReachesItsClient) {
 // Vehicles on one host, the seabed on another with one channel server, a second server on a third; clients and
 // auditor on a fourth.
 TEST_F(LossyBus, ThreeHostsWithTwoShardsPublishEachOutcomeOnce) {
-  Host::run("ip link add bridge0 type bridge mcast_snooping 0");
-  Host::run("ip addr add 10.99.0.1/24 dev bridge0");
-  Host::run("ip link set bridge0 up");
-  Host::run("ip route replace 224.0.0.0/4 dev bridge0");
-  Host::run(HALOCLINE_SOURCE_DIR "/scripts/lose 5 bridge0");
-  for (int i = 0; i < 3; ++i) {
-    hosts_.push_back(std::make_unique<Host>(i));
-    Host::run("ip link set cable" + std::to_string(i) + " master bridge0");
-    hosts_.back()->lose(5);
-  }
+  hosts_ = testing::hosts_on_a_bridge(3, 5);
   start_on_hosts();
   send_and_compare();
   expect_two_shards_with_each_outcome_once();

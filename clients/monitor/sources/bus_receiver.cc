@@ -12,6 +12,7 @@
 #include "bus/bus.h"
 #include "bus/event_log.h"
 #include "bus/runtime/node_process.h"
+#include "bus/runtime/tile_groups.h"
 #include "bus/runtime/time_source.h"
 #include "bus/transport.h"
 
@@ -73,6 +74,8 @@ void BusReceiver::receive(lcm::LCM& lcm) {
     batch.push_back({bus.received_at().to_utime(), std::string(channel), {bytes, bytes + size}});
   });
   bus::ReceiveFilter(lcm, url_, hosts_).follow(&bus.receives(), clock.receives());
+  bus::GroupMemberships tiles;
+  bus::TileGroups::join_all(url_, tiles);
   is_open_ = true;
   while (!stop_) {
     sleep_for(kTurnMs);
