@@ -35,15 +35,19 @@ ArcTracer::ArcTracer(const ProfiledSea& sea, const RayLink& link)
   bottom_at_receiver_ = sea.profile.depth_at(range_);
   const double bottom_at_source = sea.profile.depth_at(0);
   require_in_range(link.source_depth_m, 0, bottom_at_source, "depth of the source", "m");
-  require_in_range(link.receiver_depth_m, 0, bottom_at_receiver_, "depth of the receiver", "m");
   source_depth_ = std::clamp(link.source_depth_m, kOffBoundary, bottom_at_source - kOffBoundary);
-  receiver_depth_ = std::clamp(link.receiver_depth_m, kOffBoundary, bottom_at_receiver_ - kOffBoundary);
+  move_receiver(link.receiver_depth_m);
   source_layer_ = sea.water.layer_at(source_depth_);
   source_facet_ = sea.profile.facet_at(0);
   source_speed_ = sea.water.speed_at(source_depth_);
   if (sea.section == nullptr) return;
   source_speed_ = sea.section->speed_at(0, source_depth_);
   section_.emplace(sea_, losses_, SectionEnds{source_depth_, range_, bottom_at_receiver_});
+}
+
+void ArcTracer::move_receiver(double depth_m) {
+  require_in_range(depth_m, 0, bottom_at_receiver_, "depth of the receiver", "m");
+  receiver_depth_ = std::clamp(depth_m, kOffBoundary, bottom_at_receiver_ - kOffBoundary);
 }
 
 void ArcTracer::add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const {

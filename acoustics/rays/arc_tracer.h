@@ -46,6 +46,9 @@ class ArcTracer {
   // and exactly.
   void trace(double theta, TracedRay& ray, TracedDetails* details = nullptr) const;
 
+  // The same source, bottom and range for a receiver at another depth.
+  void move_receiver(double depth_m);
+
   double source_depth_m() const { return source_depth_; }
   double receiver_depth_m() const { return receiver_depth_; }
   double range_m() const { return range_; }

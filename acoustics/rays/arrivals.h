@@ -102,6 +102,7 @@ struct RayOptions {
   double diffuse_below_pressure = 0;
   // Near caustics the field of waves, and one path on their dark side; else rays as they are, without bound there.
   bool airy_folds = true;
+  bool operator==(const RayOptions&) const = default;
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.

@@ -28,9 +28,9 @@ constexpr int kMaxTurnSteps = 40;
 
 }  // namespace
 
-BranchSolver::BranchSolver(const ArcTracer& tracer)
+BranchSolver::BranchSolver(const ArcTracer& tracer, FanTracer& fan)
     : tracer_(tracer),
-      fan_(tracer),
+      fan_(fan),
       images_(tracer),
       folds_(tracer),
       depth_(tracer.bottom_at_receiver_m()),
@@ -57,7 +57,7 @@ bool BranchSolver::meets_bottom_at(const FanRay& ray, std::size_t event) const {
 
 FanRay BranchSolver::traced(double theta, std::size_t enough_events) {
   ++traces_;
-  return fan_.trace(theta, enough_events);
+  return memory_ != nullptr ? memory_->traced(theta, enough_events) : fan_.trace(theta, enough_events);
 }
 
 double BranchSolver::error_at(const FanRay& a, const FanRay& middle, const FanRay& b) const {
@@ -146,32 +146,47 @@ bool BranchSolver::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
   return false;
 }
 
-// Calls visit(target) for each image with low <= target < high.
+// Calls visit(image) for each with low <= target < high.
 template <class Visit>
 void BranchSolver::visit_images(const FanRay& a, const FanRay& b, const Visit& visit) const {
   const double low = std::min(a.zeta, b.zeta), high = std::max(a.zeta, b.zeta), period = 2 * depth_;
-  for (const double image : {tracer_.receiver_depth_m(), -tracer_.receiver_depth_m()}) {
+  for (const double sign : {1.0, -1.0}) {
+    const double image = sign * tracer_.receiver_depth_m();
     for (double k = std::ceil((low - image) / period); image + k * period < high; ++k)
-      visit(image + k * period);
+      visit(ReceiverImage{sign, k, image + k * period});
   }
 }
 
 void BranchSolver::solve_monotone(const FanRay& a, const FanRay& b) {
   if (windows_ != nullptr && windows_->is_weak_branch(a, b)) {
     int images = 0;
-    visit_images(a, b, [&](double) { ++images; });
+    visit_images(a, b, [&](const ReceiverImage&) { ++images; });
     return windows_->add_branch(a, b, images);
   }
-  visit_images(a, b, [&](double target) { polish(a, b, target); });
+  visit_images(a, b, [&](const ReceiverImage& image) { polish(a, b, image); });
 }
 
-void BranchSolver::polish(const FanRay& a, const FanRay& b, double target) {
+void BranchSolver::polish(const FanRay& a, const FanRay& b, const ReceiverImage& image) {
+  std::optional<ProfilePath> path;
+  if (memory_ != nullptr) path = memory_->chains().between(a, b, image);
+  if (!path) {
+    path = traced_path(a, b, image.target);
+    if (path && memory_ != nullptr) memory_->chains().keep(*path, image);
+  }
+  if (!path) return;
+  if (windows_ != nullptr) windows_->note(path->arrival);
+  paths_.push_back(std::move(*path));
+}
+
+std::optional<ProfilePath> BranchSolver::traced_path(const FanRay& a, const FanRay& b, double target) {
   const bool rising = b.zeta > a.zeta;
   double low = a.theta, high = b.theta;
   double theta = low + cubic_of(a, b).crossing(target) * (high - low);
+  const std::size_t before = fan_.kept_events();
   for (int i = 0; i < 60; ++i) {
     const FanRay ray = fan_.trace(theta);
-    if (!ray.arrived) return;
+    fan_.forget_since(before);
+    if (!ray.arrived) return std::nullopt;
     const double off = ray.zeta - target;
     ((off > 0) == rising ? high : low) = theta;
     const double next = ray.zeta_slope != 0 ? theta - off / ray.zeta_slope : low - 1;
@@ -185,10 +200,7 @@ void BranchSolver::polish(const FanRay& a, const FanRay& b, double target) {
     theta = inside ? next : 0.5 * (low + high);
     if (high - low < 1e-15) break;
   }
-  auto path = profile_path(tracer_, theta, target);
-  if (!path) return;
-  if (windows_ != nullptr) windows_->note(path->arrival);
-  paths_.push_back(std::move(*path));
+  return profile_path(tracer_, theta, target);
 }
 
 }  // namespace halocline::acoustics

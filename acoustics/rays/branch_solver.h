@@ -8,6 +8,7 @@
 // Keeps the rays' events and what it has found: one for each search, not shared between threads.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -16,6 +17,7 @@
 
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/column_rays.h"
 #include "acoustics/rays/diffuse_windows.h"
 #include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/profile_path.h"
@@ -26,16 +28,20 @@ class BranchSolver {
  public:
   static constexpr double kUnknownError = std::numeric_limits<double>::infinity();
 
-  // Refers to the tracer, which has to outlive this. With `windows`, weak paths go there.
-  explicit BranchSolver(const ArcTracer& tracer);
+  // Refers to both tracers, which have to outlive this. With `windows`, weak paths go there; with `memory`, rays are shared with
+  // searches for receivers at other depths.
+  BranchSolver(const ArcTracer& tracer, FanTracer& fan);
   void give_weak_paths_to(DiffuseWindows* windows) { windows_ = windows; }
+  void share(ColumnMemory* memory) { memory_ = memory; }
 
   FanRay traced(double theta, std::size_t enough_events = FanTracer::kAllEvents);
   // Rays traced so far, but those of polishing.
   int traces() const { return traces_; }
   // As FanTracer's.
   std::size_t kept_events() const { return fan_.kept_events(); }
-  void forget_since(std::size_t kept_events) { fan_.forget_since(kept_events); }
+  void forget_since(std::size_t kept_events) {
+    fan_.forget_since(memory_ != nullptr ? std::max(kept_events, memory_->kept_events()) : kept_events);
+  }
 
   // The first event at which two rays differ; empty when one history begins with the other.
   std::optional<std::size_t> parting(const FanRay& a, const FanRay& b) const;
@@ -51,6 +57,11 @@ class BranchSolver {
   // Whether there may be an image between where two rays of one history arrive, or beyond in what sound reaches.
   bool may_pass_image(const FanRay& a, const FanRay& b, double error) const;
 
+  // The same of rays between which zeta is their cubic.
+  bool may_pass_image(double low, double high) const {
+    return images_.any_between(low - kNearFold * depth_, high + kNearFold * depth_);
+  }
+
   // All paths between two rays of one history.
   void solve(const FanRay& a, const FanRay& b);
   // The same where zeta is monotone.
@@ -62,18 +73,21 @@ class BranchSolver {
  private:
   template <class Visit>
   void visit_images(const FanRay& a, const FanRay& b, const Visit& visit) const;
-  void polish(const FanRay& a, const FanRay& b, double target);
+  void polish(const FanRay& a, const FanRay& b, const ReceiverImage& image);
+  // Of the ray that passes the image between two.
+  std::optional<ProfilePath> traced_path(const FanRay& a, const FanRay& b, double target);
   // Whether an image has a share of the field about `turn`, as rays beside it show.
   bool seek_turn(const FanRay& a, const FanRay& b, FanRay& turn);
 
   const ArcTracer& tracer_;
-  FanTracer fan_;
+  FanTracer& fan_;
   Images images_;
   ProfileFolds folds_;
   double depth_, faint_db_;
   int traces_ = 0;
   std::vector<ProfilePath> paths_;
   DiffuseWindows* windows_ = nullptr;
+  ColumnMemory* memory_ = nullptr;
 };
 
 }  // namespace halocline::acoustics

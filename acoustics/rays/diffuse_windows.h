@@ -21,6 +21,7 @@
 
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/column_rays.h"
 #include "acoustics/rays/fan_tracer.h"
 
 namespace halocline::acoustics {
@@ -54,8 +55,8 @@ class DiffuseWindows {
   // As add_mixed would add, re 1 m.
   double mixed_power(const FanRay& a, const FanRay& b) const;
 
-  // One for each cell of the fan that has energy, in the order of delays.
-  std::vector<Arrival> arrivals() const;
+  // One for each cell of the fan that has energy, in the order of delays. `memory` may be null.
+  std::vector<Arrival> arrivals(ColumnMemory* memory) const;
 
  private:
   struct Cell {

@@ -11,6 +11,7 @@
 #include "acoustics/rays/image_rays.h"
 #include "acoustics/rays/layered_rays.h"
 #include "acoustics/rays/profile_rays.h"
+#include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "core/elementary.h"
@@ -47,10 +48,11 @@ const Arrival& strongest(const std::vector<Arrival>& paths) {
 // One search: what depends on the options alone beside the sea and the link.
 class LinkSearch {
  public:
-  LinkSearch(const RaySea& sea, const RayLink& link, RaySolver solver)
+  LinkSearch(const RaySea& sea, const RayLink& link, RaySolver solver, ColumnRays* column)
       : sea_(sea),
         link_(link),
         solver_(solver),
+        column_(column),
         core_(solver == RaySolver::kImages || sea.section
                   ? std::nullopt
                   : channel_core(sea.water, sea.bottom_profile.shallowest_m(), link,
@@ -76,6 +78,7 @@ class LinkSearch {
   const RaySea& sea_;
   RayLink link_;
   RaySolver solver_;
+  ColumnRays* column_;
   std::optional<ChannelCore> core_;
 };
 
@@ -85,10 +88,11 @@ std::vector<Arrival> LinkSearch::solved(const RayOptions& options) const {
       return image_rays(flat_sea(options, sea_.bottom_profile.depth_at(link_.range_m)), link_);
     case RaySolver::kSnell:
       return layered_rays(flat_sea(options, sea_.bottom_profile.depth_at(link_.range_m)), link_);
-    case RaySolver::kArcs:
-      return profile_rays({sea_.water, sea_.bottom_profile, sea_.bottom, sea_.surface, options, core_speed(),
-                           sea_.section.get()},
-                          link_);
+    case RaySolver::kArcs: {
+      const ProfiledSea profiled{sea_.water, sea_.bottom_profile, sea_.bottom,       sea_.surface,
+                                 options,    core_speed(),        sea_.section.get()};
+      return column_ != nullptr ? column_->at(profiled, link_) : profile_rays(profiled, link_);
+    }
   }
   return {};
 }
@@ -211,14 +215,15 @@ RaySolver choose_solver(const RaySea& sea, const RayLink& link) {
   return one_speed ? RaySolver::kImages : RaySolver::kSnell;
 }
 
-Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver) {
+Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver,
+                  ColumnRays* column) {
   require(!solver || *solver == RaySolver::kArcs || sea.bottom_profile.is_flat_until(link.range_m),
           "the ray solvers 'images' and 'snell' need a flat bottom");
   require(!solver || *solver == RaySolver::kArcs || !sea.section,
           "the ray solvers 'images' and 'snell' need water that is the same all along the link");
   const RayLink held = held_apart_over(sea.bottom_profile, link);
   const RaySolver chosen = solver.value_or(choose_solver(sea, held));
-  const LinkSearch search(sea, held, chosen);
+  const LinkSearch search(sea, held, chosen, column);
   Arrivals found{chosen, search.paths()};
   if (found.silent()) found.lack = search.lack();
   return found;

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <vector>
 
+#include "acoustics/rays/arcs/layered_legs.h"
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/layered_legs.h"
 #include "acoustics/rays/layered_rays.h"
 
 namespace halocline::acoustics {

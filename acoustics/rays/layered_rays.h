@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every ray between two points of water that depends on depth alone, over a flat bottom.
 //
-// Method: the four families of acoustics/rays/layered_legs.h each solve b(xi) + n X(xi) = r, X one whole cycle.
+// Method: the four families of acoustics/rays/arcs/layered_legs.h each solve b(xi) + n X(xi) = r, X one whole cycle.
 // So f = (r - b)/X is tabulated between consecutive barriers against the grazing angle at the barrier, in
 // which it is smooth; wherever f crosses a whole number n >= 0 there is a ray of n cycles, and a turn of f (a
 // fold, the caustic of two rays) is found first and split at. The table is refined until a cubic through

@@ -154,7 +154,8 @@ std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, d
   TracedDetails details;
   tracer.trace(theta, ray, &details);
   if (!is_kept(tracer, ray) || std::abs(ray.zeta - target) > kFarOff) return std::nullopt;
-  return ProfilePath{arrival_of(tracer, ray, details, target, std::max(std::abs(ray.q), kMinTube)), target};
+  return ProfilePath{arrival_of(tracer, ray, details, target, std::max(std::abs(ray.q), kMinTube)), target,
+                     ray.zeta_slope, ray.family};
 }
 
 // Counts of bounces that no path has make the identity one of its own.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -48,7 +49,9 @@ class Images {
 // An arrival and what it is found again by.
 struct ProfilePath {
   Arrival arrival;
-  double target;  // image of the receiver, m of unfolded depth
+  double target;             // image of the receiver, m of unfolded depth
+  double zeta_slope = 0;     // d zeta / d theta of the ray
+  std::uint64_t family = 0;  // of the ray
 };
 // Of the ray of `theta`, which passes the image `target` of the receiver within a few millimetres of unfolded depth;
 // empty when the options exclude it.

@@ -3,13 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
-#include <optional>
 #include <utility>
 
-#include "acoustics/rays/branch_solver.h"
-#include "acoustics/rays/diffuse_windows.h"
 #include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/profile_path.h"
 
@@ -36,47 +32,56 @@ constexpr double kNarrowWindow = 3e-5;    // times depth over range, rad: window
 constexpr double kWeakWindow = 2e-3;      // rad: nor these where the rays beside them are weak
 constexpr double kLeastStrongest = 3e-3;  // of the energy flux: that of the strongest path until one is found
 
-class Search {
- public:
-  explicit Search(const ArcTracer& tracer) : tracer_(tracer), branch_(tracer), windows_(tracer) {}
+}  // namespace
 
-  // Rays launched between the first and the last of `angles`, finished; none within `core_edge` of the
-  // horizontal, which is one of the angles, as is its opposite.
-  std::vector<Arrival> run(const std::vector<double>& angles, double core_edge);
-  // After that: whether paths are weak by their own pressure rather than beside the strongest.
-  bool is_weak_by_pressure() const { return windows_.is_by_pressure(); }
+std::vector<double> launch_angles(const ArcTracer& tracer) {
+  std::vector<double> angles = {-kSteepest};
+  for (const double theta : fan_angles(tracer, kSteepest)) {
+    if (theta < kSteepest) angles.push_back(theta);
+  }
+  angles.push_back(kSteepest);
+  return angles;
+}
 
- private:
-  // Of three neighbours in the fan, whether the one in the middle is where a cubic through the others has it; one right beside
-  // another says nothing.
-  bool is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b) const;
-  // Whether rays diverge so much that each search for them would find others between.
-  bool is_rough(const std::vector<FanRay>& fan) const;
-  // Between neighbours of the fan; `predicted`: those are that lie on a cubic through the rays on both sides.
-  void search(const std::vector<FanRay>& fan, const std::vector<bool>& predicted, double core_edge);
-  // All rays between two; what is traced for it is forgotten. `error`: of a cubic, at one of the two.
-  void scan(const FanRay& a, const FanRay& b, int depth, double error = BranchSolver::kUnknownError);
-  void look_between(const FanRay& a, const FanRay& b, int depth, double error);
-  // The same over a rough bottom: to where a window is narrow, or what lies in it weak.
-  void look_into_window(const FanRay& a, const FanRay& b, int depth, double error);
-  void part(const FanRay& a, const FanRay& b, std::size_t event, int depth);
-  // From a ray to one at the edge of its family. Rays that all but graze the bottom there change the faster the
-  // less they bounce: they are looked at in steps that shrink towards the edge.
-  void scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, int depth);
-
-  const ArcTracer& tracer_;
-  BranchSolver branch_;
-  DiffuseWindows windows_;
-  double narrow_window_ = 0;  // rad; 0: the bottom is smooth
-};
-
-std::vector<Arrival> Search::run(const std::vector<double>& angles, double core_edge) {
+std::vector<FanRay> ProfileSearch::traced(const std::vector<double>& angles) {
   std::vector<FanRay> fan;
   fan.reserve(angles.size());
   for (const double theta : angles) fan.push_back(branch_.traced(theta));
-  std::vector<bool> predicted;  // by the rays on both sides
+  return fan;
+}
+
+std::vector<bool> ProfileSearch::predicted(const std::vector<FanRay>& fan) const {
+  std::vector<bool> predicted;
   for (std::size_t i = 0; i < fan.size(); ++i)
     predicted.push_back(i > 0 && i + 1 < fan.size() && is_predicted(fan[i - 1], fan[i], fan[i + 1]));
+  return predicted;
+}
+
+void ProfileSearch::take_monotone(const FanRay& a, const FanRay& b) {
+  if (collected_ == nullptr) return branch_.solve_monotone(a, b);
+  const auto [low, high] = std::minmax(a.zeta, b.zeta);
+  collected_->push_back({a, b, true, low, high});
+}
+
+void ProfileSearch::take(const FanRay& a, const FanRay& b) {
+  if (collected_ == nullptr) return branch_.solve(a, b);
+  const auto [low, high] = cubic_of(a, b).extremes();
+  collected_->push_back({a, b, false, low, high});
+}
+
+std::optional<std::vector<Branch>> ProfileSearch::branches(const std::vector<double>& angles) {
+  const std::vector<FanRay> fan = traced(angles);
+  if (tracer_.sea().options.diffuse_below_db > 0 && is_rough(fan)) return std::nullopt;
+  std::vector<Branch> all;
+  collected_ = &all;
+  search(fan, predicted(fan), /*core_edge=*/0);
+  collected_ = nullptr;
+  return all;
+}
+
+std::vector<Arrival> ProfileSearch::run(const std::vector<double>& angles, double core_edge) {
+  const std::vector<FanRay> fan = traced(angles);
+  const std::vector<bool> predicted = this->predicted(fan);
   if (tracer_.sea().options.diffuse_below_db <= 0 || !is_rough(fan)) {
     search(fan, predicted, core_edge);
     return branch_.finished();
@@ -88,14 +93,15 @@ std::vector<Arrival> Search::run(const std::vector<double>& angles, double core_
   narrow_window_ = kNarrowWindow * tracer_.bottom_at_receiver_m() / tracer_.range_m();
   search(fan, predicted, core_edge);
   std::vector<Arrival> paths = branch_.finished();
-  const std::vector<Arrival> diffuse = windows_.arrivals();
+  const std::vector<Arrival> diffuse = windows_.arrivals(memory_);
   const auto middle = paths.insert(paths.end(), diffuse.begin(), diffuse.end());
   std::inplace_merge(paths.begin(), middle, paths.end(),
                      [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
   return paths;
 }
 
-void Search::search(const std::vector<FanRay>& fan, const std::vector<bool>& predicted, double core_edge) {
+void ProfileSearch::search(const std::vector<FanRay>& fan, const std::vector<bool>& predicted,
+                           double core_edge) {
   std::vector<std::size_t> order;
   for (std::size_t i = 1; i < fan.size(); ++i) order.push_back(i);
   // What is strong comes first, so that more is known to be weak.
@@ -108,14 +114,14 @@ void Search::search(const std::vector<FanRay>& fan, const std::vector<bool>& pre
     if (fan[i - 1].theta < 0 && fan[i].theta > 0 && fan[i].theta <= core_edge) continue;
     windows_.begin_cell(i);
     if (predicted[i - 1] && predicted[i]) {
-      branch_.solve(fan[i - 1], fan[i]);
+      take(fan[i - 1], fan[i]);
     } else {
       scan(fan[i - 1], fan[i], 0);
     }
   }
 }
 
-bool Search::is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b) const {
+bool ProfileSearch::is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b) const {
   const double nearest = std::min(middle.theta - a.theta, b.theta - middle.theta);
   return nearest > kNextToEachOther &&
          branch_.is_predicted(branch_.error_at(a, middle, b), a, b, kShareBeforehand);
@@ -123,7 +129,7 @@ bool Search::is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b
 
 // Between neighbours of one history, by how much of the depth their depths and the mean of their slopes disagree: at most by
 // all of it, as those that part.
-bool Search::is_rough(const std::vector<FanRay>& fan) const {
+bool ProfileSearch::is_rough(const std::vector<FanRay>& fan) const {
   double apart = 0;
   for (std::size_t i = 1; i < fan.size(); ++i) {
     const FanRay &a = fan[i - 1], &b = fan[i];
@@ -135,13 +141,13 @@ bool Search::is_rough(const std::vector<FanRay>& fan) const {
   return apart > kRough;
 }
 
-void Search::scan(const FanRay& a, const FanRay& b, int depth, double error) {
+void ProfileSearch::scan(const FanRay& a, const FanRay& b, int depth, double error) {
   const std::size_t before = branch_.kept_events();
   look_between(a, b, depth, error);
   branch_.forget_since(before);
 }
 
-void Search::look_between(const FanRay& a, const FanRay& b, int depth, double error) {
+void ProfileSearch::look_between(const FanRay& a, const FanRay& b, int depth, double error) {
   if (narrow_window_ > 0) return look_into_window(a, b, depth, error);
   if (b.theta - a.theta < 4 * kMinParting || branch_.traces() > kMaxTraces) return;
   const bool both = a.arrived && b.arrived, neither = !a.arrived && !b.arrived;
@@ -154,28 +160,28 @@ void Search::look_between(const FanRay& a, const FanRay& b, int depth, double er
     if (alike || depth >= kDeepestWindowHalving) return;
   } else {
     if (depth == 0 && b.theta - a.theta < kNextToEachOther) {
-      if (!event && both) branch_.solve_monotone(a, b);
+      if (!event && both) take_monotone(a, b);
       return;
     }
     if (event) return part(a, b, *event, depth);
-    if (both && !branch_.may_pass_image(a, b, error)) return;
+    if (both && is_without_path(a, b, error)) return;
     if (depth >= (both ? kDeepestHalving : kDeepestEdgeHalving)) {
-      if (both) branch_.solve(a, b);
+      if (both) take(a, b);
       return;
     }
   }
   const FanRay middle = branch_.traced(0.5 * (a.theta + b.theta));
   const double found_error = branch_.error_at(a, middle, b);
   if (branch_.is_predicted(found_error, a, b, 1)) {
-    branch_.solve(a, middle);
-    branch_.solve(middle, b);
+    take(a, middle);
+    take(middle, b);
   } else {
     scan(a, middle, depth + 1, found_error);
     scan(middle, b, depth + 1, found_error);
   }
 }
 
-void Search::look_into_window(const FanRay& a, const FanRay& b, int depth, double error) {
+void ProfileSearch::look_into_window(const FanRay& a, const FanRay& b, int depth, double error) {
   if (branch_.traces() > kMaxTraces) return windows_.add_mixed(a, b);
   const bool both = a.arrived && b.arrived, neither = !a.arrived && !b.arrived;
   const auto event = branch_.parting(a, b);
@@ -199,7 +205,7 @@ void Search::look_into_window(const FanRay& a, const FanRay& b, int depth, doubl
   }
 }
 
-void Search::part(const FanRay& a, const FanRay& b, std::size_t event, int depth) {
+void ProfileSearch::part(const FanRay& a, const FanRay& b, std::size_t event, int depth) {
   FanRay low = a, high = b;
   while (high.theta - low.theta > kMinParting && branch_.traces() <= kMaxTraces) {
     FanRay middle = branch_.traced(0.5 * (low.theta + high.theta), event + 1);
@@ -214,7 +220,7 @@ void Search::part(const FanRay& a, const FanRay& b, std::size_t event, int depth
   scan_to_edge(b, high, bounce_above && !bounce_below, depth);
 }
 
-void Search::scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, int depth) {
+void ProfileSearch::scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, int depth) {
   FanRay last = from;
   const auto scan_last = [&](const FanRay& next) {
     if (last.theta < next.theta) {
@@ -234,27 +240,27 @@ void Search::scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, 
   scan_last(edge);
 }
 
-}  // namespace
-
-std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link) {
-  validate(sea.options);
-  const ArcTracer tracer(sea, link);
-  std::vector<double> angles = {-kSteepest};
-  for (const double theta : fan_angles(tracer, kSteepest)) {
-    if (theta < kSteepest) angles.push_back(theta);
-  }
-  angles.push_back(kSteepest);
+std::vector<Arrival> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::vector<double> angles,
+                                  ColumnMemory* memory) {
   const double core_edge = leave_out_core(tracer, angles);
-  Search search(tracer);
+  ProfileSearch search(tracer, fan);
+  search.share(memory);
   std::vector<Arrival> paths = search.run(angles, core_edge);
   // The last path is not given up for a window, unless it is weak by itself.
   if (!paths.empty() && !search.is_weak_by_pressure() &&
       std::all_of(paths.begin(), paths.end(), [](const Arrival& path) { return path.diffuse; })) {
-    ProfiledSea all = sea;
+    ProfiledSea all = tracer.sea();
     all.options.diffuse_below_db = 0;
-    return profile_rays(all, link);
+    return profile_rays(all, {tracer.source_depth_m(), tracer.receiver_depth_m(), tracer.range_m()});
   }
   return paths;
+}
+
+std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link) {
+  validate(sea.options);
+  const ArcTracer tracer(sea, link);
+  FanTracer fan(tracer);
+  return profile_rays(tracer, fan, launch_angles(tracer), /*memory=*/nullptr);
 }
 
 }  // namespace halocline::acoustics

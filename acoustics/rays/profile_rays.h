@@ -15,10 +15,16 @@
 // diffraction but that of caustics.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/branch_solver.h"
+#include "acoustics/rays/column_rays.h"
+#include "acoustics/rays/diffuse_windows.h"
+#include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/traced_ray.h"
 
 namespace halocline::acoustics {
@@ -26,5 +32,75 @@ namespace halocline::acoustics {
 // All rays of `link`; depths between the surface and the bottom at both ends (at a boundary: a micrometre off
 // it).
 std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link);
+// The same between the ends of the tracer, with a fan of launch_angles(). With a memory, rays are
+// shared with the searches for receivers at other depths of the place.
+std::vector<Arrival> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::vector<double> angles,
+                                  ColumnMemory* memory);
+
+// Launch angles of the first fan, rising, rad.
+std::vector<double> launch_angles(const ArcTracer& tracer);
+
+// Two rays of one history between which zeta is their cubic.
+struct Branch {
+  FanRay a, b;
+  bool is_monotone;
+  double low, high;  // of zeta between them
+};
+
+// Which parts of a fan hold paths: between neighbours the unfolded depth is halved until it is a cubic; such branches are solved by
+// branch_solver.h, for one receiver or collected for many. One for each search, not shared between threads.
+class ProfileSearch {
+ public:
+  // Refers to both, which have to outlive this.
+  ProfileSearch(const ArcTracer& tracer, FanTracer& fan)
+      : tracer_(tracer), branch_(tracer, fan), windows_(tracer) {}
+
+  // Rays are shared with searches for receivers at other depths.
+  void share(ColumnMemory* memory) {
+    branch_.share(memory);
+    memory_ = memory;
+  }
+  // Rays launched between the first and the last of `angles`, finished; none within `core_edge` of the
+  // horizontal, which is one of the angles, as is its opposite.
+  std::vector<Arrival> run(const std::vector<double>& angles, double core_edge);
+  // All branches between them, wherever the receiver is; empty over a rough bottom.
+  std::optional<std::vector<Branch>> branches(const std::vector<double>& angles);
+  // After that: whether paths are weak by their own pressure rather than beside the strongest.
+  bool is_weak_by_pressure() const { return windows_.is_by_pressure(); }
+
+ private:
+  std::vector<FanRay> traced(const std::vector<double>& angles);
+  // Of each ray of the fan, whether those on both sides tell where it arrives.
+  std::vector<bool> predicted(const std::vector<FanRay>& fan) const;
+  // Of three neighbours in the fan, whether the one in the middle is where a cubic through the others has it; one right beside
+  // another says nothing.
+  bool is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b) const;
+  // Whether rays diverge so much that each search for them would find others between.
+  bool is_rough(const std::vector<FanRay>& fan) const;
+  // Between neighbours of the fan; `predicted`: those are that lie on a cubic through the rays on both sides.
+  void search(const std::vector<FanRay>& fan, const std::vector<bool>& predicted, double core_edge);
+  // All rays between two; what is traced for it is forgotten. `error`: of a cubic, at one of the two.
+  void scan(const FanRay& a, const FanRay& b, int depth, double error = BranchSolver::kUnknownError);
+  void look_between(const FanRay& a, const FanRay& b, int depth, double error);
+  // The same over a rough bottom: to where a window is narrow, or what lies in it weak.
+  void look_into_window(const FanRay& a, const FanRay& b, int depth, double error);
+  void part(const FanRay& a, const FanRay& b, std::size_t event, int depth);
+  // From a ray to one at the edge of its family. Rays that all but graze the bottom there change the faster the
+  // less they bounce: they are looked at in steps that shrink towards the edge.
+  void scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, int depth);
+  // A branch without a turn, or any: solved, or collected.
+  void take_monotone(const FanRay& a, const FanRay& b);
+  void take(const FanRay& a, const FanRay& b);
+  bool is_without_path(const FanRay& a, const FanRay& b, double error) const {
+    return collected_ == nullptr && !branch_.may_pass_image(a, b, error);
+  }
+
+  const ArcTracer& tracer_;
+  BranchSolver branch_;
+  DiffuseWindows windows_;
+  double narrow_window_ = 0;  // rad; 0: the bottom is smooth
+  std::vector<Branch>* collected_ = nullptr;
+  ColumnMemory* memory_ = nullptr;
+};
 
 }  // namespace halocline::acoustics

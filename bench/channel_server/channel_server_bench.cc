@@ -158,7 +158,8 @@ void best_place(benchmark::State& state) {
   BestPlaceQuery query{.client = "bench"};
   for (VehicleId id = 1; id <= kListeners; ++id) {
     const Vec3 place(120.0 * id, 700.0 * (id % 7), 10.0 + 12 * (id % 7));
-    const std::string problem = fleet.add_state("v" + std::to_string(id), id, {now, place, Vec3::Zero()});
+    const SimTime before = now - SimDuration::from_milliseconds(100);
+    const std::string problem = fleet.add_state("v" + std::to_string(id), id, {before, place, Vec3::Zero()});
     require(problem.empty(), problem);
     query.listeners.push_back("v" + std::to_string(id));
   }
@@ -169,7 +170,10 @@ void best_place(benchmark::State& state) {
     for (int i = 0; i < kDepths; ++i)
       query.places_ned_m.emplace_back(0.1 * static_cast<double>(query.request_id), 0, 5 + 2 * i);
     service.submit(query, now, now);
-    while (service.take_replies(now).empty()) answer_requests(*seabed, [](const Vec3&) { return 100.0; });
+    std::vector<BestPlaceReply> replies;
+    while ((replies = service.take_replies(now)).empty())
+      answer_requests(*seabed, [](const Vec3&) { return 100.0; });
+    require(replies.front().refusal.empty(), replies.front().refusal);
     query.places_ned_m.front().x() += 0.01;
     for (Vec3& place : query.places_ned_m) place.x() += 0.05;
     ++query.request_id;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <unordered_map>
 
 #include "acoustics/rays/eigenray.h"
@@ -201,7 +202,8 @@ void LinkSearches::keep(const Task& task, const Paths& paths) {
 
 LinkSearches::Paths LinkSearches::find(const Task& task) {
   if (Paths paths = known(task)) return paths;
-  Paths paths = search(task);
+  Line line;
+  Paths paths = search(task, line);
   keep(task, paths);
   return paths;
 }
@@ -216,6 +218,8 @@ std::vector<LinkSearches::Paths> LinkSearches::find_all(const std::vector<Task>&
     std::size_t place;
   };
   std::vector<Search> searches;
+  std::vector<std::vector<Search>> lines;  // the same, by line
+  std::map<decltype(PathQuery().line()), std::size_t> line_of;
   std::vector<std::size_t> places;  // of each task
   for (const Task& task : tasks) {
     places.push_back(of_queries.size());
@@ -224,10 +228,16 @@ std::vector<LinkSearches::Paths> LinkSearches::find_all(const std::vector<Task>&
     places.back() = query->second;
     if (!is_new) continue;
     of_queries.push_back(known(task));
-    if (!of_queries.back()) searches.push_back({&task, query->second});
+    if (of_queries.back()) continue;
+    searches.push_back({&task, query->second});
+    const std::size_t line = line_of.emplace(task.query.line(), lines.size()).first->second;
+    if (line == lines.size()) lines.emplace_back();
+    lines[line].push_back(searches.back());
   }
-  for_each(searches.size(),
-           [&](std::size_t i) { of_queries[searches[i].place] = search(*searches[i].task); });
+  for_each(lines.size(), [&](std::size_t i) {
+    Line line;
+    for (const Search& one : lines[i]) of_queries[one.place] = search(*one.task, line);
+  });
   for (const Search& done : searches) keep(*done.task, of_queries[done.place]);
   std::vector<Paths> found;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
@@ -252,7 +262,7 @@ void LinkSearches::find_shared(SimTime at, const std::vector<EndPair>& links, co
   find_all(own, for_each);
 }
 
-LinkSearches::Paths LinkSearches::search(const Task& task) const {
+LinkSearches::Paths LinkSearches::search(const Task& task, Line& line) const {
   const PathQuery& query = task.query;
   if (!query.given && may_be_weak(model_, *task.water, query)) {
     const auto [north, east, last_north, last_east] = query.places;
@@ -260,8 +270,9 @@ LinkSearches::Paths LinkSearches::search(const Task& task) const {
     if (!places) return nullptr;
     if (auto weak = weak_paths(model_, *task.water, *task.environment, query, *places)) return weak;
   }
-  const auto seabed = seabed_of(query);
-  return seabed ? search_paths(model_, *task.water, *task.environment, query, *seabed) : nullptr;
+  if (!line.seabed) line.seabed = seabed_of(query);
+  if (!*line.seabed) return nullptr;
+  return line.searches.search(model_, *task.water, *task.environment, query, **line.seabed);
 }
 
 std::shared_ptr<const SeabedProfile> LinkSearches::seabed_of(const PathQuery& q) const {

@@ -87,6 +87,13 @@ class LinkSearches {
 
   // Null where the bottom is not known.
   Paths find(const Task& task);
+  // Over a bottom that is given, with other tasks of one column if there is one; nothing is kept.
+  Paths find(const Task& task, PathColumn* column) const {
+    if (column == nullptr)
+      return search_paths(model_, *task.water, *task.environment, task.query, *task.query.given);
+    return column->line.search(model_, *task.water, *task.environment, task.query, *task.query.given,
+                               &column->rays);
+  }
   // Of each task, in their order; those that wait find nothing.
   std::vector<Paths> find_all(const std::vector<Task>& tasks, const ForEach& for_each);
 
@@ -108,8 +115,13 @@ class LinkSearches {
   Cache& cache_of(const Task& task) { return task.shared ? shared_ : own_; }
   // Null where nothing is known yet.
   Paths known(const Task& task);
-  // Null where the bottom is not known. Calls may overlap between threads.
-  Paths search(const Task& task) const;
+  // What tasks of one line share.
+  struct Line {
+    std::optional<std::shared_ptr<const SeabedProfile>> seabed = std::nullopt;  // empty: not looked up yet
+    PathLine searches = {};
+  };
+  // Null where the bottom is not known. Calls may overlap between threads, each of which has lines of its own.
+  Paths search(const Task& task, Line& line) const;
   void keep(const Task& task, const Paths& paths);
   // The same paths serve the server of the other end.
   bool is_shared(const Task& task) const;

@@ -17,6 +17,7 @@ namespace {
 constexpr double kMinCellsOfALink = 20;
 constexpr double kEvenM = 0.5;  // differences of depth of a bottom that mixes no rays
 constexpr int kMaxHalvings = 6;
+constexpr double kRounding = 1e-6;   // m
 constexpr double kDepthShare = 0.1;  // height of a cell over its length
 
 acoustics::RayOptions options_of(const RayModel& model, const PathQuery& query) {
@@ -31,6 +32,17 @@ acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environ
 }
 
 double middle(double value, double cell) { return cell * (std::floor(value / cell) + 0.5); }
+
+std::shared_ptr<const FoundPaths> found_paths(const RayModel& model, const PathSea& along,
+                                              const PathQuery& query, acoustics::ColumnRays* column) {
+  auto found = std::make_shared<FoundPaths>();
+  found->given = query.given;
+  found->mean_depth_m = along.mean_depth_m;
+  found->arrivals =
+      arrivals(along.sea, query.link, usable_solver(model.solver, along.sea, query.link), column);
+  found->blocked = cuts_straight_line(along.sea.bottom_profile, query.link);
+  return found;
+}
 
 }  // namespace
 
@@ -119,22 +131,40 @@ acoustics::EndSpeeds end_speeds(const acoustics::RayWater& water, const acoustic
           sound_speed_at(environment, {last_north, last_east, receiver_m + environment.sea_surface_z_m})};
 }
 
-std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
-                                               const acoustics::Environment& environment,
-                                               const PathQuery& query, const SeabedProfile& seabed) {
+PathSea path_sea(const RayModel& model, const acoustics::RayWater& water,
+                 const acoustics::Environment& environment, const PathQuery& query,
+                 const SeabedProfile& seabed) {
   acoustics::RayOptions options = options_of(model, query);
   const acoustics::BottomProfile bottom = bottom_under(seabed, query.link, environment.sea_surface_z_m);
   const double depth_m = mean_depth_m(bottom, query.link.range_m);
   if (model.bounces_follow_range) options.max_bounces = bounces_for(query.link.range_m, depth_m);
   const acoustics::LinkWater along = water_along(model, water, environment, query, bottom.deepest_m());
-  const acoustics::RaySea sea{along.water, bottom,       model.bottom, surface_of(model, environment),
-                              options,     along.section};
-  auto found = std::make_shared<FoundPaths>();
-  found->given = query.given;
-  found->mean_depth_m = depth_m;
-  found->arrivals = arrivals(sea, query.link, usable_solver(model.solver, sea, query.link));
-  found->blocked = cuts_straight_line(sea.bottom_profile, query.link);
-  return found;
+  return {{along.water, bottom, model.bottom, surface_of(model, environment), options, along.section},
+          depth_m};
+}
+
+std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
+                                               const acoustics::Environment& environment,
+                                               const PathQuery& query, const SeabedProfile& seabed) {
+  return found_paths(model, path_sea(model, water, environment, query, seabed), query, nullptr);
+}
+
+std::shared_ptr<const FoundPaths> PathLine::search(const RayModel& model, const acoustics::RayWater& water,
+                                                   const acoustics::Environment& environment,
+                                                   const PathQuery& query, const SeabedProfile& seabed,
+                                                   acoustics::ColumnRays* column) {
+  if (!sea_) {
+    PathQuery at_surface = query;
+    at_surface.link.source_depth_m = at_surface.link.receiver_depth_m = 0;
+    sea_ = std::make_unique<const PathSea>(path_sea(model, water, environment, at_surface, seabed));
+  }
+  const acoustics::BottomProfile& bottom = sea_->sea.bottom_profile;
+  const auto is_above = [&](double depth_m, double range_m) {
+    return depth_m + kMinWaterM + kRounding < bottom.depth_at(range_m);
+  };
+  if (!is_above(query.link.source_depth_m, 0) || !is_above(query.link.receiver_depth_m, query.link.range_m))
+    return search_paths(model, water, environment, query, seabed);
+  return found_paths(model, *sea_, query, column);
 }
 
 bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query) {

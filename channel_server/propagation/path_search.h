@@ -16,6 +16,7 @@
 #include "acoustics/link/extrapolate_arrivals.h"
 #include "acoustics/link/field_section.h"
 #include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/column_rays.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
@@ -76,6 +77,11 @@ struct PathQuery {
   acoustics::RayLink link = {};
   double diffuse_below_pressure = 0;  // of acoustics::RayOptions
 
+  // Equal for queries of one line and one sea, whatever the depths of the ends.
+  auto line() const {
+    return std::tuple(water_id, frequency_hz, places, seabed_version, given.get(), link.range_m,
+                      diffuse_below_pressure);
+  }
   // Equal for queries of the same answer.
   Key key() const {
     return {hash_of_places(),    water_id,
@@ -113,10 +119,37 @@ acoustics::LinkWater water_along(const RayModel& model, const acoustics::RayWate
 acoustics::EndSpeeds end_speeds(const acoustics::RayWater& water, const acoustics::Environment& environment,
                                 const PathQuery& query);
 
+// The sea of a query, and the mean depth of the water along its link.
+struct PathSea {
+  acoustics::RaySea sea;
+  double mean_depth_m;
+};
+PathSea path_sea(const RayModel& model, const acoustics::RayWater& water,
+                 const acoustics::Environment& environment, const PathQuery& query,
+                 const SeabedProfile& seabed);
+
 // Over the bottom that is given, in the water of the query at its instant.
 std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
                                                const acoustics::Environment& environment,
                                                const PathQuery& query, const SeabedProfile& seabed);
+
+// The searches of links that differ in the depths of their ends alone, whose sea is made once. Not shared between threads.
+class PathLine {
+ public:
+  // As search_paths(), which answers itself where an end lies below the bottom. With a column, links differ in the receiver's depth
+  // alone and share their rays (acoustics/rays/column_rays.h).
+  std::shared_ptr<const FoundPaths> search(const RayModel& model, const acoustics::RayWater& water,
+                                           const acoustics::Environment& environment, const PathQuery& query,
+                                           const SeabedProfile& seabed,
+                                           acoustics::ColumnRays* column = nullptr);
+
+ private:
+  std::unique_ptr<const PathSea> sea_;  // of the first call
+};
+struct PathColumn {
+  PathLine line;
+  acoustics::ColumnRays rays;  // refers to the sea of the line
+};
 
 // The same of a link so weak and over so uneven a bottom that its energy is enough (acoustics/link/mixed_link.h); null for others.
 std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,

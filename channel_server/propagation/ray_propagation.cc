@@ -47,6 +47,15 @@ Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const 
   return answer(task, *searches_.find(task), acoustics::Capacity::kComputed);
 }
 
+Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                         const std::shared_ptr<const SeabedProfile>& seabed,
+                                         PathColumn* column) {
+  constexpr auto kCapacity = acoustics::Capacity::kLeftOut;
+  if (!seabed) return straight_instead(at, {from, to}, PropagationUsed::kStraightWithoutBottom, kCapacity);
+  const Task task = searches_.over(at, from, to, seabed);
+  return answer(task, *searches_.find(task, column), kCapacity);
+}
+
 acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                                   const std::shared_ptr<const SeabedProfile>& seabed) {
   const LinkSearches::Paths found_paths = searches_.find(searches_.over(at, from, to, seabed));

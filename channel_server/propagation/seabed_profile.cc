@@ -10,9 +10,6 @@
 namespace halocline::channel_server {
 namespace {
 
-// The least water a bottom profile knows, m: what land counts as, and what is left under an end.
-constexpr double kMinWaterM = 0.1;
-
 // Lowers the two points beside `range_m` until the bottom there is `depth_m` deep. With the weights w of linear
 // interpolation the points go down by d w / (w0^2 + w1^2), d being what is missing: continuous in the range.
 void lower_to(std::vector<acoustics::ProfiledDepth>& points, double range_m, double depth_m) {

@@ -41,6 +41,9 @@ struct SeabedPlaces {
   double mean_square_slope = 0;  // along the link, beside the mean slope
 };
 
+// The least water a bottom profile knows, m: what land counts as, and what is left under an end.
+inline constexpr double kMinWaterM = 0.1;
+
 // The bottom along a link whose ends are those of `seabed` in its order.
 acoustics::BottomProfile bottom_under(const SeabedProfile& seabed, const acoustics::RayLink& link,
                                       double sea_surface_z_m);

@@ -31,7 +31,7 @@ struct CoverageOptions {
   std::vector<std::string> overrides;
   double cell_m = 0, range_m = 0, every_s = 10;
   int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
-  bool force = false;
+  bool exact = false, force = false;
 };
 
 CoverageArea area_of(const CoverageOptions& options, const LinkSurveyEnd& from) {
@@ -59,7 +59,8 @@ int map(const CoverageOptions& options, const ScenarioConfig& config, const Link
                            to_radians(config.scenario.origin_longitude_deg)},
                           config.scenario.name + ": how " + options.from + " is heard"};
   const Coverage coverage =
-      compute_coverage(config, make_terrain(config).terrain, from, area, quantities, options.threads);
+      compute_coverage(config, make_terrain(config).terrain, from, area, quantities, options.threads,
+                       options.exact ? CoverageMethod::kExact : CoverageMethod::kInterpolated);
   write_coverage(coverage, file, options.output);
   if (!options.plot.empty()) write_coverage_picture(coverage, file, options.plot);
   const auto best = coverage.best_depth();
@@ -139,6 +140,10 @@ void add_coverage_command(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber);
   command->add_option("--quantity", options->quantities,
                       "what is written: delivery, snr, level, delay, with commas between");
+  command->add_flag(
+      "--exact", options->exact,
+      "a map whose every cell is searched by itself, as 'halocline link' does, which takes long over "
+      "terrain");
   command->add_option("--track", options->track,
                       "instead of a map the best depth along the way of this vehicle, or of a CSV file with "
                       "time_s, north_m, east_m");

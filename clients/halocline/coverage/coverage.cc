@@ -45,14 +45,15 @@ class Mapping {
  public:
   Mapping(const ScenarioConfig& config, const std::shared_ptr<const bathymetry::Terrain>& terrain,
           const LinkSurveyEnd& from, const CoverageArea& area, const std::vector<CoverageQuantity>& wanted,
-          int threads)
+          int threads, CoverageMethod method)
       : column_({config, terrain, from}),
         terrain_(*terrain),
         from_ned_m_(from.position_ned_m),
         surface_z_m_(config.scenario.sea_surface_z_m),
         area_(area),
         tolerance_(tolerances(wanted)),
-        threads_(threads) {
+        threads_(threads),
+        is_exact_(method == CoverageMethod::kExact) {
     const std::size_t cells = area.side * area.side;
     for (auto* values : {&map_.delivery, &map_.level_db, &map_.delay_s})
       values->assign(area.depths_m.size(), std::vector<double>(cells, kNothing));
@@ -102,7 +103,7 @@ class Mapping {
     column_.share(threads_, area_.depths_m.size(), [&](LinkSurveyor& surveyor, std::size_t depth) {
       const double z_m = area_.depths_m[depth] + surface_z_m_;
       if (z_m > bottom_z_m) return;
-      const auto samples = sampled(ranges, area_.cell_m, tolerance_, [&](double range_m) {
+      const auto samples = sampled(ranges, is_exact_ ? 0 : area_.cell_m, tolerance_, [&](double range_m) {
         return column_.link(surveyor, {from_ned_m_.x() + range_m, from_ned_m_.y(), z_m}, seabed);
       });
       for (std::size_t cell = 0; cell < of_cells.size(); ++cell) {
@@ -121,10 +122,17 @@ class Mapping {
     column_.share(threads_, seabed_z_m_.size(), [&](LinkSurveyor& surveyor, std::size_t cell) {
       if (std::isnan(seabed_z_m_[cell])) return;
       const LinkSurveyor::Seabed profile = column_.bottom(place(cell, 0), seabed);
-      for (std::size_t depth = 0; depth < area_.depths_m.size(); ++depth) {
-        if (is_water(cell, depth))
-          set(cell, depth, column_.link(surveyor, place(cell, area_.depths_m[depth]), profile));
+      std::vector<double> z_m;  // of those in the water
+      for (std::size_t depth = 0; depth < area_.depths_m.size() && is_water(cell, depth); ++depth)
+        z_m.push_back(area_.depths_m[depth] + surface_z_m_);
+      std::vector<Sample> samples;
+      if (is_exact_) {
+        for (std::size_t depth = 0; depth < z_m.size(); ++depth)
+          samples.push_back(column_.link(surveyor, place(cell, area_.depths_m[depth]), profile));
+      } else {
+        samples = column_.links(surveyor, place(cell, 0), z_m, profile);
       }
+      for (std::size_t depth = 0; depth < samples.size(); ++depth) set(cell, depth, samples[depth]);
     });
   }
 
@@ -137,6 +145,7 @@ class Mapping {
   const CoverageArea& area_;
   Sample tolerance_;
   int threads_;
+  bool is_exact_;
   std::vector<double> seabed_z_m_;  // under each cell; NaN where not known
   Coverage map_;
 };
@@ -146,9 +155,9 @@ class Mapping {
 Coverage compute_coverage(const ScenarioConfig& config,
                           const std::shared_ptr<const bathymetry::Terrain>& terrain,
                           const LinkSurveyEnd& from, const CoverageArea& area,
-                          const std::vector<CoverageQuantity>& wanted, int threads) {
+                          const std::vector<CoverageQuantity>& wanted, int threads, CoverageMethod method) {
   require_above_seabed(*terrain, from);
-  return Mapping(config, terrain, from, area, wanted, threads).run();
+  return Mapping(config, terrain, from, area, wanted, threads, method).run();
 }
 
 std::vector<double> Coverage::values(CoverageQuantity quantity, std::size_t depth) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/coverage/coverage_track.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <utility>
@@ -75,14 +76,16 @@ std::vector<DepthChoice> best_depths(const ScenarioConfig& config,
     const Vec3 surface = place_of(track[i], 0);
     const auto bottom_z_m = seabed_z_m(*terrain, surface);
     const LinkSurveyor::Seabed profile = column.bottom(surface, seabed);
-    for (std::size_t depth = 0; depth < depths_m.size(); ++depth) {
-      const Vec3 place = place_of(track[i], depths_m[depth]);
-      if (!bottom_z_m || place.z() > *bottom_z_m) continue;
-      const Sample sample = column.link(surveyor, place, profile);
-      if (choices[i].best && !(sample > choices[i].sample)) continue;
-      choices[i].best = depth;
-      choices[i].sample = sample;
+    std::vector<double> z_m;  // of depths in the water
+    for (const double depth_m : depths_m) {
+      const double at_m = place_of(track[i], depth_m).z();
+      if (bottom_z_m && at_m <= *bottom_z_m) z_m.push_back(at_m);
     }
+    const std::vector<Sample> samples = column.links(surveyor, surface, z_m, profile);
+    const auto best = std::max_element(samples.begin(), samples.end());
+    if (best == samples.end()) return;
+    choices[i].best = static_cast<std::size_t>(best - samples.begin());
+    choices[i].sample = *best;
   });
   return choices;
 }

@@ -1,15 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/coverage/link_column.h"
 
+#include <utility>
+
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
 #include "bus/runtime/thread_pool.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
+namespace {
+
+// The first and the last of so many, then the middles of what lies between, of halves, of quarters: paths are interpolated between
+// those of depths above and below.
+std::vector<std::size_t> ends_first(std::size_t count) {
+  if (count == 0) return {};
+  std::vector<std::size_t> order{0};
+  if (count > 1) order.push_back(count - 1);
+  std::vector<std::pair<std::size_t, std::size_t>> spans{{0, count - 1}};
+  for (std::size_t next = 0; next < spans.size(); ++next) {
+    const auto [first, last] = spans[next];
+    if (last - first < 2) continue;
+    const std::size_t middle = first + (last - first) / 2;
+    order.push_back(middle);
+    spans.emplace_back(first, middle);
+    spans.emplace_back(middle, last);
+  }
+  return order;
+}
+
+}  // namespace
 
 LinkColumn::LinkColumn(const Scene& scene)
     : config_(scene.config),
@@ -53,14 +77,24 @@ LinkSurveyor::Seabed LinkColumn::bottom(const Vec3& to_ned_m, const channel_serv
   return along_rays() ? seabed.between(from_.position_ned_m, to_ned_m) : nullptr;
 }
 
-Sample LinkColumn::link(LinkSurveyor& surveyor, const Vec3& to_ned_m,
-                        const LinkSurveyor::Seabed& seabed) const {
+Sample LinkColumn::sample(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed,
+                          channel_server::PathColumn* column) const {
   const acoustics::Modem& transmitter = from_.modem.modem;
   const channel_server::LinkEnd here{0, from_.position_ned_m, Vec3::Zero(), &transmitter};
   const channel_server::LinkEnd there{0, to_ned_m, Vec3::Zero(), &receiving_modem(to_, transmitter)};
-  const LinkSurveyor::Answer answer = surveyor.survey(here, there, seabed);
+  const LinkSurveyor::Answer answer = surveyor.survey(here, there, seabed, column);
   return {answer.forecast.delivery_probability, answer.reception.budget.received_level.value,
           answer.reception.budget.delay_s};
+}
+
+std::vector<Sample> LinkColumn::links(LinkSurveyor& surveyor, const Vec3& place_ned_m,
+                                      const std::vector<double>& z_m,
+                                      const LinkSurveyor::Seabed& seabed) const {
+  channel_server::PathColumn column;
+  std::vector<Sample> samples(z_m.size());
+  for (const std::size_t i : ends_first(z_m.size()))
+    samples[i] = sample(surveyor, {place_ned_m.x(), place_ned_m.y(), z_m[i]}, seabed, &column);
+  return samples;
 }
 
 }  // namespace halocline::clients

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "acoustics/sea/environment.h"
 #include "bathymetry/terrain/terrain.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "clients/halocline/coverage/sampling.h"
@@ -39,12 +41,19 @@ class LinkColumn {
   void survey(const Vec3& to_ned_m, channel_server::SeabedMap& seabed) const;
   // The bottom to a place that was surveyed; null where links are straight.
   LinkSurveyor::Seabed bottom(const Vec3& to_ned_m, const channel_server::SeabedMap& seabed) const;
-  // Calls may overlap between threads, each with a surveyor of its own.
-  Sample link(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed) const;
+  // Links to receivers above and below one place at each z of `z_m`, rising, which share their rays. Calls may overlap between threads,
+  // each with a surveyor of its own.
+  std::vector<Sample> links(LinkSurveyor& surveyor, const Vec3& place_ned_m, const std::vector<double>& z_m,
+                            const LinkSurveyor::Seabed& seabed) const;
+  Sample link(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed) const {
+    return sample(surveyor, to_ned_m, seabed, nullptr);
+  }
 
  private:
   LinkSurveyor surveyor() const { return {config_, terrain_, environment_}; }
   bool along_rays() const;
+  Sample sample(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed,
+                channel_server::PathColumn* column) const;
 
   const ScenarioConfig& config_;
   std::shared_ptr<const bathymetry::Terrain> terrain_;

@@ -34,9 +34,10 @@ channel_server::Reception LinkSurveyor::reception(const LinkEnd& from, const Lin
                                                                    : straight_.reception(SimTime(), from, to);
 }
 
-LinkSurveyor::Answer LinkSurveyor::survey(const LinkEnd& from, const LinkEnd& to, const Seabed& seabed) {
+LinkSurveyor::Answer LinkSurveyor::forecast(const LinkEnd& from, const LinkEnd& to,
+                                            channel_server::Reception reception) {
   Answer answer;
-  answer.reception = reception(from, to, seabed);
+  answer.reception = std::move(reception);
   answer.forecast =
       predictor_.forecast(*predictor_.rates_of(*from.modem), *from.modem, *to.modem, answer.reception);
   return answer;

@@ -15,6 +15,7 @@
 #include "channel_server/channel_server_config.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"
@@ -39,7 +40,17 @@ class LinkSurveyor {
 
   bool along_rays() const { return rays_.has_value(); }
   // `seabed` from the one end to the other; null where it is not known; not looked at along straight lines.
-  Answer survey(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to, const Seabed& seabed);
+  Answer survey(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to,
+                const Seabed& seabed) {
+    return forecast(from, to, reception(from, to, seabed));
+  }
+  // The same but for the capacity; receivers at several depths of one place share `column`, null for one by itself.
+  Answer survey(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to, const Seabed& seabed,
+                channel_server::PathColumn* column) {
+    return forecast(
+        from, to,
+        rays_ ? rays_->reception_over(SimTime(), from, to, seabed, column) : reception(from, to, seabed));
+  }
   // The paths behind an answer along rays.
   acoustics::Arrivals arrivals(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to,
                                const Seabed& seabed) {
@@ -50,6 +61,8 @@ class LinkSurveyor {
  private:
   channel_server::Reception reception(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to,
                                       const Seabed& seabed);
+  Answer forecast(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to,
+                  channel_server::Reception reception);
 
   std::shared_ptr<const bathymetry::Terrain> terrain_;
   std::shared_ptr<const channel_server::EnvironmentTimeline> waters_;

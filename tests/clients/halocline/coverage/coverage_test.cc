@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/link/link_budget.h"
 #include "bathymetry/rasters/terrain_recipe.h"
 #include "channel_server/channel_server_config.h"
 #include "clients/halocline/coverage/coverage_track.h"
@@ -35,16 +36,26 @@ ScenarioConfig level_sea() {
 const std::vector<CoverageQuantity> kAll{CoverageQuantity::kDelivery, CoverageQuantity::kSnr,
                                          CoverageQuantity::kLevel, CoverageQuantity::kDelay};
 
+// Of links.
+struct Differences {
+  double level_db, delay_s, delivery;
+  CoverageMethod method = CoverageMethod::kInterpolated;
+  int cells = 1000;
+  // So many may differ by more: one search finds a path that the other misses, two guard windows are as good as each other, or a path
+  // at the edge of a shadow is there or not by the last digit.
+  int of_other_paths = 0;
+};
+
 // As far as the terrain is known. The greatest differences are those of what is interpolated; delivery at its flank, where it changes
 // by 0.1 a decibel and more, has the tolerance of the level.
 void expect_links_in_random_cells(const ScenarioConfig& config, const std::string& name,
-                                  const CoverageArea& area, double level_db, double delay_s,
-                                  double delivery) {
+                                  const CoverageArea& area, const Differences& most) {
   const LinkSurveyEnd from = link_end(config, name);
-  const Coverage map = compute_coverage(config, make_terrain(config).terrain, from, area, kAll, 2);
+  const Coverage map =
+      compute_coverage(config, make_terrain(config).terrain, from, area, kAll, /*threads=*/2, most.method);
   LinkSurveyEnd to = link_end(config, "0,0,0");
-  int looked_at = 0;
-  for (std::uint64_t i = 0; looked_at < 1000; ++i) {
+  int looked_at = 0, differing = 0;
+  for (std::uint64_t i = 0; looked_at < most.cells; ++i) {
     ASSERT_LT(i, 20'000U);
     const auto drawn = [&](std::uint32_t what, std::size_t count) {
       const double u = uniform_at({.purpose = purpose_of("cell"), .who = what, .which = i});
@@ -58,46 +69,88 @@ void expect_links_in_random_cells(const ScenarioConfig& config, const std::strin
     to.position_ned_m = {area.north_m(row), area.east_m(column),
                          area.depths_m[depth] + config.scenario.sea_surface_z_m};
     const LinkSurvey link = survey_link(config, from, to);
-    ASSERT_NEAR(map.level_db[depth][cell], link.reception.budget.received_level.value, level_db)
-        << to.position_ned_m.transpose();
-    ASSERT_NEAR(map.values(CoverageQuantity::kSnr, depth)[cell], link.reception.budget.snr.value, level_db)
-        << to.position_ned_m.transpose();
-    ASSERT_NEAR(map.delay_s[depth][cell], link.reception.budget.delay_s, delay_s)
-        << to.position_ned_m.transpose();
-    ASSERT_NEAR(map.delivery[depth][cell], link.forecast.delivery_probability, delivery)
-        << to.position_ned_m.transpose();
+    const acoustics::LinkBudget& budget = link.reception.budget;
+    const bool is_equal =
+        std::abs(map.level_db[depth][cell] - budget.received_level.value) <= most.level_db &&
+        std::abs(map.values(CoverageQuantity::kSnr, depth)[cell] - budget.snr.value) <= most.level_db &&
+        std::abs(map.delay_s[depth][cell] - budget.delay_s) <= most.delay_s &&
+        std::abs(map.delivery[depth][cell] - link.forecast.delivery_probability) <= most.delivery;
+    if (is_equal) continue;
+    ++differing;
+    EXPECT_LE(differing, most.of_other_paths)
+        << to.position_ned_m.transpose() << ": level " << map.level_db[depth][cell] << " "
+        << budget.received_level.value << ", delay " << map.delay_s[depth][cell] << " " << budget.delay_s
+        << ", delivery " << map.delivery[depth][cell] << " " << link.forecast.delivery_probability;
   }
 }
 
+const Differences kInterpolated{tolerance(0.1), tolerance(1e-6), tolerance(0.01)};
+
 TEST(Coverage, OfLevelSeaEqualsLinksIn1000RandomCells) {
   CoverageArea area{.middle_north_m = -3250, .cell_m = 50, .side = 80, .depths_m = {5, 20, 40, 90}};
-  expect_links_in_random_cells(level_sea(), "buoy", area, tolerance(0.1), tolerance(1e-6), tolerance(0.01));
+  expect_links_in_random_cells(level_sea(), "buoy", area, kInterpolated);
 }
 
-TEST(Coverage, OverTerrainEqualsLinksIn1000RandomCells) {
+ScenarioConfig sea_over_a_ridge() {
   ScenarioConfig config = level_sea();
   config.terrain.kind = bathymetry::TerrainKind::kRidge;
   config.terrain.ridge = {.depth_m = 100, .height_m = 60, .half_width_m = 800};
+  return config;
+}
+
+TEST(Coverage, OverTerrainEqualsLinksIn1000RandomCells) {
+  const CoverageArea area{
+      .middle_north_m = -3250, .cell_m = 150, .side = 26, .depths_m = depths_of("5:95:5")};
+  Differences most = kInterpolated;
+  most.of_other_paths = 5;
+  expect_links_in_random_cells(sea_over_a_ridge(), "buoy", area, most);
+}
+
+TEST(Coverage, ExactOverTerrainIsThatOfLinksInRandomCells) {
   CoverageArea area{.middle_north_m = -3250, .cell_m = 150, .side = 26, .depths_m = {5, 45, 90}};
-  expect_links_in_random_cells(config, "buoy", area, tolerance(1e-9), tolerance(1e-12), tolerance(1e-9));
+  expect_links_in_random_cells(
+      sea_over_a_ridge(), "buoy", area,
+      {tolerance(1e-9), tolerance(1e-12), tolerance(1e-9), CoverageMethod::kExact, /*cells=*/200});
+}
+
+TEST(Coverage, InAnOceansFieldEqualsLinksInRandomCells) {
+  const ScenarioConfig config = load_scenario(std::string(HALOCLINE_SOURCE_DIR) + "/scenarios/front.toml",
+                                              {"modem.source_level_db=160"}, ScenarioUse::kWater);
+  const CoverageArea area{.middle_north_m = -3000,
+                          .middle_east_m = 500,
+                          .cell_m = 400,
+                          .side = 10,
+                          .depths_m = depths_of("20:140:10")};
+  Differences most = kInterpolated;
+  most.cells = 100;
+  expect_links_in_random_cells(config, "south", area, most);
 }
 
 TEST(Coverage, AlongStraightLinesEqualsLinksIn1000RandomCells) {
   ScenarioConfig config = level_sea();
   config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
   CoverageArea area{.middle_north_m = -3250, .cell_m = 50, .side = 80, .depths_m = {5, 90}};
-  expect_links_in_random_cells(config, "buoy", area, tolerance(0.1), tolerance(1e-6), tolerance(0.01));
+  expect_links_in_random_cells(config, "buoy", area, kInterpolated);
 }
 
 TEST(Coverage, DoesNotDependOnTheNumberOfThreads) {
-  const ScenarioConfig config = level_sea();
-  const auto terrain = make_terrain(config).terrain;
-  const CoverageArea area{.middle_north_m = -3250, .cell_m = 400, .side = 8, .depths_m = {5, 20, 90}};
-  const LinkSurveyEnd from = link_end(config, "buoy");
-  const Coverage one = compute_coverage(config, terrain, from, area, kAll, 1),
-                 three = compute_coverage(config, terrain, from, area, kAll, 3);
-  EXPECT_EQ(one.level_db, three.level_db);
-  EXPECT_EQ(one.delivery, three.delivery);
+  for (const ScenarioConfig& config : {level_sea(), sea_over_a_ridge()}) {
+    const auto terrain = make_terrain(config).terrain;
+    const CoverageArea area{
+        .middle_north_m = -3250, .cell_m = 400, .side = 8, .depths_m = {5, 20, 35, 60, 90}};
+    const LinkSurveyEnd from = link_end(config, "buoy");
+    const Coverage one = compute_coverage(config, terrain, from, area, kAll, 1),
+                   three = compute_coverage(config, terrain, from, area, kAll, 3);
+    const std::string kind = config.terrain.kind == bathymetry::TerrainKind::kRidge ? "ridge" : "level";
+    for (std::size_t depth = 0; depth < area.depths_m.size(); ++depth) {
+      for (std::size_t cell = 0; cell < one.level_db[depth].size(); ++cell) {
+        if (std::isnan(one.level_db[depth][cell])) continue;
+        EXPECT_EQ(one.level_db[depth][cell], three.level_db[depth][cell]) << kind;
+        EXPECT_EQ(one.delay_s[depth][cell], three.delay_s[depth][cell]) << kind;
+        EXPECT_EQ(one.delivery[depth][cell], three.delivery[depth][cell]) << kind;
+      }
+    }
+  }
 }
 
 TEST(Coverage, HasNoValueBelowTheSeabedAndBeyondTheTerrain) {

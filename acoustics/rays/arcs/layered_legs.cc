@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/layered_legs.h"
+#include "acoustics/rays/arcs/layered_legs.h"
 
 #include <algorithm>
 #include <cmath>

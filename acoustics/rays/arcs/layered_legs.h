@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "acoustics/math/turning_field.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
