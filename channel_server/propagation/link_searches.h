@@ -41,9 +41,9 @@ namespace halocline::channel_server {
 class LinkSearches {
  public:
   using Paths = std::shared_ptr<const FoundPaths>;
-  // Simulation time, twice that at most: vehicles that go round find the cells of the round before, and what is kept is that of
-  // forty minutes, however long the run.
-  static constexpr SimDuration kKept = SimDuration::from_milliseconds(1'200'000);
+  // Simulation time, twice that at most: vehicles that lie still or pass a cell again soon find it, and what is kept is that of ten
+  // minutes, however long the run.
+  static constexpr SimDuration kKept = SimDuration::from_milliseconds(300'000);
   // A link, ready to be searched without touching what is kept.
   struct Task {
     EndPair ends;
