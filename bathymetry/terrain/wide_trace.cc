@@ -257,11 +257,14 @@ void WideWalk<N>::decide_cells(Group<N>& w, const Integers& open, const Reals& e
 }
 
 void run_sse2(WideWalk<2>& walk) { walk.run(); }
+#if defined(__x86_64__)
 [[gnu::target("avx2")]] void run_avx2(WideWalk<4>& walk) { walk.run(); }
 [[gnu::target("avx512f,avx512dq,avx512vl")]] void run_avx512(WideWalk<8>& walk) { walk.run(); }
+#endif
 
 }  // namespace
 
+#if defined(__x86_64__)
 VectorUnit widest_vector_unit() {
   static const VectorUnit widest = [] {
     __builtin_cpu_init();
@@ -273,20 +276,26 @@ VectorUnit widest_vector_unit() {
   }();
   return widest;
 }
+#else
+VectorUnit widest_vector_unit() { return VectorUnit::kSse2; }
+#endif
 
 void trace_grid(const HeightGrid& grid, const ShallowestPyramid& pyramid, std::span<GridTrace* const> traces,
                 VectorUnit unit) {
   if (traces.empty()) return;
+#if defined(__x86_64__)
   if (unit == VectorUnit::kAvx512) {
     WideWalk<8> walk(grid, pyramid, traces);
-    run_avx512(walk);
-  } else if (unit == VectorUnit::kAvx2) {
-    WideWalk<4> walk(grid, pyramid, traces);
-    run_avx2(walk);
-  } else {
-    WideWalk<2> walk(grid, pyramid, traces);
-    run_sse2(walk);
+    return run_avx512(walk);
   }
+  if (unit == VectorUnit::kAvx2) {
+    WideWalk<4> walk(grid, pyramid, traces);
+    return run_avx2(walk);
+  }
+#endif
+  (void)unit;
+  WideWalk<2> walk(grid, pyramid, traces);
+  run_sse2(walk);
 }
 
 }  // namespace halocline::bathymetry

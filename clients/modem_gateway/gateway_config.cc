@@ -2,6 +2,7 @@
 #include "clients/modem_gateway/gateway_config.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -42,15 +43,24 @@ class NoPort : public ProtocolPort {
   void note(std::string_view, std::string_view) override {}
 };
 
-void check_options(const DoorConfig& door) {
-  NoPort port;
-  AddressBook book;
-  make_protocol(door.kind, {port, book, door.vehicle_id, DoorOptions(door.options)});
-}
-
-void check_addresses(const GatewayConfig& config, const DoorConfig& door) {
+AddressBook book_of(const GatewayConfig& config, const DoorConfig& door) {
   AddressBook book;
   assign_addresses(book, door.addresses, config.vehicles);
+  return book;
+}
+
+// With the addresses of `book`.
+void check_options(const GatewayConfig& config, const DoorConfig& door, AddressBook book) {
+  NoPort port;
+  const auto protocol = make_protocol(door.kind, {port, book, door.vehicle_id, DoorOptions(door.options)});
+  const std::vector<std::int32_t> transponders = protocol->transponders();
+  for (const NamedVehicle& vehicle : config.vehicles) {
+    require(
+        vehicle.is_transponder ||
+            std::find(transponders.begin(), transponders.end(), vehicle.id) == transponders.end(),
+        "they name " + vehicle.name +
+            " as a transponder, which answers no ping to all; allowed is a vehicle with transponder = true");
+  }
 }
 
 std::int32_t id_of(const GatewayConfig& config, const std::string& name) {
@@ -82,8 +92,9 @@ void check_door(ConfigVisitor& v, const GatewayConfig& config, std::size_t i) {
   const DoorConfig& door = config.doors[i];
   bus::report_refusal(v, "vehicle", [&] { id_of(config, door.vehicle); });
   if (door.kind.empty()) return v.problem("kind", "it must be given: one of " + kinds_text());
-  bus::report_refusal(v, "options", [&] { check_options(door); });
-  bus::report_refusal(v, "addresses", [&] { check_addresses(config, door); });
+  std::optional<AddressBook> book;
+  bus::report_refusal(v, "addresses", [&] { book = book_of(config, door); });
+  bus::report_refusal(v, "options", [&] { check_options(config, door, book.value_or(AddressBook())); });
   for (std::size_t other = 0; other < i; ++other) {
     if (config.doors[other].place == door.place && door.place.text() != "tcp:0")
       v.problem("place", "another door has this place; allowed is one of its own");
@@ -130,6 +141,7 @@ void visit(ConfigVisitor& v, GatewayConfig& config) {
         item.shared_with_others();
         item.text("name", config.vehicles[i].name, {}, "");
         bus::integer_as(item, "id", config.vehicles[i].id, {1, 2147483647, "", ""});
+        item.boolean("transponder", config.vehicles[i].is_transponder, "");
         if (v.writing() || !item.given("clock")) return;
         channel_server::ClockOf clock{config.vehicles[i].name, config.vehicles[i].id, {}};
         item.section("clock", "",
@@ -167,7 +179,7 @@ void add_door(GatewayConfig& config, std::string_view text) {
   door.vehicle_id = id_of(config, door.vehicle);
   door.kind = text.substr(equals + 1, colon - equals - 1);
   door.place = place_of(text.substr(colon + 1));
-  check_options(door);
+  check_options(config, door, book_of(config, door));
   config.doors.push_back(std::move(door));
 }
 

@@ -18,6 +18,7 @@ namespace halocline::modem_gateway {
 struct NamedVehicle {
   std::string name;
   std::int32_t id = 0;
+  bool is_transponder = false;  // answers pings to all
 };
 
 class AddressBook {

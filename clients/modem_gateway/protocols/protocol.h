@@ -114,6 +114,9 @@ class Protocol {
   // What ask_paths() led to.
   virtual void on_paths(const link_reply_t& /*reply*/) {}
 
+  // Vehicles that its options name as transponders.
+  virtual std::vector<std::int32_t> transponders() const { return {}; }
+
   // When step() is due by simulation time.
   virtual SimTime next() const { return SimTime::never(); }
   virtual void step() {}

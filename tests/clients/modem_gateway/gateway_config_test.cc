@@ -86,6 +86,21 @@ addresses = "auv-1=x"
   EXPECT_THAT(errors_of("[[door]]\nvehicle = \"buoy\"\n"), HasSubstr("must be given"));
 }
 
+TEST(GatewayConfig, TranspondersOfADoorAreVehiclesThatAnswerPingsToAll) {
+  const std::string door =
+      "[[door]]\nvehicle = \"buoy\"\nkind = \"micromodem\"\nplace = \"tcp:9600\"\naddresses = \"auv-1=3\"\n"
+      "options = \"lbl=3/4\"\n";
+  const std::string vehicle = "[[vehicle]]\nname = \"beacon\"\nid = 4\n";
+  EXPECT_THAT(errors_of(vehicle + door), HasSubstr("door[0].options: they name auv-1 as a transponder"));
+  std::string answering = door;
+  answering.replace(answering.find("auv-1=3"), 7, "first=3");
+  EXPECT_EQ(errors_of("[[vehicle]]\nname = \"first\"\nid = 5\ntransponder = true\n" + vehicle +
+                      "transponder = true\n" + answering),
+            "");
+  EXPECT_THAT(errors_of(vehicle + "transponder = true\n" + door),
+              HasSubstr("allowed is a vehicle with transponder = true"));
+}
+
 TEST(GatewayConfig, TwoDoorsHaveTwoPlaces) {
   const std::string door = "[[door]]\nvehicle = \"buoy\"\nkind = \"nm3\"\nplace = \"tcp:9600\"\n";
   EXPECT_THAT(errors_of(door + door), HasSubstr("another door has this place"));

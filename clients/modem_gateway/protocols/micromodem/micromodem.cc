@@ -95,6 +95,8 @@ class Micromodem : public Protocol {
     core_.say_all(lines_of(core_.listener(), loss, port_.clock_at(arrival)));
   }
 
+  std::vector<std::int32_t> transponders() const override { return lbl_.transponders(); }
+
   SimTime next() const override { return std::min({housekeeping_.next(), lbl_.next(), transmitter_.next()}); }
   void step() override {
     housekeeping_.step();

@@ -47,6 +47,13 @@ void MicromodemLbl::name_transponders(const std::string& text) {
   }
 }
 
+std::vector<std::int32_t> MicromodemLbl::transponders() const {
+  std::vector<std::int32_t> vehicles;
+  for (const auto& transponder : transponders_)
+    if (transponder) vehicles.push_back(addresses_.vehicle_of(transponder->address));
+  return vehicles;
+}
+
 // The vehicle of the transponder that a field names.
 std::optional<std::int32_t> MicromodemLbl::named(std::string_view field, std::size_t place,
                                                  bool by_code) const {

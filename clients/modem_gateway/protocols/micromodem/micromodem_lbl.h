@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bus/messages.h"
 #include "clients/modem_gateway/protocols/address_book.h"
@@ -33,6 +34,8 @@ class MicromodemLbl {
 
   // ADDRESS or ADDRESS:CODE, / between. Throws InvalidArgument for another text.
   void name_transponders(const std::string& text);
+  // Their vehicles, where an address has one.
+  std::vector<std::int32_t> transponders() const;
   // False for a command that is none of these.
   bool obey(ClientId client, const NmeaSentence& sentence);
   // Whether that packet is a ping of its own, and takes its receipt or answer; a late answer counts no more.
