@@ -175,14 +175,6 @@ TEST(ModemPacket, IsWholeWhenEveryFrameWasRight) {
   EXPECT_TRUE(is_whole(packet));
 }
 
-TEST_F(ModemClientTest, APingToAllIsSent) {
-  modem_.ping(at_ms(0), at_ms(0), kBroadcastId);
-  drain();
-  ASSERT_EQ(server_.sends.size(), 1u);
-  EXPECT_EQ(server_.sends[0].packet_kind, modem_send_t::PING);
-  EXPECT_EQ(server_.sends[0].destination_id, kBroadcastId);
-}
-
 TEST_F(ModemClientTest, AQueuedPacketIsAccepted) {
   send(0);
   drain();

@@ -91,7 +91,8 @@ TEST(GatewayConfig, TranspondersOfADoorAreVehiclesThatAnswerPingsToAll) {
       "[[door]]\nvehicle = \"buoy\"\nkind = \"micromodem\"\nplace = \"tcp:9600\"\naddresses = \"auv-1=3\"\n"
       "options = \"lbl=3/4\"\n";
   const std::string vehicle = "[[vehicle]]\nname = \"beacon\"\nid = 4\n";
-  EXPECT_THAT(errors_of(vehicle + door), HasSubstr("door[0].options: they name auv-1 as a transponder"));
+  EXPECT_THAT(errors_of(vehicle + door),
+              HasSubstr("door[0].options is 'lbl=3/4'; they name auv-1 as a transponder"));
   std::string answering = door;
   answering.replace(answering.find("auv-1=3"), 7, "first=3");
   EXPECT_EQ(errors_of("[[vehicle]]\nname = \"first\"\nid = 5\ntransponder = true\n" + vehicle +
