@@ -16,9 +16,9 @@ template <int N>
 struct Vectors;
 #define HALOCLINE_VECTORS(N)                                \
   template <>                                               \
-  struct Vectors<N> {                                       \
-    using Reals [[gnu::vector_size(N * 8)]] = double;       \
-    using Integers [[gnu::vector_size(N * 8)]] = long long; \
+  struct Vectors<(N)> {                                     \
+    using Reals [[gnu::vector_size((N)*8)]] = double;       \
+    using Integers [[gnu::vector_size((N)*8)]] = long long; \
   }
 HALOCLINE_VECTORS(2);
 HALOCLINE_VECTORS(4);

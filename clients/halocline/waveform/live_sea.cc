@@ -95,7 +95,8 @@ void LiveSea::silence(std::int32_t vehicle_id, SimTime from) {
 
 // The next kFrames of a passage.
 void LiveSea::add_piece(const Sound& sound, Passage& passage, double received_rate_hz) {
-  const auto& [begin_s, rate_hz, values] = sound.pressure;
+  const double begin_s = sound.pressure.begin_s, rate_hz = sound.pressure.rate_hz;
+  const std::vector<double>& values = sound.pressure.values;
   const double from_s = passage.course.end_s();
   Way way = links_.onward(passage.course, passage.course.frames == 0 ? kFrames + 1 : kFrames);
   if (passage.taps.empty())
