@@ -76,7 +76,7 @@ MeasuredTap statistics(const BandTable& table, std::size_t n, double time_rate_h
   if (!(tap.power > 0)) return tap;
   tap.coherent = std::min(std::norm(sum / count) / tap.power, 1.0);
   tap.phase_rad = elementary::arg(sum);
-  const double correlation = std::abs(next_product) / neighbours;
+  const double correlation = elementary::hypot(next_product.real(), next_product.imag()) / neighbours;
   if (correlation < 1 - kSameFromInstantToInstant) {
     const double spread_hz = std::sqrt(-2 * elementary::log(correlation)) / (2 * pi) * time_rate_hz;
     tap.doppler_spread_hz = std::min(spread_hz, time_rate_hz / 2);

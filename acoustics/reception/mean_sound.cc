@@ -13,6 +13,7 @@
 #include "acoustics/reception/collected_sound.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/steady_band.h"
+#include "core/elementary.h"
 #include "core/units.h"
 #include "core/vector_clones.h"
 
@@ -100,7 +101,7 @@ class BandSums {
     const auto parts = steady_.parts(sway);
     double coherent = 0;
     for (std::size_t m = 0; m < kFrequencies; ++m) {
-      const double middle = std::abs(pressures_[m]);
+      const double middle = elementary::hypot(pressures_[m].real(), pressures_[m].imag());
       pressures_[m] *= middle > 0 ? std::sqrt(parts[m].constant) / middle : 0;
       sound.varying[m] = parts[m].varying;
       coherent += (std::norm(pressures_[m]) + parts[m].varying) / kFrequencies;
