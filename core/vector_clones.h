@@ -6,8 +6,15 @@
 // so have sanitizers, which cannot choose so early.
 #pragma once
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
+// Whether the processor is of the kind whose functions may be compiled for AVX2 and AVX-512 by hand ([[gnu::target]]).
+#if defined(__x86_64__)
+#define HALOCLINE_HAS_X86_VECTORS 1
+#else
+#define HALOCLINE_HAS_X86_VECTORS 0
+#endif
+
+#if HALOCLINE_HAS_X86_VECTORS && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define HALOCLINE_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
 #else
 #define HALOCLINE_VECTOR_CLONES

@@ -6,12 +6,7 @@
 #include <numbers>
 
 #include "core/elementary.h"
-
-#if defined(__x86_64__)
-#define HALOCLINE_HAS_X86_VECTORS 1
-#else
-#define HALOCLINE_HAS_X86_VECTORS 0
-#endif
+#include "core/vector_clones.h"
 
 namespace halocline::acoustics {
 namespace {

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstddef>
 
+#include "core/vector_clones.h"
+
 namespace halocline::bathymetry {
 namespace {
 
@@ -257,15 +259,15 @@ void WideWalk<N>::decide_cells(Group<N>& w, const Integers& open, const Reals& e
 }
 
 void run_sse2(WideWalk<2>& walk) { walk.run(); }
-#if defined(__x86_64__)
+#if HALOCLINE_HAS_X86_VECTORS
 [[gnu::target("avx2")]] void run_avx2(WideWalk<4>& walk) { walk.run(); }
 [[gnu::target("avx512f,avx512dq,avx512vl")]] void run_avx512(WideWalk<8>& walk) { walk.run(); }
 #endif
 
 }  // namespace
 
-#if defined(__x86_64__)
 VectorUnit widest_vector_unit() {
+#if HALOCLINE_HAS_X86_VECTORS
   static const VectorUnit widest = [] {
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
@@ -275,15 +277,15 @@ VectorUnit widest_vector_unit() {
     return __builtin_cpu_supports("avx2") ? VectorUnit::kAvx2 : VectorUnit::kSse2;
   }();
   return widest;
-}
 #else
-VectorUnit widest_vector_unit() { return VectorUnit::kSse2; }
+  return VectorUnit::kSse2;
 #endif
+}
 
 void trace_grid(const HeightGrid& grid, const ShallowestPyramid& pyramid, std::span<GridTrace* const> traces,
                 VectorUnit unit) {
   if (traces.empty()) return;
-#if defined(__x86_64__)
+#if HALOCLINE_HAS_X86_VECTORS
   if (unit == VectorUnit::kAvx512) {
     WideWalk<8> walk(grid, pyramid, traces);
     return run_avx512(walk);

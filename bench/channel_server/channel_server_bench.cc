@@ -155,7 +155,7 @@ void best_place(benchmark::State& state) {
   BestPlaceService service(fleet, propagation, predictor, noise, SimDuration::from_milliseconds(250),
                            pool.sharing_out());
   const SimTime now = SimTime::from_seconds(100);
-  BestPlaceQuery query{.client = "bench"};
+  BestPlaceQuery query{.client = "bench", .listeners = {}};
   for (VehicleId id = 1; id <= kListeners; ++id) {
     const Vec3 place(120.0 * id, 700.0 * (id % 7), 10.0 + 12 * (id % 7));
     const SimTime before = now - SimDuration::from_milliseconds(100);

@@ -56,9 +56,9 @@ RayAnswer::Kind kind_of(bathymetry::RayStatus status) {
 }
 
 std::vector<RayAnswer> query(const bathymetry::Terrain& terrain, bathymetry::QueryMode mode,
-                             const std::vector<TerrainRay>& rays) {
+                             const std::vector<TerrainRay>& rays, double spacing_m = 0) {
   if (rays.empty()) return {};
-  bathymetry::RayBatch batch{.mode = mode};
+  bathymetry::RayBatch batch{.mode = mode, .sample_spacing_m = spacing_m};
   for (const TerrainRay& ray : rays) batch.rays.push_back({ray.origin_ned_m, ray.direction, ray.max_range_m});
   const auto answers = bathymetry::answer(terrain, bathymetry::version_text(terrain.version()), batch);
   std::vector<RayAnswer> out;
@@ -174,9 +174,8 @@ channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, con
 
 void answer_requests(const bathymetry::Terrain& terrain, channel_server::SeabedMap& seabed) {
   for (channel_server::TileSurvey& tile : seabed.take_requests()) {
-    std::vector<TerrainRay> rays;
-    for (const Vec3& point : tile.points_ned_m()) rays.push_back(channel_server::depth_ray(point));
-    tile.take(query(terrain, bathymetry::QueryMode::kDepth, rays));
+    static_assert(bathymetry::kTileSide == channel_server::kTileSide);
+    tile.take(query(terrain, bathymetry::QueryMode::kDepthTiles, tile.rays(), tile.spacing_m()));
     seabed.store(tile);
   }
 }

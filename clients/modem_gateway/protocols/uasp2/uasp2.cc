@@ -25,6 +25,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bus/message_codec.h"
 #include "bus/version.h"
 #include "clients/modem_gateway/protocols/base64.h"
 #include "clients/modem_gateway/protocols/door_options.h"
@@ -54,36 +55,25 @@ constexpr double kMaxGainDb = 200;
 
 double amplitude_of(double level_db) { return elementary::exp10(level_db / 20); }
 
-template <class Unsigned>
-void append_big_endian(std::string& bytes, Unsigned value) {
-  for (int shift = 8 * (sizeof value - 1); shift >= 0; shift -= 8)
-    bytes += static_cast<char>(value >> shift & 0xff);
-}
-
-std::string unit_of(std::int64_t time_us, std::uint32_t number, const double* samples, double gain) {
-  std::string bytes;
-  append_big_endian(bytes, static_cast<std::uint64_t>(time_us));
-  append_big_endian(bytes, number);
-  append_big_endian(bytes, static_cast<std::uint16_t>(kBlock));
-  append_big_endian(bytes, std::uint16_t{1});
+bus::Bytes unit_of(std::int64_t time_us, std::uint32_t number, const double* samples, double gain) {
+  bus::Bytes bytes;
+  bus::append_uint32(static_cast<std::uint32_t>(time_us >> 32), bytes);
+  bus::append_uint32(static_cast<std::uint32_t>(time_us), bytes);
+  bus::append_uint32(number, bytes);
+  bus::append_uint32(static_cast<std::uint32_t>(kBlock) << 16 | 1U, bytes);
   for (std::int64_t i = 0; i < kBlock; ++i)
-    append_big_endian(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(gain * samples[i])));
+    bus::append_uint32(std::bit_cast<std::uint32_t>(static_cast<float>(gain * samples[i])), bytes);
   return bytes;
 }
 
 // Empty of what is no unit of one channel.
-std::optional<std::vector<float>> samples_of(const std::vector<std::uint8_t>& unit) {
+std::optional<std::vector<float>> samples_of(const bus::Bytes& unit) {
   if (unit.size() < kHeaderBytes) return std::nullopt;
-  const auto number = [&](std::size_t at, std::size_t size) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < size; ++i) value = value << 8 | unit[at + i];
-    return value;
-  };
-  const std::size_t count = number(12, 2), channels = number(14, 2);
+  const std::uint32_t sizes = bus::uint32_at(unit, 12), count = sizes >> 16, channels = sizes & 0xffff;
   if (channels != 1 || unit.size() != kHeaderBytes + kSampleBytes * count) return std::nullopt;
   std::vector<float> samples;
   for (std::size_t i = 0; i < count; ++i) {
-    samples.push_back(std::bit_cast<float>(number(kHeaderBytes + kSampleBytes * i, kSampleBytes)));
+    samples.push_back(std::bit_cast<float>(bus::uint32_at(unit, kHeaderBytes + kSampleBytes * i)));
     if (!std::isfinite(samples.back())) return std::nullopt;
   }
   return samples;
@@ -252,10 +242,10 @@ class Uasp2 : public Protocol {
     const double gain = amplitude_of(sensitivity_db_ + in_.gain_db);
     for (std::int64_t i = 0; i < blocks; ++i, ++next_block_, ++number_) {
       const SimTime begin = SimTime::from_seconds(static_cast<double>(next_block_ * kBlock) / in_.rate);
-      const std::string unit = unit_of(microseconds(begin), number_, pressure.data() + i * kBlock, gain);
+      const bus::Bytes unit = unit_of(microseconds(begin), number_, pressure.data() + i * kBlock, gain);
       for (auto& [client, stream] : streams_) {
         if (stream.blocks_left == 0) continue;
-        port_.send_datagram(client, stream.port, unit);
+        port_.send_datagram(client, stream.port, {reinterpret_cast<const char*>(unit.data()), unit.size()});
         if (stream.blocks_left) --*stream.blocks_left;
       }
     }
