@@ -27,6 +27,7 @@
 #include "bus/transport.h"
 #include "clients/modem/blocking_modem.h"
 #include "core/sim_time.h"
+#include "tests/integration/bus_listener.h"
 #include "tests/integration/host.h"
 #include "tests/support/process.h"
 
@@ -63,10 +64,9 @@ struct Client {
 };
 
 // Receives the outcomes and the last statuses of the programs, and counts what the bus lost.
-class Auditor {
+class Auditor : public testing::BusListener {
  public:
-  Auditor() : lcm_(bus::open_transport(bus::effective_url(""))), bus_(*lcm_, {"auditor", 4711}) {
-    bus_.enable_repair();
+  Auditor() : BusListener("auditor") {
     bus_.subscribe<packet_outcome_t>(bus::channels::kOutcome, [this](const packet_outcome_t& outcome) {
       ++outcomes[{outcome.source_id, outcome.send_session, outcome.packet_sequence, outcome.receiver_id}];
       servers.insert(outcome.session);
@@ -81,23 +81,11 @@ class Auditor {
                                     last_status[std::string(node)] = status;
                                   });
   }
-  void dispatch() {
-    bus_.set_steady(bus::steady_now());
-    while (lcm_->handleTimeout(0) > 0) {
-    }
-    bus_.rethrow_if_failed();
-    bus_.repair(SimTime(), bus::steady_now());
-  }
-  const bus::BusCounters& counters() const { return bus_.counters(); }
 
   std::set<Reception> delivered;  // by their outcomes
   std::map<Reception, int> outcomes;
   std::set<std::int64_t> servers;  // sessions
   std::map<std::string, node_status_t> last_status;
-
- private:
-  std::unique_ptr<lcm::LCM> lcm_;
-  bus::Bus bus_;
 };
 
 class LossyBus : public ::testing::Test {

@@ -2,20 +2,17 @@
 // Channel servers that are killed (SIGKILL) while packets are under way for seconds, on udpm in real time, and
 // return with their journal: every packet that a receipt accepts has one outcome at each other vehicle, and every
 // reception that the ledger names arrives, once. Runs inside a network namespace of its own (scripts/isolated).
-#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <tuple>
 #include <vector>
 
@@ -28,6 +25,7 @@
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
 #include "core/sim_time.h"
+#include "tests/integration/bus_listener.h"
 #include "tests/support/process.h"
 
 namespace halocline {
@@ -42,10 +40,9 @@ constexpr int kVehicles = 5;
 using AtReceiver = std::tuple<std::int32_t, std::int64_t, std::int64_t, std::int32_t>;
 
 // Receives the ledger, and counts what is lost on the way to it.
-class Auditor {
+class Auditor : public testing::BusListener {
  public:
-  Auditor() : lcm_(bus::open_transport(bus::effective_url(""))), bus_(*lcm_, {"auditor", 4711}) {
-    bus_.enable_repair();
+  Auditor() : BusListener("auditor") {
     bus_.subscribe<modem_receipt_t>(bus::channels::kReceipt, [this](std::string_view vehicle, const auto& m) {
       if (m.receipt_result != modem_receipt_t::ACCEPTED && m.receipt_result != modem_receipt_t::QUEUED)
         return;
@@ -65,31 +62,11 @@ class Auditor {
       late[{std::string(node), m.session}] = m.late;
     });
   }
-  void listen_for(double seconds) {
-    listen_until([] { return false; }, seconds);
-  }
-  // Until `condition` holds, `seconds` at most.
-  void listen_until(const std::function<bool()>& condition, double seconds) {
-    const SimTime end = bus::steady_now() + SimDuration::from_seconds(seconds);
-    while (bus::steady_now() < end && !condition()) {
-      bus_.set_steady(bus::steady_now());
-      while (lcm_->handleTimeout(0) > 0) {
-      }
-      bus_.rethrow_if_failed();
-      bus_.repair(SimTime(), bus::steady_now());
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-  }
-  const bus::BusCounters& counters() const { return bus_.counters(); }
 
   std::set<std::tuple<std::int32_t, std::int64_t, std::int64_t>> accepted;
   std::map<AtReceiver, int> outcomes, received;
   std::set<AtReceiver> named;
   std::map<std::pair<std::string, std::int64_t>, std::int64_t> late;  // by node and incarnation
-
- private:
-  std::unique_ptr<lcm::LCM> lcm_;
-  bus::Bus bus_;
 };
 
 class ResumedServer : public ::testing::TestWithParam<std::tuple<int, double>> {
@@ -132,7 +109,7 @@ TEST_P(ResumedServer, PublishesOneOutcomeOfEveryPacketAtEachReceiver) {
     start(program);
   }
   for (int shard = 0; shard < shards; ++shard) start_server(shard);
-  auditor.listen_until([&] { return auditor.accepted.size() >= 10; }, 60);
+  auditor.listen_until(60, [&] { return auditor.accepted.size() >= 10; });
   auditor.listen_for(5);
   std::string output;
   for (int kill = 0; kill < 6; ++kill) {
@@ -147,8 +124,8 @@ TEST_P(ResumedServer, PublishesOneOutcomeOfEveryPacketAtEachReceiver) {
   }
   processes_.at("halocline-traffic")->signal(SIGTERM);
   auditor.listen_for(10);  // the sound under way arrives
-  auditor.listen_until([&] { return auditor.outcomes.size() >= auditor.accepted.size() * (kVehicles - 1); },
-                       30);
+  auditor.listen_until(30,
+                       [&] { return auditor.outcomes.size() >= auditor.accepted.size() * (kVehicles - 1); });
   for (int shard = 0; shard < shards; ++shard)
     output += processes_.at("server" + std::to_string(shard))->output();
 

@@ -4,7 +4,6 @@
 // namespace of its own (scripts/isolated).
 #include "bus/runtime/tile_groups.h"
 
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -15,7 +14,6 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <tuple>
 #include <vector>
 
@@ -26,6 +24,7 @@
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
 #include "core/sim_time.h"
+#include "tests/integration/bus_listener.h"
 #include "tests/integration/host.h"
 #include "tests/support/process.h"
 
@@ -38,12 +37,10 @@ using testing::Process;
 constexpr std::size_t kVehicles = 10, kVehiclesOfTile = 5;
 
 // What a program that takes every message, on a host of its own, receives.
-class Listener {
+class Listener : public testing::BusListener {
  public:
-  explicit Listener(const std::string& url)
-      : lcm_(bus::open_transport(url)), bus_(*lcm_, {"listener", 4711}) {
-    bus_.enable_repair();
-    bus::TileGroups::join_all(url, groups_);
+  Listener() : BusListener("listener") {
+    bus::TileGroups::join_all(bus::effective_url(""), groups_);
     bus_.subscribe<packet_outcome_t>(bus::channels::kOutcome, [this](const packet_outcome_t& o) {
       outcomes[{o.source_id, o.departure_utime, o.receiver_id}] = {
           o.outcome, o.travel_time_s, o.range_m, o.transmission_loss_db, o.snr_db, o.success_probability};
@@ -54,20 +51,6 @@ class Listener {
                                      tables[std::string(vehicle)][t.utime] = t.peers.front().snr_db;
                                  });
   }
-  template <class Condition>
-  bool listen_until(double seconds, Condition condition) {
-    const SimTime end = bus::steady_now() + SimDuration::from_seconds(seconds);
-    while (bus::steady_now() < end && !condition()) {
-      bus_.set_steady(bus::steady_now());
-      while (lcm_->handleTimeout(0) > 0) {
-      }
-      bus_.rethrow_if_failed();
-      bus_.repair(SimTime(), bus::steady_now());
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return condition();
-  }
-  const bus::BusCounters& counters() const { return bus_.counters(); }
 
   using Packet = std::tuple<std::int32_t, std::int64_t, std::int32_t>;  // source, departure, receiver
   using Outcome = std::tuple<int, double, double, double, double, double>;
@@ -76,8 +59,6 @@ class Listener {
       tables;  // SNR of the first link once all are present, by vehicle and time
 
  private:
-  std::unique_ptr<lcm::LCM> lcm_;
-  bus::Bus bus_;
   bus::GroupMemberships groups_;
 };
 
@@ -117,7 +98,7 @@ HostRun run_on(const std::vector<std::unique_ptr<Host>>& hosts, const std::strin
     words.insert(words.end(), more.begin(), more.end());
     processes.push_back(std::make_unique<Process>(hosts.at(host)->command(words)));
   };
-  Listener listener(bus::effective_url(""));
+  Listener listener;
   start(0, "conductor");
   start(0, "bathymetry");
   start(0, "traffic");
@@ -129,7 +110,7 @@ HostRun run_on(const std::vector<std::unique_ptr<Host>>& hosts, const std::strin
       60, [&] { return listener.tables.size() == kVehicles && !listener.outcomes.empty(); }));
   const double before = multicast_bytes(*hosts.at(1));
   const SimTime begin = bus::steady_now();
-  listener.listen_until(12, [] { return false; });
+  listener.listen_for(12);
   HostRun run;
   run.bytes_per_s = (multicast_bytes(*hosts.at(1)) - before) / (bus::steady_now() - begin).seconds();
   run.outcomes = listener.outcomes;
