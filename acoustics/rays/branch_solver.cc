@@ -57,7 +57,7 @@ bool BranchSolver::meets_bottom_at(const FanRay& ray, std::size_t event) const {
 
 FanRay BranchSolver::traced(double theta, std::size_t enough_events) {
   ++traces_;
-  return memory_ != nullptr ? memory_->traced(theta, enough_events) : fan_.trace(theta, enough_events);
+  return cache_ != nullptr ? cache_->traced(theta, enough_events) : fan_.trace(theta, enough_events);
 }
 
 double BranchSolver::error_at(const FanRay& a, const FanRay& middle, const FanRay& b) const {
@@ -168,10 +168,10 @@ void BranchSolver::solve_monotone(const FanRay& a, const FanRay& b) {
 
 void BranchSolver::polish(const FanRay& a, const FanRay& b, const ReceiverImage& image) {
   std::optional<ProfilePath> path;
-  if (memory_ != nullptr) path = memory_->chains().between(a, b, image);
+  if (cache_ != nullptr) path = cache_->chains().between(a, b, image);
   if (!path) {
     path = traced_path(a, b, image.target);
-    if (path && memory_ != nullptr) memory_->chains().keep(*path, image);
+    if (path && cache_ != nullptr) cache_->chains().keep(*path, image);
   }
   if (!path) return;
   if (windows_ != nullptr) windows_->note(path->arrival);

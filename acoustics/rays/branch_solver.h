@@ -28,11 +28,11 @@ class BranchSolver {
  public:
   static constexpr double kUnknownError = std::numeric_limits<double>::infinity();
 
-  // Refers to both tracers, which have to outlive this. With `windows`, weak paths go there; with `memory`, rays are shared with
+  // Refers to both tracers, which have to outlive this. With `windows`, weak paths go there; with `cache`, rays are shared with
   // searches for receivers at other depths.
   BranchSolver(const ArcTracer& tracer, FanTracer& fan);
   void give_weak_paths_to(DiffuseWindows* windows) { windows_ = windows; }
-  void share(ColumnMemory* memory) { memory_ = memory; }
+  void share(ColumnCache* cache) { cache_ = cache; }
 
   FanRay traced(double theta, std::size_t enough_events = FanTracer::kAllEvents);
   // Rays traced so far, but those of polishing.
@@ -40,7 +40,7 @@ class BranchSolver {
   // As FanTracer's.
   std::size_t kept_events() const { return fan_.kept_events(); }
   void forget_since(std::size_t kept_events) {
-    fan_.forget_since(memory_ != nullptr ? std::max(kept_events, memory_->kept_events()) : kept_events);
+    fan_.forget_since(cache_ != nullptr ? std::max(kept_events, cache_->kept_events()) : kept_events);
   }
 
   // The first event at which two rays differ; empty when one history begins with the other.
@@ -87,7 +87,7 @@ class BranchSolver {
   int traces_ = 0;
   std::vector<ProfilePath> paths_;
   DiffuseWindows* windows_ = nullptr;
-  ColumnMemory* memory_ = nullptr;
+  ColumnCache* cache_ = nullptr;
 };
 
 }  // namespace halocline::acoustics

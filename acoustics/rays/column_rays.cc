@@ -165,7 +165,7 @@ std::optional<ProfilePath> PathChains::interpolated(const Node& a, const Node& b
   return path;
 }
 
-FanRay ColumnMemory::traced(double theta, std::size_t enough_events) {
+FanRay ColumnCache::traced(double theta, std::size_t enough_events) {
   const Key key{theta, enough_events};
   if (const auto known = rays_.find(key); known != rays_.end()) return known->second;
   const FanRay ray = fan_.trace(theta, enough_events);
@@ -175,7 +175,7 @@ FanRay ColumnMemory::traced(double theta, std::size_t enough_events) {
   return ray;
 }
 
-std::optional<DiffuseRay> ColumnMemory::diffuse(double theta, std::size_t window) {
+std::optional<DiffuseRay> ColumnCache::diffuse(double theta, std::size_t window) {
   const auto [known, is_new] = diffuse_.try_emplace(theta);
   if (is_new) known->second = diffuse_ray(tracer_, theta, window);
   std::optional<DiffuseRay> ray = known->second;
@@ -203,7 +203,7 @@ ProfiledSea widened(ProfiledSea sea) {
 class ColumnRays::Column {
  public:
   Column(const ProfiledSea& sea, const RayLink& link)
-      : tracer_(sea, link), fan_(tracer_), memory_(tracer_, fan_), angles_(launch_angles(tracer_)) {
+      : tracer_(sea, link), fan_(tracer_), cache_(tracer_, fan_), angles_(launch_angles(tracer_)) {
     branches_ = ProfileSearch(tracer_, fan_).branches(angles_);
     fan_.forget_since(0);
   }
@@ -211,14 +211,14 @@ class ColumnRays::Column {
 
   std::vector<Arrival> at(double receiver_depth_m) {
     tracer_.move_receiver(receiver_depth_m);
-    memory_.chains().begin_receiver();
+    cache_.chains().begin_receiver();
     return branches_ ? of_branches() : over_rough_bottom();
   }
 
  private:
   std::vector<Arrival> of_branches() {
     BranchSolver solver(tracer_, fan_);
-    solver.share(&memory_);
+    solver.share(&cache_);
     for (const Branch& branch : *branches_) {
       if (!solver.may_pass_image(branch.low, branch.high)) continue;
       if (branch.is_monotone) {
@@ -229,11 +229,11 @@ class ColumnRays::Column {
     }
     return solver.finished();
   }
-  std::vector<Arrival> over_rough_bottom() { return profile_rays(tracer_, fan_, angles_, &memory_); }
+  std::vector<Arrival> over_rough_bottom() { return profile_rays(tracer_, fan_, angles_, &cache_); }
 
   ArcTracer tracer_;
   FanTracer fan_;
-  ColumnMemory memory_;
+  ColumnCache cache_;
   std::vector<double> angles_;
   std::optional<std::vector<Branch>> branches_;  // over a bottom that is not rough
 };

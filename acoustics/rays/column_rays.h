@@ -3,7 +3,7 @@
 //
 // Method: the fan is traced and halved once for all of them; between paths that were traced to receivers above and below, those of
 // the same history are interpolated (PathChains). Over a rough bottom each receiver has a search of its own, by the
-// same rays (ColumnMemory); where the core of a channel is left out nothing is shared.
+// same rays (ColumnCache); where the core of a channel is left out nothing is shared.
 //
 // Error beside profile_rays(): that of PathChains; so results depend on the order of the calls. Not shared between threads.
 #pragma once
@@ -86,10 +86,10 @@ class PathChains {
 //
 // Rays of a fan and those that stand for diffuse sound depend on the launch angle alone, so they are the same to the last bit as without
 // it. Paths are interpolated (PathChains). Not shared between threads.
-class ColumnMemory {
+class ColumnCache {
  public:
   // Refers to both, which have to outlive this.
-  ColumnMemory(const ArcTracer& tracer, FanTracer& fan) : tracer_(tracer), fan_(fan), chains_(tracer) {}
+  ColumnCache(const ArcTracer& tracer, FanTracer& fan) : tracer_(tracer), fan_(fan), chains_(tracer) {}
 
   // As FanTracer::trace.
   FanRay traced(double theta, std::size_t enough_events);

@@ -135,13 +135,13 @@ double DiffuseWindows::density(double xi) const {
   return xi * receiver_speed_ / std::max(std::sqrt(here), kLeastSine) / half;
 }
 
-std::vector<Arrival> DiffuseWindows::arrivals(ColumnMemory* memory) const {
+std::vector<Arrival> DiffuseWindows::arrivals(ColumnCache* cache) const {
   std::vector<Arrival> all;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
     if (!(cell.most > 0)) continue;
     std::optional<DiffuseRay> ray =
-        memory != nullptr ? memory->diffuse(cell.theta, i) : diffuse_ray(tracer_, cell.theta, i);
+        cache != nullptr ? cache->diffuse(cell.theta, i) : diffuse_ray(tracer_, cell.theta, i);
     if (!ray) continue;
     const double power = cell.branch + cell.mixed * density(ray->xi);
     if (!(power > 0)) continue;

@@ -55,8 +55,8 @@ class DiffuseWindows {
   // As add_mixed would add, re 1 m.
   double mixed_power(const FanRay& a, const FanRay& b) const;
 
-  // One for each cell of the fan that has energy, in the order of delays. `memory` may be null.
-  std::vector<Arrival> arrivals(ColumnMemory* memory) const;
+  // One for each cell of the fan that has energy, in the order of delays. `cache` may be null.
+  std::vector<Arrival> arrivals(ColumnCache* cache) const;
 
  private:
   struct Cell {

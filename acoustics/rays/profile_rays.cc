@@ -93,7 +93,7 @@ std::vector<Arrival> ProfileSearch::run(const std::vector<double>& angles, doubl
   narrow_window_ = kNarrowWindow * tracer_.bottom_at_receiver_m() / tracer_.range_m();
   search(fan, predicted, core_edge);
   std::vector<Arrival> paths = branch_.finished();
-  const std::vector<Arrival> diffuse = windows_.arrivals(memory_);
+  const std::vector<Arrival> diffuse = windows_.arrivals(cache_);
   const auto middle = paths.insert(paths.end(), diffuse.begin(), diffuse.end());
   std::inplace_merge(paths.begin(), middle, paths.end(),
                      [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
@@ -241,10 +241,10 @@ void ProfileSearch::scan_to_edge(const FanRay& from, const FanRay& edge, bool gr
 }
 
 std::vector<Arrival> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::vector<double> angles,
-                                  ColumnMemory* memory) {
+                                  ColumnCache* cache) {
   const double core_edge = leave_out_core(tracer, angles);
   ProfileSearch search(tracer, fan);
-  search.share(memory);
+  search.share(cache);
   std::vector<Arrival> paths = search.run(angles, core_edge);
   // The last path is not given up for a window, unless it is weak by itself.
   if (!paths.empty() && !search.is_weak_by_pressure() &&
@@ -260,7 +260,7 @@ std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link) {
   validate(sea.options);
   const ArcTracer tracer(sea, link);
   FanTracer fan(tracer);
-  return profile_rays(tracer, fan, launch_angles(tracer), /*memory=*/nullptr);
+  return profile_rays(tracer, fan, launch_angles(tracer), /*cache=*/nullptr);
 }
 
 }  // namespace halocline::acoustics

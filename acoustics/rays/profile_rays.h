@@ -32,10 +32,10 @@ namespace halocline::acoustics {
 // All rays of `link`; depths between the surface and the bottom at both ends (at a boundary: a micrometre off
 // it).
 std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link);
-// The same between the ends of the tracer, with a fan of launch_angles(). With a memory, rays are
+// The same between the ends of the tracer, with a fan of launch_angles(). With a cache, rays are
 // shared with the searches for receivers at other depths of the place.
 std::vector<Arrival> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::vector<double> angles,
-                                  ColumnMemory* memory);
+                                  ColumnCache* cache);
 
 // Launch angles of the first fan, rising, rad.
 std::vector<double> launch_angles(const ArcTracer& tracer);
@@ -56,9 +56,9 @@ class ProfileSearch {
       : tracer_(tracer), branch_(tracer, fan), windows_(tracer) {}
 
   // Rays are shared with searches for receivers at other depths.
-  void share(ColumnMemory* memory) {
-    branch_.share(memory);
-    memory_ = memory;
+  void share(ColumnCache* cache) {
+    branch_.share(cache);
+    cache_ = cache;
   }
   // Rays launched between the first and the last of `angles`, finished; none within `core_edge` of the
   // horizontal, which is one of the angles, as is its opposite.
@@ -100,7 +100,7 @@ class ProfileSearch {
   DiffuseWindows windows_;
   double narrow_window_ = 0;  // rad; 0: the bottom is smooth
   std::vector<Branch>* collected_ = nullptr;
-  ColumnMemory* memory_ = nullptr;
+  ColumnCache* cache_ = nullptr;
 };
 
 }  // namespace halocline::acoustics

@@ -23,14 +23,14 @@ using acoustics::Samples;
 
 // Five frames are a tenth of a second: with a period of STATE of 0.1 s the receiver is known when the last of them arrives.
 constexpr int kFrames = 5;
-// Samples to either side of a piece by which its filters reach beyond it: 512, 255 and 16.
+// Samples to either side of a block by which its filters reach beyond it: 512, 255 and 16.
 constexpr std::ptrdiff_t kMargin = 1024;
-// Paths get shorter by less within a piece.
+// Paths get shorter by less within a block.
 constexpr double kSooner_s = 0.005;
 // States and sounds are kept for so long: from 40 km away, with echoes.
 constexpr SimDuration kKept = SimDuration::from_milliseconds(40'000);
 constexpr double kPassband = 0.45;     // of the receiver's rate
-constexpr double kFastest_mps = 1600;  // that sound comes nearer, of the first piece
+constexpr double kFastest_mps = 1600;  // that sound comes nearer, of the first block
 
 }  // namespace
 
@@ -93,56 +93,56 @@ void LiveSea::silence(std::int32_t vehicle_id, SimTime from) {
   }
 }
 
-// The next kFrames of a passage.
-void LiveSea::add_piece(const Sound& sound, Passage& passage, double received_rate_hz) {
+// The next kFrames of a link.
+void LiveSea::add_block(const Sound& sound, SoundLink& link, double received_rate_hz) {
   const double begin_s = sound.pressure.begin_s, rate_hz = sound.pressure.rate_hz;
   const std::vector<double>& values = sound.pressure.values;
-  const double from_s = passage.course.end_s();
-  Way way = links_.onward(passage.course, passage.course.frames == 0 ? kFrames + 1 : kFrames);
-  if (passage.taps.empty())
-    passage.taps =
+  const double from_s = link.progress.end_s();
+  Way way = links_.extend(link.progress, link.progress.frames == 0 ? kFrames + 1 : kFrames);
+  if (link.taps.empty())
+    link.taps =
         links_.absorption_taps(way, SimTime::from_seconds(begin_s), rate_hz, kPassband * received_rate_hz);
   const auto index = [&](double at_s, std::ptrdiff_t beyond) {
     const auto n = static_cast<std::ptrdiff_t>(std::floor((at_s - begin_s) * rate_hz)) + beyond;
     return std::clamp<std::ptrdiff_t>(n, 0, std::ssize(values));
   };
-  const std::ptrdiff_t first = index(from_s, -kMargin), last = index(passage.course.end_s(), kMargin);
+  const std::ptrdiff_t first = index(from_s, -kMargin), last = index(link.progress.end_s(), kMargin);
   const std::vector<double> part(values.begin() + first, values.begin() + last);
   const double longest_s = way.link.longest_delay_s();
-  passage.next_arrival_s =
-      passage.course.end_s() - kSooner_s +
-      (passage.course.last.empty() ? passage.course.delay_s : passage.course.last.front().delay_s);
-  passage.pieces.push_back({std::move(way),
-                            {rate_hz, acoustics::filtered(part, passage.taps)},
-                            begin_s + static_cast<double>(first) / rate_hz,
-                            passage.course.end_s() + longest_s});
+  link.next_arrival_s =
+      link.progress.end_s() - kSooner_s +
+      (link.progress.last.empty() ? link.progress.delay_s : link.progress.last.front().delay_s);
+  link.blocks.push_back({std::move(way),
+                         {rate_hz, acoustics::filtered(part, link.taps)},
+                         begin_s + static_cast<double>(first) / rate_hz,
+                         link.progress.end_s() + longest_s});
 }
 
-LiveSea::Passage& LiveSea::passage_of(Sound& sound, const std::string& receiver) {
-  const auto found = sound.passages.find(receiver);
-  if (found != sound.passages.end()) return found->second;
+LiveSea::SoundLink& LiveSea::link_to(Sound& sound, const std::string& receiver) {
+  const auto found = sound.links.find(receiver);
+  if (found != sound.links.end()) return found->second;
   const double begin_s = sound.pressure.begin_s;
   const SimTime begin = SimTime::from_seconds(begin_s);
   const double range_m = (VehicleTrack(run_, sound.vehicle).at(begin).position_ned_m -
                           VehicleTrack(run_, receiver).at(begin).position_ned_m)
                              .norm();
-  Passage passage{{sound.vehicle, links_.modem_of(sound.vehicle), receiver, begin_s},
-                  {},
-                  begin_s + range_m / kFastest_mps,
-                  {}};
-  return sound.passages.emplace(receiver, std::move(passage)).first->second;
+  SoundLink link{{sound.vehicle, links_.modem_of(sound.vehicle), receiver, begin_s},
+                 {},
+                 begin_s + range_m / kFastest_mps,
+                 {}};
+  return sound.links.emplace(receiver, std::move(link)).first->second;
 }
 
 void LiveSea::add_sound(Sound& sound, const std::string& receiver, Samples& received) {
   const double end_s = received.begin_s + static_cast<double>(received.values.size()) / received.rate_hz;
-  Passage& passage = passage_of(sound, receiver);
+  SoundLink& link = link_to(sound, receiver);
   // A sinc reaches 16 samples beyond the sound's end: less than a frame.
-  while (passage.course.end_s() < sound.end_s() + kFrame.seconds() && passage.next_arrival_s < end_s)
-    add_piece(sound, passage, received.rate_hz);
-  while (!passage.pieces.empty() && passage.pieces.front().last_arrival_s < received.begin_s)
-    passage.pieces.pop_front();
-  for (const Piece& piece : passage.pieces)
-    piece.way.link.add_received(piece.sent, piece.sent_begin_s, received);
+  while (link.progress.end_s() < sound.end_s() + kFrame.seconds() && link.next_arrival_s < end_s)
+    add_block(sound, link, received.rate_hz);
+  while (!link.blocks.empty() && link.blocks.front().last_arrival_s < received.begin_s)
+    link.blocks.pop_front();
+  for (const Block& block : link.blocks)
+    block.way.link.add_received(block.sent, block.sent_begin_s, received);
 }
 
 std::vector<double> LiveSea::record(std::int32_t vehicle_id, double rate_hz, std::int64_t first,

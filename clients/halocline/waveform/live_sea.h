@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sound between vehicles while a scenario runs, as `halocline waveform` finds it afterwards.
 //
-// Model: that of received_waveform.h, piece by piece. The paths of a sound on its way are searched every kFrame of its departure, with
-// the ends where their latest STATEs have them; the same paths whatever the pieces are. Sampling rates of sender and receiver may
+// Model: that of received_waveform.h, block by block. The paths of a sound on its way are searched every kFrame of its departure, with
+// the ends where their latest STATEs have them; the same paths whatever the blocks are. Sampling rates of sender and receiver may
 // differ: what lies above 0.45 of the receiver's rate is filtered away.
 // Against received_waveform(): absorption over the band is by the way's length when the sound begins. Where STATEs come more
 // seldom than every 0.1 s, a vehicle goes straight on from the last. Water is that of the scenario and its changes, not of SET_ENVIRONMENT.
@@ -47,22 +47,22 @@ class LiveSea : public modem_gateway::SoundField {
 
  private:
   // What left in a few frames, and its paths.
-  struct Piece {
+  struct Block {
     Way way;
     acoustics::AnalyticSignal sent;
     double sent_begin_s, last_arrival_s;
   };
   // A sound on its way to one receiver.
-  struct Passage {
-    Course course;
+  struct SoundLink {
+    LinkProgress progress;
     std::vector<double> taps;
     double next_arrival_s;  // of what leaves next, at the earliest
-    std::deque<Piece> pieces;
+    std::deque<Block> blocks;
   };
   struct Sound {
     std::string vehicle;
-    acoustics::Samples pressure;              // uPa at 1 m
-    std::map<std::string, Passage> passages;  // by receiver
+    acoustics::Samples pressure;             // uPa at 1 m
+    std::map<std::string, SoundLink> links;  // by receiver
     double end_s() const {
       return pressure.begin_s + static_cast<double>(pressure.values.size()) / pressure.rate_hz;
     }
@@ -71,8 +71,8 @@ class LiveSea : public modem_gateway::SoundField {
   std::string name_of(std::int32_t vehicle_id) const;
   template <class Message>
   void keep(std::string channel, const Message& message);
-  Passage& passage_of(Sound& sound, const std::string& receiver);
-  void add_piece(const Sound& sound, Passage& passage, double received_rate_hz);
+  SoundLink& link_to(Sound& sound, const std::string& receiver);
+  void add_block(const Sound& sound, SoundLink& link, double received_rate_hz);
   void add_sound(Sound& sound, const std::string& receiver, acoustics::Samples& received);
 
   ScenarioConfig config_;

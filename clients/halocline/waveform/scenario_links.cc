@@ -70,35 +70,35 @@ std::int32_t ScenarioLinks::id_of(const std::string& vehicle) const {
 
 Way ScenarioLinks::between(const std::string& from, const acoustics::Modem& modem, const std::string& to,
                            double begin_s, double end_s) {
-  Course course{from, modem, to, begin_s};
-  return onward(course, static_cast<int>(std::ceil((end_s - begin_s) / kFrame.seconds())) + 2);
+  LinkProgress progress{from, modem, to, begin_s};
+  return extend(progress, static_cast<int>(std::ceil((end_s - begin_s) / kFrame.seconds())) + 2);
 }
 
-Way ScenarioLinks::onward(Course& course, int frames) {
-  const VehicleTrack sender(run_, course.from), receiver(run_, course.to);
-  const double since_s = course.end_s();
+Way ScenarioLinks::extend(LinkProgress& progress, int frames) {
+  const VehicleTrack sender(run_, progress.from), receiver(run_, progress.to);
+  const double since_s = progress.end_s();
   std::vector<std::vector<PathGain>> paths;
-  if (course.frames > 0) paths.push_back(course.last);
-  for (int k = 0; k < frames; ++k) paths.push_back(next_frame(course, sender, receiver));
-  course.last = paths.back();
+  if (progress.frames > 0) paths.push_back(progress.last);
+  for (int k = 0; k < frames; ++k) paths.push_back(next_frame(progress, sender, receiver));
+  progress.last = paths.back();
   return {{since_s, kFrame.seconds(), std::move(paths)},
-          course.sum_length_m / course.frames,
-          course.sum_depth_m / course.frames,
-          course.modem.centre_frequency_hz};
+          progress.sum_length_m / progress.frames,
+          progress.sum_depth_m / progress.frames,
+          progress.modem.centre_frequency_hz};
 }
 
-std::vector<PathGain> ScenarioLinks::next_frame(Course& course, const VehicleTrack& sender,
+std::vector<PathGain> ScenarioLinks::next_frame(LinkProgress& progress, const VehicleTrack& sender,
                                                 const VehicleTrack& receiver) {
-  const std::int32_t from = id_of(course.from), to = id_of(course.to);
+  const std::int32_t from = id_of(progress.from), to = id_of(progress.to);
   const acoustics::FadingLink pair{config_.scenario.seed, static_cast<std::uint32_t>(std::min(from, to)),
                                    static_cast<std::uint32_t>(std::max(from, to)), from > to};
-  const SimTime departure = SimTime::from_seconds(course.begin_s) + kFrame * course.frames++;
-  const Reception reception = reception_of(departure, {from, course.modem, sender.at(departure)},
-                                           {to, modem_of(course.to), {}}, receiver, course.delay_s);
-  course.sum_length_m += reception.budget.delay_s * reception.budget.mean_sound_speed_mps;
-  course.sum_depth_m +=
+  const SimTime departure = SimTime::from_seconds(progress.begin_s) + kFrame * progress.frames++;
+  const Reception reception = reception_of(departure, {from, progress.modem, sender.at(departure)},
+                                           {to, modem_of(progress.to), {}}, receiver, progress.delay_s);
+  progress.sum_length_m += reception.budget.delay_s * reception.budget.mean_sound_speed_mps;
+  progress.sum_depth_m +=
       (sender.at(departure).position_ned_m.z() + receiver.at(departure).position_ned_m.z()) / 2;
-  return gains_of(reception, config_.channel_server.propagation.fading, pair, departure, course.modem);
+  return gains_of(reception, config_.channel_server.propagation.fading, pair, departure, progress.modem);
 }
 
 // `delay_s`: of the departure before, below 0 of none; set to that of this one.

@@ -39,8 +39,8 @@ struct Way {
   double centre_hz;
 };
 
-// A link whose paths are searched as time goes on (ScenarioLinks::onward).
-struct Course {
+// A link whose paths are searched as time goes on (ScenarioLinks::extend).
+struct LinkProgress {
   std::string from;
   acoustics::Modem modem;
   std::string to;
@@ -69,7 +69,7 @@ class ScenarioLinks {
               double end_s);
   // The next so many frames, with what they begin at: the same paths as between() finds, however they are taken. Of states that the run
   // holds by now.
-  Way onward(Course& course, int frames);
+  Way extend(LinkProgress& progress, int frames);
   // A filter of linear phase: what absorption takes of a frequency beyond what it takes of the band's centre, in the water at that
   // instant. Nothing above `highest_hz` passes.
   std::vector<double> absorption_taps(const Way& way, SimTime at, double rate_hz,
@@ -87,7 +87,7 @@ class ScenarioLinks {
     }
   };
 
-  std::vector<acoustics::PathGain> next_frame(Course& course, const VehicleTrack& sender,
+  std::vector<acoustics::PathGain> next_frame(LinkProgress& progress, const VehicleTrack& sender,
                                               const VehicleTrack& receiver);
   channel_server::Reception reception_of(SimTime departure, const End& from, End to,
                                          const VehicleTrack& receiver, double& delay_s);
