@@ -114,9 +114,8 @@ static void step(vehicle_t* v) {
   if (!v->is_pending && v->states > 10 && due(now, (int64_t)(v->every_s * 1e6), &v->next_packet))
     prepare_packet(v, now);
   if (v->is_pending && wall_s() - v->sent_wall_s > kRepeatS) {
-    halocline_modem_send_t_publish(v->lcm, channel_of(v, "SEND"),
-                                   &v->pending);  // unchanged until its RECEIPT: transmitted once
-    v->sent_wall_s = wall_s();
+    halocline_modem_send_t_publish(v->lcm, channel_of(v, "SEND"), &v->pending);
+    v->sent_wall_s = wall_s();  // repeated unchanged until its RECEIPT: transmitted once
   }
 }
 

@@ -90,8 +90,7 @@ class Vehicle {
 
   void publish_state(std::int64_t now) {
     const double rate = kSpeedMps / kRadiusM, pi = std::acos(-1.0);  // clockwise: angle = speed / radius * t
-    const double angle = std::remainder(static_cast<double>(now) * 1e-6 * rate, 2 * pi),
-                 heading = angle + pi / 2;
+    const double angle = std::remainder(now * 1e-6 * rate, 2 * pi), heading = angle + pi / 2;
     const vehicle_state_t state{
         now,
         session_,
