@@ -15,6 +15,7 @@
 #include "clients/halocline/commands.h"
 #include "clients/halocline/coverage/coverage.h"
 #include "clients/halocline/coverage/coverage_files.h"
+#include "clients/halocline/coverage/coverage_links.h"
 #include "clients/halocline/coverage/coverage_track.h"
 #include "clients/halocline/plot/plot.h"
 #include "clients/halocline/scenario/composition.h"
@@ -31,7 +32,9 @@ struct CoverageOptions {
   std::vector<std::string> overrides;
   double cell_m = 0, range_m = 0, every_s = 10;
   int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
-  bool exact = false, force = false;
+  bool share_rays = false, force = false;
+
+  DepthSearch depth_search() const { return share_rays ? DepthSearch::kShared : DepthSearch::kEach; }
 };
 
 CoverageArea area_of(const CoverageOptions& options, const LinkSurveyEnd& from) {
@@ -58,9 +61,8 @@ int map(const CoverageOptions& options, const ScenarioConfig& config, const Link
                           {config.terrain.frame, to_radians(config.scenario.origin_latitude_deg),
                            to_radians(config.scenario.origin_longitude_deg)},
                           config.scenario.name + ": how " + options.from + " is heard"};
-  const Coverage coverage =
-      compute_coverage(config, make_terrain(config).terrain, from, area, quantities, options.threads,
-                       options.exact ? CoverageMethod::kExact : CoverageMethod::kInterpolated);
+  const Coverage coverage = compute_coverage(config, make_terrain(config).terrain, from, area, quantities,
+                                             options.threads, options.depth_search());
   write_coverage(coverage, file, options.output);
   if (!options.plot.empty()) write_coverage_picture(coverage, file, options.plot);
   const auto best = coverage.best_depth();
@@ -82,7 +84,8 @@ int along_track(const CoverageOptions& options, const ScenarioConfig& config, co
   const auto track =
       is_vehicle ? track_of(config, terrain, options.track, SimDuration::from_seconds(options.every_s))
                  : read_track(options.track);
-  const auto choices = best_depths(config, terrain.terrain, from, track, depths_m, options.threads);
+  const auto choices =
+      best_depths(config, terrain.terrain, from, track, depths_m, options.threads, options.depth_search());
   write_text(options.output, track_csv(choices, depths_m));
   if (!options.plot.empty())
     write_track_picture(choices, depths_m,
@@ -140,10 +143,10 @@ void add_coverage_command(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber);
   command->add_option("--quantity", options->quantities,
                       "what is written: delivery, snr, level, delay, with commas between");
-  command->add_flag(
-      "--exact", options->exact,
-      "a map whose every cell is searched by itself, as 'halocline link' does, which takes long over "
-      "terrain");
+  command->add_flag("--share-rays", options->share_rays,
+                    "over terrain the depths of a place share rays, which takes a third of the time; a path "
+                    "in some hundred "
+                    "cells may be missed");
   command->add_option("--track", options->track,
                       "instead of a map the best depth along the way of this vehicle, or of a CSV file with "
                       "time_s, north_m, east_m");

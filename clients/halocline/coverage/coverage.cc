@@ -8,7 +8,7 @@
 
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
-#include "clients/halocline/coverage/link_column.h"
+#include "clients/halocline/coverage/coverage_links.h"
 #include "clients/halocline/scenario/link_surveyor.h"
 #include "core/check.h"
 #include "core/elementary.h"
@@ -45,15 +45,15 @@ class Mapping {
  public:
   Mapping(const ScenarioConfig& config, const std::shared_ptr<const bathymetry::Terrain>& terrain,
           const LinkSurveyEnd& from, const CoverageArea& area, const std::vector<CoverageQuantity>& wanted,
-          int threads, CoverageMethod method)
-      : column_({config, terrain, from}),
+          int threads, DepthSearch search)
+      : links_({config, terrain, from}),
         terrain_(*terrain),
         from_ned_m_(from.position_ned_m),
         surface_z_m_(config.scenario.sea_surface_z_m),
         area_(area),
         tolerance_(tolerances(wanted)),
         threads_(threads),
-        is_exact_(method == CoverageMethod::kExact) {
+        search_(search) {
     const std::size_t cells = area.side * area.side;
     for (auto* values : {&map_.delivery, &map_.level_db, &map_.delay_s})
       values->assign(area.depths_m.size(), std::vector<double>(cells, kNothing));
@@ -65,12 +65,12 @@ class Mapping {
     for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell)
       seabed_z_m_[cell] = seabed_z_m(terrain_, place(cell, 0)).value_or(kNothing);
     const auto level = level_z_m(terrain_);
-    if (level && column_.depends_on_range_alone()) {
+    if (level && links_.depends_on_range_alone()) {
       by_range(*level);
     } else {
       over_terrain();
     }
-    map_.noise_level_db = column_.noise_level_db();
+    map_.noise_level_db = links_.noise_level_db();
     return std::move(map_);
   }
 
@@ -100,11 +100,11 @@ class Mapping {
     if (ranges.empty()) return;
     const auto seabed = std::make_shared<const channel_server::SeabedProfile>(
         channel_server::SeabedProfile::flat(bottom_z_m));
-    column_.share(threads_, area_.depths_m.size(), [&](LinkSurveyor& surveyor, std::size_t depth) {
+    links_.share(threads_, area_.depths_m.size(), [&](LinkSurveyor& surveyor, std::size_t depth) {
       const double z_m = area_.depths_m[depth] + surface_z_m_;
       if (z_m > bottom_z_m) return;
-      const auto samples = sampled(ranges, is_exact_ ? 0 : area_.cell_m, tolerance_, [&](double range_m) {
-        return column_.link(surveyor, {from_ned_m_.x() + range_m, from_ned_m_.y(), z_m}, seabed);
+      const auto samples = sampled(ranges, area_.cell_m, tolerance_, [&](double range_m) {
+        return links_.link(surveyor, {from_ned_m_.x() + range_m, from_ned_m_.y(), z_m}, seabed);
       });
       for (std::size_t cell = 0; cell < of_cells.size(); ++cell) {
         if (!is_water(cell, depth)) continue;
@@ -115,37 +115,31 @@ class Mapping {
   }
 
   void over_terrain() {
-    channel_server::SeabedMap seabed = column_.seabed_map();
+    channel_server::SeabedMap seabed = links_.seabed_map();
     for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell) {
-      if (!std::isnan(seabed_z_m_[cell])) column_.survey(place(cell, 0), seabed);
+      if (!std::isnan(seabed_z_m_[cell])) links_.survey(place(cell, 0), seabed);
     }
-    column_.share(threads_, seabed_z_m_.size(), [&](LinkSurveyor& surveyor, std::size_t cell) {
+    links_.share(threads_, seabed_z_m_.size(), [&](LinkSurveyor& surveyor, std::size_t cell) {
       if (std::isnan(seabed_z_m_[cell])) return;
-      const LinkSurveyor::Seabed profile = column_.bottom(place(cell, 0), seabed);
+      const LinkSurveyor::Seabed profile = links_.bottom(place(cell, 0), seabed);
       std::vector<double> z_m;  // of those in the water
       for (std::size_t depth = 0; depth < area_.depths_m.size() && is_water(cell, depth); ++depth)
         z_m.push_back(area_.depths_m[depth] + surface_z_m_);
-      std::vector<Sample> samples;
-      if (is_exact_) {
-        for (std::size_t depth = 0; depth < z_m.size(); ++depth)
-          samples.push_back(column_.link(surveyor, place(cell, area_.depths_m[depth]), profile));
-      } else {
-        samples = column_.links(surveyor, place(cell, 0), z_m, profile);
-      }
+      const std::vector<Sample> samples = links_.links(surveyor, place(cell, 0), z_m, profile, search_);
       for (std::size_t depth = 0; depth < samples.size(); ++depth) set(cell, depth, samples[depth]);
     });
   }
 
   static constexpr double kSameRangeM = 1e-6;
 
-  LinkColumn column_;
+  CoverageLinks links_;
   const bathymetry::Terrain& terrain_;
   Vec3 from_ned_m_;
   double surface_z_m_;
   const CoverageArea& area_;
   Sample tolerance_;
   int threads_;
-  bool is_exact_;
+  DepthSearch search_;
   std::vector<double> seabed_z_m_;  // under each cell; NaN where not known
   Coverage map_;
 };
@@ -155,9 +149,9 @@ class Mapping {
 Coverage compute_coverage(const ScenarioConfig& config,
                           const std::shared_ptr<const bathymetry::Terrain>& terrain,
                           const LinkSurveyEnd& from, const CoverageArea& area,
-                          const std::vector<CoverageQuantity>& wanted, int threads, CoverageMethod method) {
+                          const std::vector<CoverageQuantity>& wanted, int threads, DepthSearch search) {
   require_above_seabed(*terrain, from);
-  return Mapping(config, terrain, from, area, wanted, threads, method).run();
+  return Mapping(config, terrain, from, area, wanted, threads, search).run();
 }
 
 std::vector<double> Coverage::values(CoverageQuantity quantity, std::size_t depth) const {

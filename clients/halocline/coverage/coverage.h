@@ -2,15 +2,14 @@
 // How well a vehicle or a place is heard over an area, at several depths: a map of links from one end.
 //
 // Model: each cell and depth is the link from `from` to a receiver with the scenario's modem at rest in the middle of the cell,
-// computed as `halocline link` does (scenario/link_surveyor.h). Over terrain each column of cells has its own bottom profile, whose
-// rays all its depths share: a path is interpolated between those of the same history to depths above and below where that is
-// verified (acoustics/rays/column_rays.h). Where the water depends on depth alone and the terrain is level, links of one range are
-// the same, and those of ranges within a cell are interpolated where that is verified (sampling.h).
+// computed as `halocline link` does (scenario/link_surveyor.h). Over terrain the depths of a cell have one bottom profile, and may share
+// its rays (DepthSearch). Where the water depends on depth alone and the terrain is level, links of one range are the same, and those
+// of ranges within a cell are interpolated where that is verified (sampling.h).
 //
-// Error beside `link`. None of exact maps. Of others over terrain that of paths (acoustics/rays/column_rays.h), but for one cell in some
-// hundred where one of two searches misses a path at a fold or the edge of a shadow; over level ground, of what is asked for: delivery
-// 0.002, level 0.03 dB, delay 0.3 us as the tolerance of the interpolation. tests/clients/halocline/coverage has what 1000 random cells
-// differ by.
+// Error beside `link`. Over level ground, of what is asked for: delivery 0.002, level 0.03 dB, delay 0.3 us as the tolerance of the
+// interpolation. Over terrain none, unless rays are shared: then that of paths (acoustics/rays/column_rays.h), but for one cell in some
+// hundred where one of two searches misses a path at a fold or the edge of a shadow. tests/clients/halocline/coverage has what 1000
+// random cells differ by.
 #pragma once
 
 #include <cstddef>
@@ -20,6 +19,7 @@
 #include <vector>
 
 #include "bathymetry/terrain/terrain.h"
+#include "clients/halocline/coverage/coverage_links.h"
 #include "clients/halocline/coverage/sampling.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/link_survey.h"
@@ -72,13 +72,11 @@ struct Coverage {
   std::optional<std::size_t> best_depth() const;
 };
 
-enum class CoverageMethod { kInterpolated, kExact };
-
 // Throws InvalidArgument where `from` lies inside the seabed. `threads` share the work.
 Coverage compute_coverage(const ScenarioConfig& config,
                           const std::shared_ptr<const bathymetry::Terrain>& terrain,
                           const LinkSurveyEnd& from, const CoverageArea& area,
                           const std::vector<CoverageQuantity>& wanted, int threads,
-                          CoverageMethod method = CoverageMethod::kInterpolated);
+                          DepthSearch search = DepthSearch::kEach);
 
 }  // namespace halocline::clients

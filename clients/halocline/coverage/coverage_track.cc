@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "channel_server/propagation/seabed_map.h"
-#include "clients/halocline/coverage/link_column.h"
+#include "clients/halocline/coverage/coverage_links.h"
 #include "clients/halocline/plot/plot.h"
 #include "clients/halocline/scenario/link_surveyor.h"
 #include "clients/halocline/scenario/vehicle_track.h"
@@ -62,26 +62,26 @@ std::vector<TrackPlace> track_of(const ScenarioConfig& config, const bathymetry:
 std::vector<DepthChoice> best_depths(const ScenarioConfig& config,
                                      const std::shared_ptr<const bathymetry::Terrain>& terrain,
                                      const LinkSurveyEnd& from, const std::vector<TrackPlace>& track,
-                                     const std::vector<double>& depths_m, int threads) {
+                                     const std::vector<double>& depths_m, int threads, DepthSearch search) {
   require_above_seabed(*terrain, from);
-  const LinkColumn column({config, terrain, from});
-  channel_server::SeabedMap seabed = column.seabed_map();
+  const CoverageLinks links({config, terrain, from});
+  channel_server::SeabedMap seabed = links.seabed_map();
   const auto place_of = [&](const TrackPlace& place, double depth_m) {
     return Vec3(place.north_m, place.east_m, depth_m + config.scenario.sea_surface_z_m);
   };
-  for (const TrackPlace& place : track) column.survey(place_of(place, 0), seabed);
+  for (const TrackPlace& place : track) links.survey(place_of(place, 0), seabed);
   std::vector<DepthChoice> choices(track.size());
-  column.share(threads, track.size(), [&](LinkSurveyor& surveyor, std::size_t i) {
+  links.share(threads, track.size(), [&](LinkSurveyor& surveyor, std::size_t i) {
     choices[i].place = track[i];
     const Vec3 surface = place_of(track[i], 0);
     const auto bottom_z_m = seabed_z_m(*terrain, surface);
-    const LinkSurveyor::Seabed profile = column.bottom(surface, seabed);
+    const LinkSurveyor::Seabed profile = links.bottom(surface, seabed);
     std::vector<double> z_m;  // of depths in the water
     for (const double depth_m : depths_m) {
       const double at_m = place_of(track[i], depth_m).z();
       if (bottom_z_m && at_m <= *bottom_z_m) z_m.push_back(at_m);
     }
-    const std::vector<Sample> samples = column.links(surveyor, surface, z_m, profile);
+    const std::vector<Sample> samples = links.links(surveyor, surface, z_m, profile, search);
     const auto best = std::max_element(samples.begin(), samples.end());
     if (best == samples.end()) return;
     choices[i].best = static_cast<std::size_t>(best - samples.begin());

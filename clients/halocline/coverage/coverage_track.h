@@ -10,6 +10,7 @@
 
 #include "bathymetry/rasters/terrain_recipe.h"
 #include "bathymetry/terrain/terrain.h"
+#include "clients/halocline/coverage/coverage_links.h"
 #include "clients/halocline/coverage/sampling.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/link_survey.h"
@@ -39,7 +40,8 @@ struct DepthChoice {
 std::vector<DepthChoice> best_depths(const ScenarioConfig& config,
                                      const std::shared_ptr<const bathymetry::Terrain>& terrain,
                                      const LinkSurveyEnd& from, const std::vector<TrackPlace>& track,
-                                     const std::vector<double>& depths_m, int threads);
+                                     const std::vector<double>& depths_m, int threads,
+                                     DepthSearch search = DepthSearch::kEach);
 
 // Columns time_s, north_m, east_m, best_depth_m, delivery, level_db, delay_s; empty cells where there is no water.
 std::string track_csv(const std::vector<DepthChoice>& choices, const std::vector<double>& depths_m);

@@ -14,6 +14,7 @@
 #include "acoustics/link/link_budget.h"
 #include "bathymetry/rasters/terrain_recipe.h"
 #include "channel_server/channel_server_config.h"
+#include "clients/halocline/coverage/coverage_links.h"
 #include "clients/halocline/coverage/coverage_track.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/link_survey.h"
@@ -39,7 +40,7 @@ const std::vector<CoverageQuantity> kAll{CoverageQuantity::kDelivery, CoverageQu
 // Of links.
 struct Differences {
   double level_db, delay_s, delivery;
-  CoverageMethod method = CoverageMethod::kInterpolated;
+  DepthSearch search = DepthSearch::kEach;
   int cells = 1000;
   // So many may differ by more: one search finds a path that the other misses, two guard windows are as good as each other, or a path
   // at the edge of a shadow is there or not by the last digit.
@@ -52,7 +53,7 @@ void expect_links_in_random_cells(const ScenarioConfig& config, const std::strin
                                   const CoverageArea& area, const Differences& most) {
   const LinkSurveyEnd from = link_end(config, name);
   const Coverage map =
-      compute_coverage(config, make_terrain(config).terrain, from, area, kAll, /*threads=*/2, most.method);
+      compute_coverage(config, make_terrain(config).terrain, from, area, kAll, /*threads=*/2, most.search);
   LinkSurveyEnd to = link_end(config, "0,0,0");
   int looked_at = 0, differing = 0;
   for (std::uint64_t i = 0; looked_at < most.cells; ++i) {
@@ -84,6 +85,7 @@ void expect_links_in_random_cells(const ScenarioConfig& config, const std::strin
   }
 }
 
+const Differences kEqual{tolerance(1e-9), tolerance(1e-12), tolerance(1e-9)};
 const Differences kInterpolated{tolerance(0.1), tolerance(1e-6), tolerance(0.01)};
 
 TEST(Coverage, OfLevelSeaEqualsLinksIn1000RandomCells) {
@@ -99,18 +101,17 @@ ScenarioConfig sea_over_a_ridge() {
 }
 
 TEST(Coverage, OverTerrainEqualsLinksIn1000RandomCells) {
+  const CoverageArea area{.middle_north_m = -3250, .cell_m = 150, .side = 26, .depths_m = {5, 45, 90}};
+  expect_links_in_random_cells(sea_over_a_ridge(), "buoy", area, kEqual);
+}
+
+TEST(Coverage, ByRaysThatDepthsShareIsCloseToLinksIn1000RandomCells) {
   const CoverageArea area{
       .middle_north_m = -3250, .cell_m = 150, .side = 26, .depths_m = depths_of("5:95:5")};
   Differences most = kInterpolated;
+  most.search = DepthSearch::kShared;
   most.of_other_paths = 5;
   expect_links_in_random_cells(sea_over_a_ridge(), "buoy", area, most);
-}
-
-TEST(Coverage, ExactOverTerrainIsThatOfLinksInRandomCells) {
-  CoverageArea area{.middle_north_m = -3250, .cell_m = 150, .side = 26, .depths_m = {5, 45, 90}};
-  expect_links_in_random_cells(
-      sea_over_a_ridge(), "buoy", area,
-      {tolerance(1e-9), tolerance(1e-12), tolerance(1e-9), CoverageMethod::kExact, /*cells=*/200});
 }
 
 TEST(Coverage, InAnOceansFieldEqualsLinksInRandomCells) {
@@ -121,7 +122,7 @@ TEST(Coverage, InAnOceansFieldEqualsLinksInRandomCells) {
                           .cell_m = 400,
                           .side = 10,
                           .depths_m = depths_of("20:140:10")};
-  Differences most = kInterpolated;
+  Differences most = kEqual;
   most.cells = 100;
   expect_links_in_random_cells(config, "south", area, most);
 }
@@ -139,8 +140,8 @@ TEST(Coverage, DoesNotDependOnTheNumberOfThreads) {
     const CoverageArea area{
         .middle_north_m = -3250, .cell_m = 400, .side = 8, .depths_m = {5, 20, 35, 60, 90}};
     const LinkSurveyEnd from = link_end(config, "buoy");
-    const Coverage one = compute_coverage(config, terrain, from, area, kAll, 1),
-                   three = compute_coverage(config, terrain, from, area, kAll, 3);
+    const Coverage one = compute_coverage(config, terrain, from, area, kAll, 1, DepthSearch::kShared),
+                   three = compute_coverage(config, terrain, from, area, kAll, 3, DepthSearch::kShared);
     const std::string kind = config.terrain.kind == bathymetry::TerrainKind::kRidge ? "ridge" : "level";
     for (std::size_t depth = 0; depth < area.depths_m.size(); ++depth) {
       for (std::size_t cell = 0; cell < one.level_db[depth].size(); ++cell) {

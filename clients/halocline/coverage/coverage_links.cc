@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "clients/halocline/coverage/link_column.h"
+#include "clients/halocline/coverage/coverage_links.h"
 
 #include <utility>
 
@@ -35,7 +35,7 @@ std::vector<std::size_t> ends_first(std::size_t count) {
 
 }  // namespace
 
-LinkColumn::LinkColumn(const Scene& scene)
+CoverageLinks::CoverageLinks(const Scene& scene)
     : config_(scene.config),
       terrain_(scene.terrain),
       from_(scene.from),
@@ -43,8 +43,8 @@ LinkColumn::LinkColumn(const Scene& scene)
       environment_(make_environment(scene.config.channel_server.environment, scene.config.scenario,
                                     scene.config.folder)) {}
 
-void LinkColumn::share(int threads, std::size_t count,
-                       const std::function<void(LinkSurveyor&, std::size_t)>& item) const {
+void CoverageLinks::share(int threads, std::size_t count,
+                          const std::function<void(LinkSurveyor&, std::size_t)>& item) const {
   const auto stride = static_cast<std::size_t>(threads);
   bus::ThreadPool(threads).for_each(stride, [&](std::size_t thread) {
     LinkSurveyor own = surveyor();
@@ -52,11 +52,11 @@ void LinkColumn::share(int threads, std::size_t count,
   });
 }
 
-bool LinkColumn::along_rays() const {
+bool CoverageLinks::along_rays() const {
   return config_.channel_server.propagation.model == channel_server::PropagationModel::kRays;
 }
 
-double LinkColumn::noise_level_db() const {
+double CoverageLinks::noise_level_db() const {
   return surveyor()
       .straight()
       .kernel_of(SimTime(), from_.modem.modem, receiving_modem(to_, from_.modem.modem))
@@ -64,21 +64,22 @@ double LinkColumn::noise_level_db() const {
       .value;
 }
 
-channel_server::SeabedMap LinkColumn::seabed_map() const {
+channel_server::SeabedMap CoverageLinks::seabed_map() const {
   return channel_server::SeabedMap(config_.channel_server.rules.seabed);
 }
 
-void LinkColumn::survey(const Vec3& to_ned_m, channel_server::SeabedMap& seabed) const {
+void CoverageLinks::survey(const Vec3& to_ned_m, channel_server::SeabedMap& seabed) const {
   while (along_rays() && !seabed.is_surveyed(from_.position_ned_m, to_ned_m))
     answer_requests(*terrain_, seabed);
 }
 
-LinkSurveyor::Seabed LinkColumn::bottom(const Vec3& to_ned_m, const channel_server::SeabedMap& seabed) const {
+LinkSurveyor::Seabed CoverageLinks::bottom(const Vec3& to_ned_m,
+                                           const channel_server::SeabedMap& seabed) const {
   return along_rays() ? seabed.between(from_.position_ned_m, to_ned_m) : nullptr;
 }
 
-Sample LinkColumn::sample(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed,
-                          channel_server::PathColumn* column) const {
+Sample CoverageLinks::sample(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed,
+                             channel_server::PathColumn* column) const {
   const acoustics::Modem& transmitter = from_.modem.modem;
   const channel_server::LinkEnd here{0, from_.position_ned_m, Vec3::Zero(), &transmitter};
   const channel_server::LinkEnd there{0, to_ned_m, Vec3::Zero(), &receiving_modem(to_, transmitter)};
@@ -87,13 +88,14 @@ Sample LinkColumn::sample(LinkSurveyor& surveyor, const Vec3& to_ned_m, const Li
           answer.reception.budget.delay_s};
 }
 
-std::vector<Sample> LinkColumn::links(LinkSurveyor& surveyor, const Vec3& place_ned_m,
-                                      const std::vector<double>& z_m,
-                                      const LinkSurveyor::Seabed& seabed) const {
+std::vector<Sample> CoverageLinks::links(LinkSurveyor& surveyor, const Vec3& place_ned_m,
+                                         const std::vector<double>& z_m, const LinkSurveyor::Seabed& seabed,
+                                         DepthSearch search) const {
   channel_server::PathColumn column;
   std::vector<Sample> samples(z_m.size());
   for (const std::size_t i : ends_first(z_m.size()))
-    samples[i] = sample(surveyor, {place_ned_m.x(), place_ned_m.y(), z_m[i]}, seabed, &column);
+    samples[i] = sample(surveyor, {place_ned_m.x(), place_ned_m.y(), z_m[i]}, seabed,
+                        search == DepthSearch::kShared ? &column : nullptr);
   return samples;
 }
 

@@ -20,14 +20,20 @@
 
 namespace halocline::clients {
 
-class LinkColumn {
+// How links from receivers above and below one place find their paths over terrain.
+enum class DepthSearch {
+  kEach,   // each by itself, as `halocline link` does
+  kShared  // rays are shared, and paths interpolated between depths, where that is verified (acoustics/rays/column_rays.h)
+};
+
+class CoverageLinks {
  public:
   struct Scene {
     const ScenarioConfig& config;  // outlives this
     std::shared_ptr<const bathymetry::Terrain> terrain;
     LinkSurveyEnd from;
   };
-  explicit LinkColumn(const Scene& scene);
+  explicit CoverageLinks(const Scene& scene);
 
   // Calls item(surveyor, i) for each i below `count`; `threads`, of which each has a surveyor, take every so many of them.
   void share(int threads, std::size_t count,
@@ -41,10 +47,10 @@ class LinkColumn {
   void survey(const Vec3& to_ned_m, channel_server::SeabedMap& seabed) const;
   // The bottom to a place that was surveyed; null where links are straight.
   LinkSurveyor::Seabed bottom(const Vec3& to_ned_m, const channel_server::SeabedMap& seabed) const;
-  // Links to receivers above and below one place at each z of `z_m`, rising, which share their rays. Calls may overlap between threads,
-  // each with a surveyor of its own.
+  // Links to receivers above and below one place at each z of `z_m`, rising. Calls may overlap between threads, each with a surveyor of
+  // its own.
   std::vector<Sample> links(LinkSurveyor& surveyor, const Vec3& place_ned_m, const std::vector<double>& z_m,
-                            const LinkSurveyor::Seabed& seabed) const;
+                            const LinkSurveyor::Seabed& seabed, DepthSearch search) const;
   Sample link(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed) const {
     return sample(surveyor, to_ned_m, seabed, nullptr);
   }
