@@ -160,7 +160,7 @@ bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedD
   return losses_.at_bottom(facet, sin_g, s.c, ray, details);
 }
 
-void ArcTracer::arrive(const State& s, TracedRay& ray) const {
+void ArcTracer::arrive(const State& s, double bottom_m, TracedRay& ray) {
   ray.arrived = true;
   ray.z = s.z;
   ray.sine = s.sine;
@@ -168,7 +168,7 @@ void ArcTracer::arrive(const State& s, TracedRay& ray) const {
   ray.q = s.q;
   ray.p = s.p;
   // zeta = o z + 2 H k; its slope is the tube's width along the vertical, q / cos, of rays as the facets reflect them.
-  ray.zeta = s.orientation * s.z + 2 * bottom_at_receiver_ * s.images;
+  ray.zeta = s.orientation * s.z + 2 * bottom_m * s.images;
   ray.zeta_slope = s.qx / std::sqrt(std::max(1 - s.sine * s.sine, kMinCosine * kMinCosine));
 }
 
@@ -231,11 +231,38 @@ void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) cons
       if (!go_to_bottom(s, hit, ray, details)) return;
     } else if (step.dr >= left) {
       go_part(s, left, ray, details);
-      arrive(s, ray);
+      arrive(s, bottom_at_receiver_, ray);
       return;
     } else if (!go_to_knot(s, step, ray, details)) {
       return;
     }
+  }
+}
+
+void ArcTracer::trace_past(double theta, std::span<const double> ranges_m, const AtRange& at) const {
+  ensure(!section_, "water of depth alone");
+  TracedRay ray;
+  TracedDetails details;
+  State s = start(theta, ray);
+  const double shallowest = sea_.profile.shallowest_m();
+  std::size_t next = 0;
+  for (int steps = 0; steps < kMaxSteps; ++steps) {
+    const ArcStep step = next_step(sea_.water, s);
+    const bool near_bottom = sea_.water.depths_m()[s.layer + 1] > shallowest;
+    ArcHit hit;
+    const bool hits = near_bottom && find_hit(curvature_of(sea_.water, s), sea_.profile, s, step,
+                                              std::min(step.dr, range_ - s.r), hit);
+    for (; next < ranges_m.size() && ranges_m[next] - s.r <= (hits ? hit.dr : step.dr); ++next) {
+      State there = s;
+      TracedRay arriving = ray;
+      TracedDetails sums = details;
+      go_part(there, ranges_m[next] - s.r, arriving, &sums);
+      arrive(there, sea_.profile.depth_at(ranges_m[next]), arriving);
+      at(next, arriving, sums);
+    }
+    if (next == ranges_m.size()) return;
+    if (hits ? !go_to_bottom(s, hit, ray, &details) : !go_to_knot(s, step, ray, &details)) return;
+    ray.events.clear();  // copied at each range
   }
 }
 

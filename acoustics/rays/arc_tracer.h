@@ -24,7 +24,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "acoustics/rays/arcs/arc_steps.h"
@@ -45,6 +47,10 @@ class ArcTracer {
   // bounces leave less than a quarter of the least factor are given up. With `details`, all sums are taken,
   // and exactly.
   void trace(double theta, TracedRay& ray, TracedDetails* details = nullptr) const;
+  // Traces the ray past rising ranges, m, the last of them the receiver's at most, in water of depth alone. At each that it reaches calls
+  // at(i, ray, details) with what trace() gives for a receiver there, but for the ray's events.
+  using AtRange = std::function<void(std::size_t, const TracedRay&, const TracedDetails&)>;
+  void trace_past(double theta, std::span<const double> ranges_m, const AtRange& at) const;
 
   // The same source, bottom and range for a receiver at another depth.
   void move_receiver(double depth_m);
@@ -77,7 +83,7 @@ class ArcTracer {
   void cross_knot(State& s, bool down) const;
   [[nodiscard]] bool meet_surface(State& s, TracedRay& ray, TracedDetails* details) const;
   [[nodiscard]] bool meet_bottom(State& s, std::size_t facet, TracedRay& ray, TracedDetails* details) const;
-  void arrive(const State& s, TracedRay& ray) const;
+  static void arrive(const State& s, double bottom_m, TracedRay& ray);
 
   ProfiledSea sea_;
   BounceLosses losses_;

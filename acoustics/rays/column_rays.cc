@@ -183,23 +183,6 @@ std::optional<DiffuseRay> ColumnCache::diffuse(double theta, std::size_t window)
   return ray;
 }
 
-namespace {
-
-double most_loss_db(const RayOptions& options) {
-  return -20 * elementary::log10(options.min_boundary_factor);
-}
-
-// With what bounces may leave in steps, so that receivers whose strongest paths lose about as much share a fan.
-ProfiledSea widened(ProfiledSea sea) {
-  constexpr double kStepDb = 10;
-  if (!(sea.options.min_boundary_factor > 0)) return sea;
-  const double steps = std::ceil(most_loss_db(sea.options) / kStepDb);
-  sea.options.min_boundary_factor = elementary::exp10(-steps * kStepDb / 20);
-  return sea;
-}
-
-}  // namespace
-
 class ColumnRays::Column {
  public:
   Column(const ProfiledSea& sea, const RayLink& link)
@@ -244,17 +227,14 @@ ColumnRays::~ColumnRays() = default;
 std::vector<Arrival> ColumnRays::at(const ProfiledSea& sea, const RayLink& link) {
   validate(sea.options);
   if (sea.core_speed_mps > 0) return profile_rays(sea, link);  // which rays are left out changes with depth
-  const ProfiledSea wide = columns_.empty() ? sea : widened(sea);
+  ProfiledSea wide = sea;
+  if (!columns_.empty()) wide.options = widened(sea.options);
   auto column = std::find_if(columns_.begin(), columns_.end(), [&](const auto& one) {
     return one->options() == sea.options || one->options() == wide.options;
   });
   if (column == columns_.end()) column = columns_.insert(column, std::make_unique<Column>(wide, link));
   std::vector<Arrival> paths = (*column)->at(link.receiver_depth_m);
-  if (!((*column)->options() == sea.options)) {
-    std::erase_if(paths, [most_db = most_loss_db(sea.options)](const Arrival& path) {
-      return path.surface_loss_db + path.bottom_loss_db > most_db;
-    });
-  }
+  if (!((*column)->options() == sea.options)) drop_faint(paths, sea.options);
   return paths;
 }
 

@@ -20,6 +20,7 @@
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/profile_path.h"
+#include "acoustics/rays/shared_rays.h"
 #include "acoustics/rays/traced_ray.h"
 
 namespace halocline::acoustics {
@@ -121,15 +122,15 @@ class ColumnCache {
   std::unordered_map<double, std::optional<DiffuseRay>> diffuse_;
 };
 
-class ColumnRays {
+class ColumnRays : public SharedRays {
  public:
   ColumnRays();
-  ~ColumnRays();
+  ~ColumnRays() override;
   ColumnRays(const ColumnRays&) = delete;
   ColumnRays& operator=(const ColumnRays&) = delete;
 
-  // From call to call only the receiver's depth and the options change; what the sea of the first refers to outlives this.
-  std::vector<Arrival> at(const ProfiledSea& sea, const RayLink& link);
+  // From call to call only the receiver's depth and the options change.
+  std::vector<Arrival> at(const ProfiledSea& sea, const RayLink& link) override;
 
  private:
   class Column;

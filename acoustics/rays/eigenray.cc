@@ -48,11 +48,11 @@ const Arrival& strongest(const std::vector<Arrival>& paths) {
 // One search: what depends on the options alone beside the sea and the link.
 class LinkSearch {
  public:
-  LinkSearch(const RaySea& sea, const RayLink& link, RaySolver solver, ColumnRays* column)
+  LinkSearch(const RaySea& sea, const RayLink& link, RaySolver solver, SharedRays* shared)
       : sea_(sea),
         link_(link),
         solver_(solver),
-        column_(column),
+        shared_(shared),
         core_(solver == RaySolver::kImages || sea.section
                   ? std::nullopt
                   : channel_core(sea.water, sea.bottom_profile.shallowest_m(), link,
@@ -78,7 +78,7 @@ class LinkSearch {
   const RaySea& sea_;
   RayLink link_;
   RaySolver solver_;
-  ColumnRays* column_;
+  SharedRays* shared_;
   std::optional<ChannelCore> core_;
 };
 
@@ -91,7 +91,7 @@ std::vector<Arrival> LinkSearch::solved(const RayOptions& options) const {
     case RaySolver::kArcs: {
       const ProfiledSea profiled{sea_.water, sea_.bottom_profile, sea_.bottom,       sea_.surface,
                                  options,    core_speed(),        sea_.section.get()};
-      return column_ != nullptr ? column_->at(profiled, link_) : profile_rays(profiled, link_);
+      return shared_ != nullptr ? shared_->at(profiled, link_) : profile_rays(profiled, link_);
     }
   }
   return {};
@@ -216,14 +216,14 @@ RaySolver choose_solver(const RaySea& sea, const RayLink& link) {
 }
 
 Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver,
-                  ColumnRays* column) {
+                  SharedRays* shared) {
   require(!solver || *solver == RaySolver::kArcs || sea.bottom_profile.is_flat_until(link.range_m),
           "the ray solvers 'images' and 'snell' need a flat bottom");
   require(!solver || *solver == RaySolver::kArcs || !sea.section,
           "the ray solvers 'images' and 'snell' need water that is the same all along the link");
   const RayLink held = held_apart_over(sea.bottom_profile, link);
   const RaySolver chosen = solver.value_or(choose_solver(sea, held));
-  const LinkSearch search(sea, held, chosen, column);
+  const LinkSearch search(sea, held, chosen, shared);
   Arrivals found{chosen, search.paths()};
   if (found.silent()) found.lack = search.lack();
   return found;

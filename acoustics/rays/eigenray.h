@@ -22,7 +22,7 @@
 #include <optional>
 
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/column_rays.h"
+#include "acoustics/rays/shared_rays.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
@@ -53,9 +53,9 @@ RaySolver choose_solver(const RaySea& sea, const RayLink& link);
 // are widened until there is one, to 250 dB of loss; why there is none in the end is found by one more search. Depths of
 // the link have to lie between surface and bottom, each at its range (InvalidArgument otherwise), and the solver named
 // has to be able to do it: images and Snell refuse what they would get wrong. Ends nearer than 1 m are held apart.
-// With a column (acoustics/rays/column_rays.h), links that differ in the depth of the receiver alone share the rays of the solver
-// arcs; the sea has to outlive it.
+// Links from one end that share rays (acoustics/rays/column_rays.h, bearing_rays.h) do so where the solver is arcs; the sea has to outlive
+// them.
 Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver = std::nullopt,
-                  ColumnRays* column = nullptr);
+                  SharedRays* shared = nullptr);
 
 }  // namespace halocline::acoustics

@@ -116,22 +116,23 @@ bool is_kept(const ArcTracer& tracer, const TracedRay& ray) {
 
 double cosine_of(const TracedRay& ray) { return std::sqrt(1 - ray.sine * ray.sine); }
 
-// `tube`: |q|, m.
-Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDetails& details, double target,
-                   double tube) {
+}  // namespace
+
+Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDetails& details,
+                   const ArrivalPlace& place) {
   // A^2 = c_r cos_s / (c_s r |q|) (Jensen and others 2011, section 3.3).
   const double speed = cosine_of(ray) / ray.xi;
   Arrival path;
   // The receiver is not quite where the ray is: a front of slowness sin / c moves over the difference.
   const double down = (ray.surface_bounces + ray.bottom_bounces) % 2 == 0 ? 1 : -1;
-  path.delay_s = details.delay_s + ray.sine / speed * down * (target - ray.zeta);
+  path.delay_s = details.delay_s + ray.sine / speed * down * (place.target_m - ray.zeta);
   path.amplitude = ray.factor * std::sqrt(speed * elementary::cos(ray.theta) /
-                                          (tracer.source_speed_mps() * tracer.range_m() * tube));
+                                          (tracer.source_speed_mps() * place.range_m * place.tube_m));
   const double phase = pi * (ray.surface_bounces % 2) + details.bottom_phase_rad + ray.caustics * pi / 2;
   path.phase_rad = phase - 2 * pi * std::floor(phase / (2 * pi));
   path.launch_angle_rad = ray.theta;
   path.launch_slowness_spm = elementary::cos(ray.theta) / tracer.source_speed_mps();
-  path.range_slowness_spm = details.slowness_over_range / tracer.range_m();
+  path.range_slowness_spm = details.slowness_over_range / place.range_m;
   path.arrival_angle_rad = elementary::asin(ray.sine);
   path.path_length_m = details.length_m;
   path.absorption_db = details.absorption_db;
@@ -147,15 +148,14 @@ Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDe
   return path;
 }
 
-}  // namespace
-
 std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, double target) {
   TracedRay ray;
   TracedDetails details;
   tracer.trace(theta, ray, &details);
   if (!is_kept(tracer, ray) || std::abs(ray.zeta - target) > kFarOff) return std::nullopt;
-  return ProfilePath{arrival_of(tracer, ray, details, target, std::max(std::abs(ray.q), kMinTube)), target,
-                     ray.zeta_slope, ray.family};
+  return ProfilePath{
+      arrival_of(tracer, ray, details, {tracer.range_m(), target, std::max(std::abs(ray.q), kMinTube)}),
+      target, ray.zeta_slope, ray.family};
 }
 
 // Counts of bounces that no path has make the identity one of its own.
@@ -168,7 +168,7 @@ std::optional<DiffuseRay> diffuse_ray(const ArcTracer& tracer, double theta, std
   TracedDetails details;
   tracer.trace(theta, ray, &details);
   if (!ray.arrived) return std::nullopt;
-  Arrival path = arrival_of(tracer, ray, details, ray.zeta, 1);
+  Arrival path = arrival_of(tracer, ray, details, {tracer.range_m(), ray.zeta, 1});
   path.phase_rad = 0;
   path.diffuse = true;
   path.identity = diffuse_identity(ray.theta, window);
@@ -205,7 +205,8 @@ void ProfileFolds::note(double theta) {
     tracer_.trace(theta, ray, &details);
     if (!is_kept(tracer_, ray) || ray.family != before_.family) continue;
     ray.caustics = std::min(before_.caustics, after_.caustics);
-    Arrival path = arrival_of(tracer_, ray, details, target, cosine_of(ray) * fold.tube_slope(x, frequency));
+    Arrival path = arrival_of(tracer_, ray, details,
+                              {tracer_.range_m(), target, cosine_of(ray) * fold.tube_slope(x, frequency)});
     path.phase_rad = std::fmod(path.phase_rad + pi / 4, 2 * pi);  // of the caustic half way through it
     found_.push_back({path, target, x, std::sqrt(2 * std::abs(off / fold.curvature))});
   }

@@ -53,6 +53,12 @@ struct ProfilePath {
   double zeta_slope = 0;     // d zeta / d theta of the ray
   std::uint64_t family = 0;  // of the ray
 };
+// Where a ray arrives: the horizontal range, the image of the receiver in unfolded depth, the width of the ray's tube there, |q|, m.
+struct ArrivalPlace {
+  double range_m, target_m, tube_m;
+};
+Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDetails& details,
+                   const ArrivalPlace& place);
 // Of the ray of `theta`, which passes the image `target` of the receiver within a few millimetres of unfolded depth;
 // empty when the options exclude it.
 std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, double target);

@@ -87,12 +87,12 @@ class LinkSearches {
 
   // Null where the bottom is not known.
   Paths find(const Task& task);
-  // Over a bottom that is given, with other tasks of one column if there is one; nothing is kept.
-  Paths find(const Task& task, PathColumn* column) const {
-    if (column == nullptr)
+  // Over a bottom that is given, with other tasks of one line if there is one; nothing is kept.
+  Paths find(const Task& task, SharedLine* line) const {
+    if (line == nullptr)
       return search_paths(model_, *task.water, *task.environment, task.query, *task.query.given);
-    return column->line.search(model_, *task.water, *task.environment, task.query, *task.query.given,
-                               &column->rays);
+    return line->line.search(model_, *task.water, *task.environment, task.query, *task.query.given,
+                             line->rays.get());
   }
   // Of each task, in their order; those that wait find nothing.
   std::vector<Paths> find_all(const std::vector<Task>& tasks, const ForEach& for_each);

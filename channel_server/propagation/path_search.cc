@@ -34,12 +34,12 @@ acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environ
 double middle(double value, double cell) { return cell * (std::floor(value / cell) + 0.5); }
 
 std::shared_ptr<const FoundPaths> found_paths(const RayModel& model, const PathSea& along,
-                                              const PathQuery& query, acoustics::ColumnRays* column) {
+                                              const PathQuery& query, acoustics::SharedRays* shared) {
   auto found = std::make_shared<FoundPaths>();
   found->given = query.given;
   found->mean_depth_m = along.mean_depth_m;
   found->arrivals =
-      arrivals(along.sea, query.link, usable_solver(model.solver, along.sea, query.link), column);
+      arrivals(along.sea, query.link, usable_solver(model.solver, along.sea, query.link), shared);
   found->blocked = cuts_straight_line(along.sea.bottom_profile, query.link);
   return found;
 }
@@ -152,7 +152,7 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
 std::shared_ptr<const FoundPaths> PathLine::search(const RayModel& model, const acoustics::RayWater& water,
                                                    const acoustics::Environment& environment,
                                                    const PathQuery& query, const SeabedProfile& seabed,
-                                                   acoustics::ColumnRays* column) {
+                                                   acoustics::SharedRays* shared) {
   if (!sea_) {
     PathQuery at_surface = query;
     at_surface.link.source_depth_m = at_surface.link.receiver_depth_m = 0;
@@ -164,7 +164,7 @@ std::shared_ptr<const FoundPaths> PathLine::search(const RayModel& model, const 
   };
   if (!is_above(query.link.source_depth_m, 0) || !is_above(query.link.receiver_depth_m, query.link.range_m))
     return search_paths(model, water, environment, query, seabed);
-  return found_paths(model, *sea_, query, column);
+  return found_paths(model, *sea_, query, shared);
 }
 
 bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query) {

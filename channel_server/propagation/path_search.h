@@ -16,8 +16,8 @@
 #include "acoustics/link/extrapolate_arrivals.h"
 #include "acoustics/link/field_section.h"
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/column_rays.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/shared_rays.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
@@ -136,19 +136,19 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
 // The searches of links that differ in the depths of their ends alone, whose sea is made once. Not shared between threads.
 class PathLine {
  public:
-  // As search_paths(), which answers itself where an end lies below the bottom. With a column, links differ in the receiver's depth
-  // alone and share their rays (acoustics/rays/column_rays.h).
+  // As search_paths(), which answers itself where an end lies below the bottom. With shared rays links differ in what those say
+  // (acoustics/rays/shared_rays.h), the first call has the greatest range, and the mean depth is that of its link.
   std::shared_ptr<const FoundPaths> search(const RayModel& model, const acoustics::RayWater& water,
                                            const acoustics::Environment& environment, const PathQuery& query,
                                            const SeabedProfile& seabed,
-                                           acoustics::ColumnRays* column = nullptr);
+                                           acoustics::SharedRays* shared = nullptr);
 
  private:
   std::unique_ptr<const PathSea> sea_;  // of the first call
 };
-struct PathColumn {
+struct SharedLine {
   PathLine line;
-  acoustics::ColumnRays rays;  // refers to the sea of the line
+  std::unique_ptr<acoustics::SharedRays> rays;  // refers to the sea of the line
 };
 
 // The same of a link so weak and over so uneven a bottom that its energy is enough (acoustics/link/mixed_link.h); null for others.

@@ -49,11 +49,11 @@ Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const 
 
 Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                          const std::shared_ptr<const SeabedProfile>& seabed,
-                                         PathColumn* column) {
+                                         SharedLine* line) {
   constexpr auto kCapacity = acoustics::Capacity::kLeftOut;
   if (!seabed) return straight_instead(at, {from, to}, PropagationUsed::kStraightWithoutBottom, kCapacity);
   const Task task = searches_.over(at, from, to, seabed);
-  return answer(task, *searches_.find(task, column), kCapacity);
+  return answer(task, *searches_.find(task, line), kCapacity);
 }
 
 acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,

@@ -96,9 +96,9 @@ class RayPropagation : public Propagation {
   }
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed) override;
-  // The same without a capacity, of links from one end to receivers at several depths of one place; null: of one by itself.
+  // The same without a capacity, of links from one end that share rays; null: of one by itself.
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
-                           const std::shared_ptr<const SeabedProfile>& seabed, PathColumn* column);
+                           const std::shared_ptr<const SeabedProfile>& seabed, SharedLine* line);
   // The paths behind reception_over(), one for each of its own but those of reverberation, in their order. Amplitudes
   // are without the beams of the modems.
   acoustics::Arrivals arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,

@@ -28,14 +28,17 @@ namespace halocline::clients {
 namespace {
 
 struct CoverageOptions {
-  std::string scenario, from, depths, quantities = "delivery", output, track, plot;
+  std::string scenario, from, depths, quantities = "delivery", sharing = "none", output, track, plot;
   std::vector<std::string> overrides;
   double cell_m = 0, range_m = 0, every_s = 10;
   int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
-  bool share_rays = false, force = false;
-
-  DepthSearch depth_search() const { return share_rays ? DepthSearch::kShared : DepthSearch::kEach; }
+  bool force = false;
 };
+
+RaySharing sharing_of(const CoverageOptions& options) {
+  if (options.sharing == "depths") return RaySharing::kDepths;
+  return options.sharing == "bearings" ? RaySharing::kBearings : RaySharing::kNone;
+}
 
 CoverageArea area_of(const CoverageOptions& options, const LinkSurveyEnd& from) {
   require(options.cell_m > 0, "a map needs --cell, metres, above 0");
@@ -62,7 +65,7 @@ int map(const CoverageOptions& options, const ScenarioConfig& config, const Link
                            to_radians(config.scenario.origin_longitude_deg)},
                           config.scenario.name + ": how " + options.from + " is heard"};
   const Coverage coverage = compute_coverage(config, make_terrain(config).terrain, from, area, quantities,
-                                             options.threads, options.depth_search());
+                                             options.threads, sharing_of(options));
   write_coverage(coverage, file, options.output);
   if (!options.plot.empty()) write_coverage_picture(coverage, file, options.plot);
   const auto best = coverage.best_depth();
@@ -85,7 +88,7 @@ int along_track(const CoverageOptions& options, const ScenarioConfig& config, co
       is_vehicle ? track_of(config, terrain, options.track, SimDuration::from_seconds(options.every_s))
                  : read_track(options.track);
   const auto choices =
-      best_depths(config, terrain.terrain, from, track, depths_m, options.threads, options.depth_search());
+      best_depths(config, terrain.terrain, from, track, depths_m, options.threads, sharing_of(options));
   write_text(options.output, track_csv(choices, depths_m));
   if (!options.plot.empty())
     write_track_picture(choices, depths_m,
@@ -143,10 +146,13 @@ void add_coverage_command(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber);
   command->add_option("--quantity", options->quantities,
                       "what is written: delivery, snr, level, delay, with commas between");
-  command->add_flag("--share-rays", options->share_rays,
-                    "over terrain the depths of a place share rays, which takes a third of the time; a path "
-                    "in some hundred "
-                    "cells may be missed");
+  command
+      ->add_option(
+          "--share-rays", options->sharing,
+          "over terrain, whose links share rays: none's (default; as 'halocline link'), those of the "
+          "depths of a place (a third of the time; a path in some hundred cells may be missed), or of "
+          "the places of a bearing (for pictures)")
+      ->check(CLI::IsMember({"none", "depths", "bearings"}));
   command->add_option("--track", options->track,
                       "instead of a map the best depth along the way of this vehicle, or of a CSV file with "
                       "time_s, north_m, east_m");

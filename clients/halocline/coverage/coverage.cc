@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numbers>
 #include <utility>
 
+#include "acoustics/sea/bottom_profile.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "clients/halocline/coverage/coverage_links.h"
@@ -45,7 +49,7 @@ class Mapping {
  public:
   Mapping(const ScenarioConfig& config, const std::shared_ptr<const bathymetry::Terrain>& terrain,
           const LinkSurveyEnd& from, const CoverageArea& area, const std::vector<CoverageQuantity>& wanted,
-          int threads, DepthSearch search)
+          int threads, RaySharing sharing)
       : links_({config, terrain, from}),
         terrain_(*terrain),
         from_ned_m_(from.position_ned_m),
@@ -53,7 +57,7 @@ class Mapping {
         area_(area),
         tolerance_(tolerances(wanted)),
         threads_(threads),
-        search_(search) {
+        sharing_(sharing) {
     const std::size_t cells = area.side * area.side;
     for (auto* values : {&map_.delivery, &map_.level_db, &map_.delay_s})
       values->assign(area.depths_m.size(), std::vector<double>(cells, kNothing));
@@ -65,7 +69,7 @@ class Mapping {
     for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell)
       seabed_z_m_[cell] = seabed_z_m(terrain_, place(cell, 0)).value_or(kNothing);
     const auto level = level_z_m(terrain_);
-    if (level && links_.depends_on_range_alone()) {
+    if (level && !links_.is_in_a_field()) {
       by_range(*level);
     } else {
       over_terrain();
@@ -114,22 +118,103 @@ class Mapping {
     });
   }
 
+  // Cells whose links run over one bottom profile, furthest first, and where it ends.
+  struct Line {
+    std::vector<std::size_t> cells;
+    Vec3 end_ned_m;
+  };
+
+  double range_m(std::size_t cell) const {
+    const Vec3 way = place(cell, 0) - from_ned_m_;
+    return elementary::hypot(way.x(), way.y());
+  }
+
+  std::vector<Line> lines_of_cells() const {
+    std::vector<Line> lines;
+    for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell) {
+      if (!std::isnan(seabed_z_m_[cell])) lines.push_back({{cell}, place(cell, 0)});
+    }
+    return lines;
+  }
+
+  // Neighbours are a cell apart at the furthest.
+  std::vector<Line> bearings(const std::vector<Line>& cells) const {
+    double furthest_m = 0;
+    for (const Line& line : cells) furthest_m = std::max(furthest_m, range_m(line.cells.front()));
+    const double turn = 2 * std::numbers::pi, count = std::ceil(turn * furthest_m / area_.cell_m);
+    std::vector<Line> lines(static_cast<std::size_t>(count));
+    for (const Line& line : cells) {
+      const Vec3 way = line.end_ned_m - from_ned_m_;
+      const double share = elementary::atan2(way.y(), way.x()) / turn;
+      const auto bearing = static_cast<std::int64_t>(std::round((share + 1) * count));
+      lines[static_cast<std::size_t>(bearing) % lines.size()].cells.push_back(line.cells.front());
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      std::vector<std::size_t>& on_it = lines[i].cells;
+      std::stable_sort(on_it.begin(), on_it.end(),
+                       [&](std::size_t a, std::size_t b) { return range_m(a) > range_m(b); });
+      if (on_it.empty()) continue;
+      const double angle = turn * static_cast<double>(i) / count, end_m = range_m(on_it.front());
+      lines[i].end_ned_m = from_ned_m_ + end_m * Vec3(elementary::cos(angle), elementary::sin(angle), 0);
+    }
+    std::erase_if(lines, [](const Line& line) { return line.cells.empty(); });
+    return lines;
+  }
+
   void over_terrain() {
     channel_server::SeabedMap seabed = links_.seabed_map();
-    for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell) {
-      if (!std::isnan(seabed_z_m_[cell])) links_.survey(place(cell, 0), seabed);
+    std::vector<Line> lines = lines_of_cells();
+    if (sharing_ == RaySharing::kBearings && !links_.is_in_a_field()) lines = bearings(lines);
+    // Where the seabed along a bearing is not known throughout each of its cells has its own line.
+    std::vector<Line> known;
+    for (const Line& line : lines) {
+      links_.survey(line.end_ned_m, seabed);
+      if (line.cells.size() == 1 || links_.bottom(line.end_ned_m, seabed)) {
+        known.push_back(line);
+        continue;
+      }
+      for (const std::size_t cell : line.cells) {
+        known.push_back({{cell}, place(cell, 0)});
+        links_.survey(known.back().end_ned_m, seabed);
+      }
     }
-    links_.share(threads_, seabed_z_m_.size(), [&](LinkSurveyor& surveyor, std::size_t cell) {
-      if (std::isnan(seabed_z_m_[cell])) return;
-      const LinkSurveyor::Seabed profile = links_.bottom(place(cell, 0), seabed);
-      std::vector<double> z_m;  // of those in the water
-      for (std::size_t depth = 0; depth < area_.depths_m.size() && is_water(cell, depth); ++depth)
-        z_m.push_back(area_.depths_m[depth] + surface_z_m_);
-      const std::vector<Sample> samples = links_.links(surveyor, place(cell, 0), z_m, profile, search_);
-      for (std::size_t depth = 0; depth < samples.size(); ++depth) set(cell, depth, samples[depth]);
+    links_.share(threads_, known.size(), [&](LinkSurveyor& surveyor, std::size_t i) {
+      const LinkSurveyor::Seabed profile = links_.bottom(known[i].end_ned_m, seabed);
+      if (known[i].cells.size() > 1) return along_bearing(surveyor, known[i], profile);
+      channel_server::SharedLine line = CoverageLinks::line_of_depths();
+      const std::size_t cell = known[i].cells.front();
+      set_all(cell, links_.links(surveyor, place(cell, 0), water_z_m(cell), profile,
+                                 sharing_ == RaySharing::kNone ? nullptr : &line));
     });
   }
 
+  // Receivers that the bottom along the bearing covers lie just above it.
+  void along_bearing(LinkSurveyor& surveyor, const Line& bearing, const LinkSurveyor::Seabed& profile) {
+    const acoustics::BottomProfile bottom = links_.bottom_profile(bearing.end_ned_m, *profile);
+    std::vector<double> ranges;
+    for (const std::size_t cell : bearing.cells) ranges.push_back(range_m(cell));
+    std::reverse(ranges.begin(), ranges.end());
+    channel_server::SharedLine line = CoverageLinks::line_of_bearing(std::move(ranges));
+    for (const std::size_t cell : bearing.cells) {
+      const double deepest_z_m = surface_z_m_ + bottom.depth_at(range_m(cell)) - kAboveBottomM;
+      std::vector<double> z_m = water_z_m(cell);
+      for (double& z : z_m) z = std::min(z, deepest_z_m);
+      set_all(cell, links_.links(surveyor, place(cell, 0), z_m, profile, &line));
+    }
+  }
+
+  // Of the depths that are in the water.
+  std::vector<double> water_z_m(std::size_t cell) const {
+    std::vector<double> z_m;
+    for (std::size_t depth = 0; depth < area_.depths_m.size() && is_water(cell, depth); ++depth)
+      z_m.push_back(area_.depths_m[depth] + surface_z_m_);
+    return z_m;
+  }
+  void set_all(std::size_t cell, const std::vector<Sample>& samples) {
+    for (std::size_t depth = 0; depth < samples.size(); ++depth) set(cell, depth, samples[depth]);
+  }
+
+  static constexpr double kAboveBottomM = 0.2;
   static constexpr double kSameRangeM = 1e-6;
 
   CoverageLinks links_;
@@ -139,7 +224,7 @@ class Mapping {
   const CoverageArea& area_;
   Sample tolerance_;
   int threads_;
-  DepthSearch search_;
+  RaySharing sharing_;
   std::vector<double> seabed_z_m_;  // under each cell; NaN where not known
   Coverage map_;
 };
@@ -149,9 +234,9 @@ class Mapping {
 Coverage compute_coverage(const ScenarioConfig& config,
                           const std::shared_ptr<const bathymetry::Terrain>& terrain,
                           const LinkSurveyEnd& from, const CoverageArea& area,
-                          const std::vector<CoverageQuantity>& wanted, int threads, DepthSearch search) {
+                          const std::vector<CoverageQuantity>& wanted, int threads, RaySharing sharing) {
   require_above_seabed(*terrain, from);
-  return Mapping(config, terrain, from, area, wanted, threads, search).run();
+  return Mapping(config, terrain, from, area, wanted, threads, sharing).run();
 }
 
 std::vector<double> Coverage::values(CoverageQuantity quantity, std::size_t depth) const {

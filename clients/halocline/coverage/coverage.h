@@ -2,14 +2,16 @@
 // How well a vehicle or a place is heard over an area, at several depths: a map of links from one end.
 //
 // Model: each cell and depth is the link from `from` to a receiver with the scenario's modem at rest in the middle of the cell,
-// computed as `halocline link` does (scenario/link_surveyor.h). Over terrain the depths of a cell have one bottom profile, and may share
-// its rays (DepthSearch). Where the water depends on depth alone and the terrain is level, links of one range are the same, and those
+// computed as `halocline link` does (scenario/link_surveyor.h). Over terrain each cell has a bottom profile, and links may share rays
+// (RaySharing): the depths of a cell, or the cells of a bearing, of which there are so many that neighbours are a cell apart at the
+// furthest corner. Where the water depends on depth alone and the terrain is level, links of one range are the same, and those
 // of ranges within a cell are interpolated where that is verified (sampling.h).
 //
 // Error beside `link`. Over level ground, of what is asked for: delivery 0.002, level 0.03 dB, delay 0.3 us as the tolerance of the
-// interpolation. Over terrain none, unless rays are shared: then that of paths (acoustics/rays/column_rays.h), but for one cell in some
-// hundred where one of two searches misses a path at a fold or the edge of a shadow. tests/clients/halocline/coverage has what 1000
-// random cells differ by.
+// interpolation. Over terrain none, unless rays are shared: by depths then that of paths (acoustics/rays/column_rays.h), but for one cell
+// in some hundred where one of two searches misses a path at a fold or the edge of a shadow; by bearings what
+// acoustics/rays/bearing_rays.h leaves out, and the terrain within half a cell. tests/clients/halocline/coverage has what 1000 random
+// cells differ by.
 #pragma once
 
 #include <cstddef>
@@ -77,6 +79,6 @@ Coverage compute_coverage(const ScenarioConfig& config,
                           const std::shared_ptr<const bathymetry::Terrain>& terrain,
                           const LinkSurveyEnd& from, const CoverageArea& area,
                           const std::vector<CoverageQuantity>& wanted, int threads,
-                          DepthSearch search = DepthSearch::kEach);
+                          RaySharing sharing = RaySharing::kNone);
 
 }  // namespace halocline::clients

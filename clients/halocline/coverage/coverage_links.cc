@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/coverage/coverage_links.h"
 
+#include <memory>
 #include <utility>
 
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/rays/bearing_rays.h"
+#include "acoustics/rays/column_rays.h"
 #include "bus/runtime/thread_pool.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
+#include "core/elementary.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
@@ -79,24 +83,36 @@ LinkSurveyor::Seabed CoverageLinks::bottom(const Vec3& to_ned_m,
 }
 
 Sample CoverageLinks::sample(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed,
-                             channel_server::PathColumn* column) const {
+                             channel_server::SharedLine* line) const {
   const acoustics::Modem& transmitter = from_.modem.modem;
   const channel_server::LinkEnd here{0, from_.position_ned_m, Vec3::Zero(), &transmitter};
   const channel_server::LinkEnd there{0, to_ned_m, Vec3::Zero(), &receiving_modem(to_, transmitter)};
-  const LinkSurveyor::Answer answer = surveyor.survey(here, there, seabed, column);
+  const LinkSurveyor::Answer answer = surveyor.survey(here, there, seabed, line);
   return {answer.forecast.delivery_probability, answer.reception.budget.received_level.value,
           answer.reception.budget.delay_s};
 }
 
 std::vector<Sample> CoverageLinks::links(LinkSurveyor& surveyor, const Vec3& place_ned_m,
                                          const std::vector<double>& z_m, const LinkSurveyor::Seabed& seabed,
-                                         DepthSearch search) const {
-  channel_server::PathColumn column;
+                                         channel_server::SharedLine* line) const {
   std::vector<Sample> samples(z_m.size());
   for (const std::size_t i : ends_first(z_m.size()))
-    samples[i] = sample(surveyor, {place_ned_m.x(), place_ned_m.y(), z_m[i]}, seabed,
-                        search == DepthSearch::kShared ? &column : nullptr);
+    samples[i] = sample(surveyor, {place_ned_m.x(), place_ned_m.y(), z_m[i]}, seabed, line);
   return samples;
+}
+
+channel_server::SharedLine CoverageLinks::line_of_depths() {
+  return {{}, std::make_unique<acoustics::ColumnRays>()};
+}
+
+channel_server::SharedLine CoverageLinks::line_of_bearing(std::vector<double> rising_ranges_m) {
+  return {{}, std::make_unique<acoustics::BearingRays>(std::move(rising_ranges_m))};
+}
+
+acoustics::BottomProfile CoverageLinks::bottom_profile(const Vec3& to_ned_m,
+                                                       const channel_server::SeabedProfile& seabed) const {
+  const Vec3 way = to_ned_m - from_.position_ned_m;
+  return bottom_under(seabed, {0, 0, elementary::hypot(way.x(), way.y())}, environment_.sea_surface_z_m);
 }
 
 }  // namespace halocline::clients

@@ -7,10 +7,12 @@
 #include <memory>
 #include <vector>
 
+#include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/environment.h"
 #include "bathymetry/terrain/terrain.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "clients/halocline/coverage/sampling.h"
 #include "clients/halocline/scenario/composition.h"
@@ -20,10 +22,11 @@
 
 namespace halocline::clients {
 
-// How links from receivers above and below one place find their paths over terrain.
-enum class DepthSearch {
-  kEach,   // each by itself, as `halocline link` does
-  kShared  // rays are shared, and paths interpolated between depths, where that is verified (acoustics/rays/column_rays.h)
+// What links share of their rays over terrain.
+enum class RaySharing {
+  kNone,    // each has a search of its own, as `halocline link`
+  kDepths,  // depths of a place have one, and paths between depths are interpolated where that is verified (acoustics/rays/column_rays.h)
+  kBearings  // places of a bearing have one fan, along whose bearing the bottom is taken (acoustics/rays/bearing_rays.h)
 };
 
 class CoverageLinks {
@@ -38,8 +41,8 @@ class CoverageLinks {
   // Calls item(surveyor, i) for each i below `count`; `threads`, of which each has a surveyor, take every so many of them.
   void share(int threads, std::size_t count,
              const std::function<void(LinkSurveyor&, std::size_t)>& item) const;
-  // Over level ground.
-  bool depends_on_range_alone() const { return !environment_.field; }
+  // Whether the water changes from place to place.
+  bool is_in_a_field() const { return static_cast<bool>(environment_.field); }
   double noise_level_db() const;
   // Empty, of the kind that links of the scenario take their profiles from.
   channel_server::SeabedMap seabed_map() const;
@@ -47,10 +50,16 @@ class CoverageLinks {
   void survey(const Vec3& to_ned_m, channel_server::SeabedMap& seabed) const;
   // The bottom to a place that was surveyed; null where links are straight.
   LinkSurveyor::Seabed bottom(const Vec3& to_ned_m, const channel_server::SeabedMap& seabed) const;
-  // Links to receivers above and below one place at each z of `z_m`, rising. Calls may overlap between threads, each with a surveyor of
-  // its own.
+  // Links to receivers above and below one place at each z of `z_m`, rising. Calls may overlap between threads, each with a surveyor
+  // and a line of its own; null: none are shared.
   std::vector<Sample> links(LinkSurveyor& surveyor, const Vec3& place_ned_m, const std::vector<double>& z_m,
-                            const LinkSurveyor::Seabed& seabed, DepthSearch search) const;
+                            const LinkSurveyor::Seabed& seabed, channel_server::SharedLine* line) const;
+  // Of the depths of one place; of the places of one bearing, the furthest of which is asked for first.
+  static channel_server::SharedLine line_of_depths();
+  static channel_server::SharedLine line_of_bearing(std::vector<double> rising_ranges_m);
+  // The bottom to a place, as rays meet it.
+  acoustics::BottomProfile bottom_profile(const Vec3& to_ned_m,
+                                          const channel_server::SeabedProfile& seabed) const;
   Sample link(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed) const {
     return sample(surveyor, to_ned_m, seabed, nullptr);
   }
@@ -59,7 +68,7 @@ class CoverageLinks {
   LinkSurveyor surveyor() const { return {config_, terrain_, environment_}; }
   bool along_rays() const;
   Sample sample(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed,
-                channel_server::PathColumn* column) const;
+                channel_server::SharedLine* line) const;
 
   const ScenarioConfig& config_;
   std::shared_ptr<const bathymetry::Terrain> terrain_;

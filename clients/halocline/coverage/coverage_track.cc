@@ -62,7 +62,7 @@ std::vector<TrackPlace> track_of(const ScenarioConfig& config, const bathymetry:
 std::vector<DepthChoice> best_depths(const ScenarioConfig& config,
                                      const std::shared_ptr<const bathymetry::Terrain>& terrain,
                                      const LinkSurveyEnd& from, const std::vector<TrackPlace>& track,
-                                     const std::vector<double>& depths_m, int threads, DepthSearch search) {
+                                     const std::vector<double>& depths_m, int threads, RaySharing sharing) {
   require_above_seabed(*terrain, from);
   const CoverageLinks links({config, terrain, from});
   channel_server::SeabedMap seabed = links.seabed_map();
@@ -81,7 +81,9 @@ std::vector<DepthChoice> best_depths(const ScenarioConfig& config,
       const double at_m = place_of(track[i], depth_m).z();
       if (bottom_z_m && at_m <= *bottom_z_m) z_m.push_back(at_m);
     }
-    const std::vector<Sample> samples = links.links(surveyor, surface, z_m, profile, search);
+    channel_server::SharedLine line = CoverageLinks::line_of_depths();
+    const std::vector<Sample> samples =
+        links.links(surveyor, surface, z_m, profile, sharing == RaySharing::kNone ? nullptr : &line);
     const auto best = std::max_element(samples.begin(), samples.end());
     if (best == samples.end()) return;
     choices[i].best = static_cast<std::size_t>(best - samples.begin());

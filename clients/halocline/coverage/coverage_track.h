@@ -36,12 +36,12 @@ struct DepthChoice {
   Sample sample = {};  // there
 };
 
-// At each place which of the depths, below the surface, hears `from` best, over the scenario's bottom.
+// Each place has a bearing of its own, so that its depths alone share rays. At each place which of the depths, below the surface, hears `from` best, over the scenario's bottom.
 std::vector<DepthChoice> best_depths(const ScenarioConfig& config,
                                      const std::shared_ptr<const bathymetry::Terrain>& terrain,
                                      const LinkSurveyEnd& from, const std::vector<TrackPlace>& track,
                                      const std::vector<double>& depths_m, int threads,
-                                     DepthSearch search = DepthSearch::kEach);
+                                     RaySharing sharing = RaySharing::kNone);
 
 // Columns time_s, north_m, east_m, best_depth_m, delivery, level_db, delay_s; empty cells where there is no water.
 std::string track_csv(const std::vector<DepthChoice>& choices, const std::vector<double>& depths_m);

@@ -44,12 +44,12 @@ class LinkSurveyor {
                 const Seabed& seabed) {
     return forecast(from, to, reception(from, to, seabed));
   }
-  // The same but for the capacity; receivers at several depths of one place share `column`, null for one by itself.
+  // The same but for the capacity; links that share rays have one `line`, null for one by itself.
   Answer survey(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to, const Seabed& seabed,
-                channel_server::PathColumn* column) {
+                channel_server::SharedLine* line) {
     return forecast(
         from, to,
-        rays_ ? rays_->reception_over(SimTime(), from, to, seabed, column) : reception(from, to, seabed));
+        rays_ ? rays_->reception_over(SimTime(), from, to, seabed, line) : reception(from, to, seabed));
   }
   // The paths behind an answer along rays.
   acoustics::Arrivals arrivals(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to,

@@ -40,7 +40,7 @@ const std::vector<CoverageQuantity> kAll{CoverageQuantity::kDelivery, CoverageQu
 // Of links.
 struct Differences {
   double level_db, delay_s, delivery;
-  DepthSearch search = DepthSearch::kEach;
+  RaySharing sharing = RaySharing::kNone;
   int cells = 1000;
   // So many may differ by more: one search finds a path that the other misses, two guard windows are as good as each other, or a path
   // at the edge of a shadow is there or not by the last digit.
@@ -53,7 +53,7 @@ void expect_links_in_random_cells(const ScenarioConfig& config, const std::strin
                                   const CoverageArea& area, const Differences& most) {
   const LinkSurveyEnd from = link_end(config, name);
   const Coverage map =
-      compute_coverage(config, make_terrain(config).terrain, from, area, kAll, /*threads=*/2, most.search);
+      compute_coverage(config, make_terrain(config).terrain, from, area, kAll, /*threads=*/2, most.sharing);
   LinkSurveyEnd to = link_end(config, "0,0,0");
   int looked_at = 0, differing = 0;
   for (std::uint64_t i = 0; looked_at < most.cells; ++i) {
@@ -109,9 +109,40 @@ TEST(Coverage, ByRaysThatDepthsShareIsCloseToLinksIn1000RandomCells) {
   const CoverageArea area{
       .middle_north_m = -3250, .cell_m = 150, .side = 26, .depths_m = depths_of("5:95:5")};
   Differences most = kInterpolated;
-  most.search = DepthSearch::kShared;
+  most.sharing = RaySharing::kDepths;
   most.of_other_paths = 5;
   expect_links_in_random_cells(sea_over_a_ridge(), "buoy", area, most);
+}
+
+TEST(Coverage, ByRaysThatBearingsShareLooksLikeThatOfLinks) {
+  ScenarioConfig config = sea_over_a_ridge();
+  const auto terrain = make_terrain(config).terrain;
+  const CoverageArea area{.middle_north_m = -3250, .cell_m = 100, .side = 26, .depths_m = {5, 30, 60}};
+  LinkSurveyEnd from = link_end(config, "buoy");
+  from.modem.modem.source_level = Decibels{136};  // reaches to the middle of the map
+  const Coverage links = compute_coverage(config, terrain, from, area, kAll, 2),
+                 rays = compute_coverage(config, terrain, from, area, kAll, 2, RaySharing::kBearings);
+  std::vector<double> off_db, off_delivery;
+  for (std::size_t depth = 0; depth < area.depths_m.size(); ++depth) {
+    ASSERT_TRUE(links.mean_delivery(depth));
+    EXPECT_NEAR(*links.mean_delivery(depth), 0.5, 0.4);
+    EXPECT_NEAR(*rays.mean_delivery(depth), *links.mean_delivery(depth), tolerance(0.01)) << depth;
+    for (std::size_t cell = 0; cell < links.delivery[depth].size(); ++cell) {
+      ASSERT_EQ(std::isnan(links.delivery[depth][cell]), std::isnan(rays.delivery[depth][cell]));
+      if (std::isnan(links.delivery[depth][cell])) continue;
+      off_db.push_back(std::abs(rays.level_db[depth][cell] - links.level_db[depth][cell]));
+      off_delivery.push_back(std::abs(rays.delivery[depth][cell] - links.delivery[depth][cell]));
+    }
+  }
+  const auto below = [](std::vector<double> values, double share) {
+    std::sort(values.begin(), values.end());
+    return values.at(static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
+  };
+  EXPECT_GT(off_db.size(), 700U);
+  EXPECT_LT(below(off_db, 0.5), tolerance(0.1));
+  EXPECT_LT(below(off_db, 0.95), tolerance(1));
+  EXPECT_LT(below(off_delivery, 0.5), tolerance(0.005));
+  EXPECT_LT(below(off_delivery, 0.9), tolerance(0.05));
 }
 
 TEST(Coverage, InAnOceansFieldEqualsLinksInRandomCells) {
@@ -140,8 +171,8 @@ TEST(Coverage, DoesNotDependOnTheNumberOfThreads) {
     const CoverageArea area{
         .middle_north_m = -3250, .cell_m = 400, .side = 8, .depths_m = {5, 20, 35, 60, 90}};
     const LinkSurveyEnd from = link_end(config, "buoy");
-    const Coverage one = compute_coverage(config, terrain, from, area, kAll, 1, DepthSearch::kShared),
-                   three = compute_coverage(config, terrain, from, area, kAll, 3, DepthSearch::kShared);
+    const Coverage one = compute_coverage(config, terrain, from, area, kAll, 1, RaySharing::kDepths),
+                   three = compute_coverage(config, terrain, from, area, kAll, 3, RaySharing::kDepths);
     const std::string kind = config.terrain.kind == bathymetry::TerrainKind::kRidge ? "ridge" : "level";
     for (std::size_t depth = 0; depth < area.depths_m.size(); ++depth) {
       for (std::size_t cell = 0; cell < one.level_db[depth].size(); ++cell) {
