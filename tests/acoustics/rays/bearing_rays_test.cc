@@ -49,7 +49,7 @@ double level_db(const Arrivals& found) {
 
 std::vector<double> ranges_along() {
   std::vector<double> ranges;
-  for (double range_m = 110; range_m < 4900; range_m += 290) ranges.push_back(range_m);
+  for (double range_m = 110; range_m < 4900; range_m += 190) ranges.push_back(range_m);
   return ranges;
 }
 
@@ -80,7 +80,7 @@ TEST_P(BearingRaysOver, HasLevelsAndStrongestPathsCloseToThoseOfSearches) {
       off_s.push_back(nearest_s);
     }
   }
-  EXPECT_GT(off_db.size(), 100U);
+  EXPECT_GT(off_db.size(), 150U);
   EXPECT_NEAR(quantile(off_db, 0.5), 0, tolerance(GetParam().half_db));
   EXPECT_NEAR(quantile(off_db, 0.05), 0, tolerance(GetParam().nine_of_ten_db));
   EXPECT_NEAR(quantile(off_db, 0.95), 0, tolerance(GetParam().nine_of_ten_db));
