@@ -142,6 +142,10 @@ void apply_folds(std::vector<Arrival>& paths, const std::vector<FoldMember>& mem
   }
 }
 
+double most_loss_db(const RayOptions& options) {
+  return -20 * elementary::log10(options.min_boundary_factor);
+}
+
 }  // namespace
 
 double Arrival::received_pressure() const { return amplitude * elementary::exp10(-absorption_db / 20); }
@@ -195,6 +199,21 @@ void validate(const RayOptions& options) {
     require_in_range(options.diffuse_below_db, 10, 100, "level of diffuse sound below the strongest path",
                      "dB");
   require_in_range(options.diffuse_below_pressure, 0, 1e6, "pressure below which sound is diffuse");
+}
+
+RayOptions widened(RayOptions options) {
+  constexpr double kStepDb = 10;
+  if (!(options.min_boundary_factor > 0)) return options;
+  const double steps = std::ceil(most_loss_db(options) / kStepDb);
+  options.min_boundary_factor = elementary::exp10(-steps * kStepDb / 20);
+  return options;
+}
+
+void drop_faint(std::vector<Arrival>& paths, const RayOptions& options) {
+  if (!(options.min_boundary_factor > 0)) return;
+  std::erase_if(paths, [most_db = most_loss_db(options)](const Arrival& path) {
+    return path.surface_loss_db + path.bottom_loss_db > most_db;
+  });
 }
 
 void finish(std::vector<Arrival>& paths, const std::vector<FoldMember>& members, const RayOptions& options) {

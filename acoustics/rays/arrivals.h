@@ -108,6 +108,11 @@ struct RayOptions {
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
 void validate(const RayOptions& options);
 
+// With what bounces may leave in steps of 10 dB, so that receivers whose strongest paths lose about as much share their rays.
+RayOptions widened(RayOptions options);
+// Drops paths whose bounces leave less than the options allow.
+void drop_faint(std::vector<Arrival>& paths, const RayOptions& options);
+
 // Where the ends are. The receiver lies `range_m` >= 0 away; depths within the water.
 struct RayLink {
   double source_depth_m = 0, receiver_depth_m = 0, range_m = 0;

@@ -20,7 +20,6 @@
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/profile_path.h"
-#include "acoustics/rays/shared_rays.h"
 #include "acoustics/rays/traced_ray.h"
 
 namespace halocline::acoustics {

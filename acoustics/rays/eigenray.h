@@ -22,7 +22,7 @@
 #include <optional>
 
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/shared_rays.h"
+#include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"

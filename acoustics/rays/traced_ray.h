@@ -69,6 +69,15 @@ struct TracedDetails {
   static constexpr double kTrackErrorM = 0.1;
 };
 
+// Rays that links from one end share, in the place of a search for each. One for each line of links; not shared between threads.
+class SharedRays {
+ public:
+  virtual ~SharedRays() = default;
+  // The paths of a link, as profile_rays(). From call to call only the receiver and the options change; what the sea of the first refers
+  // to outlives this.
+  virtual std::vector<Arrival> at(const ProfiledSea& sea, const RayLink& link) = 0;
+};
+
 // Events, counts, losses and phases of bounces.
 class BounceLosses {
  public:

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "acoustics/link/mixed_link.h"
+#include "acoustics/rays/bearings/bearing_rays.h"
+#include "acoustics/rays/column_rays.h"
 #include "acoustics/rays/eigenray.h"
 #include "core/check.h"
 #include "core/hash.h"
@@ -165,6 +167,12 @@ std::shared_ptr<const FoundPaths> PathLine::search(const RayModel& model, const 
   if (!is_above(query.link.source_depth_m, 0) || !is_above(query.link.receiver_depth_m, query.link.range_m))
     return search_paths(model, water, environment, query, seabed);
   return found_paths(model, *sea_, query, shared);
+}
+
+SharedLine SharedLine::of_depths() { return {{}, std::make_unique<acoustics::ColumnRays>()}; }
+
+SharedLine SharedLine::of_bearing(std::vector<double> rising_ranges_m) {
+  return {{}, std::make_unique<acoustics::BearingRays>(std::move(rising_ranges_m))};
 }
 
 bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query) {

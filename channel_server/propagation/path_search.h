@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <tuple>
+#include <vector>
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
@@ -17,7 +18,7 @@
 #include "acoustics/link/field_section.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/shared_rays.h"
+#include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
@@ -137,7 +138,7 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
 class PathLine {
  public:
   // As search_paths(), which answers itself where an end lies below the bottom. With shared rays links differ in what those say
-  // (acoustics/rays/shared_rays.h), the first call has the greatest range, and the mean depth is that of its link.
+  // (acoustics::SharedRays), the first call has the greatest range, and the mean depth is that of its link.
   std::shared_ptr<const FoundPaths> search(const RayModel& model, const acoustics::RayWater& water,
                                            const acoustics::Environment& environment, const PathQuery& query,
                                            const SeabedProfile& seabed,
@@ -147,6 +148,11 @@ class PathLine {
   std::unique_ptr<const PathSea> sea_;  // of the first call
 };
 struct SharedLine {
+  // Of receivers at several depths of one place (acoustics/rays/column_rays.h).
+  static SharedLine of_depths();
+  // Of receivers along one bearing (acoustics/rays/bearings/bearing_rays.h), of which the furthest is asked for first.
+  static SharedLine of_bearing(std::vector<double> rising_ranges_m);
+
   PathLine line;
   std::unique_ptr<acoustics::SharedRays> rays;  // refers to the sea of the line
 };

@@ -181,7 +181,7 @@ class Mapping {
     links_.share(threads_, known.size(), [&](LinkSurveyor& surveyor, std::size_t i) {
       const LinkSurveyor::Seabed profile = links_.bottom(known[i].end_ned_m, seabed);
       if (known[i].cells.size() > 1) return along_bearing(surveyor, known[i], profile);
-      channel_server::SharedLine line = CoverageLinks::line_of_depths();
+      channel_server::SharedLine line = channel_server::SharedLine::of_depths();
       const std::size_t cell = known[i].cells.front();
       set_all(cell, links_.links(surveyor, place(cell, 0), water_z_m(cell), profile,
                                  sharing_ == RaySharing::kNone ? nullptr : &line));
@@ -194,7 +194,7 @@ class Mapping {
     std::vector<double> ranges;
     for (const std::size_t cell : bearing.cells) ranges.push_back(range_m(cell));
     std::reverse(ranges.begin(), ranges.end());
-    channel_server::SharedLine line = CoverageLinks::line_of_bearing(std::move(ranges));
+    channel_server::SharedLine line = channel_server::SharedLine::of_bearing(std::move(ranges));
     for (const std::size_t cell : bearing.cells) {
       const double deepest_z_m = surface_z_m_ + bottom.depth_at(range_m(cell)) - kAboveBottomM;
       std::vector<double> z_m = water_z_m(cell);

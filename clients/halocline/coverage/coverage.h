@@ -10,7 +10,7 @@
 // Error beside `link`. Over level ground, of what is asked for: delivery 0.002, level 0.03 dB, delay 0.3 us as the tolerance of the
 // interpolation. Over terrain none, unless rays are shared: by depths then that of paths (acoustics/rays/column_rays.h), but for one cell
 // in some hundred where one of two searches misses a path at a fold or the edge of a shadow; by bearings what
-// acoustics/rays/bearing_rays.h leaves out, and the terrain within half a cell. tests/clients/halocline/coverage has what 1000 random
+// acoustics/rays/bearings/bearing_rays.h leaves out, and the terrain within half a cell. tests/clients/halocline/coverage has what 1000 random
 // cells differ by.
 #pragma once
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/coverage/coverage_links.h"
 
-#include <memory>
 #include <utility>
 
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
-#include "acoustics/rays/bearing_rays.h"
-#include "acoustics/rays/column_rays.h"
 #include "bus/runtime/thread_pool.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/path_search.h"
@@ -99,14 +96,6 @@ std::vector<Sample> CoverageLinks::links(LinkSurveyor& surveyor, const Vec3& pla
   for (const std::size_t i : ends_first(z_m.size()))
     samples[i] = sample(surveyor, {place_ned_m.x(), place_ned_m.y(), z_m[i]}, seabed, line);
   return samples;
-}
-
-channel_server::SharedLine CoverageLinks::line_of_depths() {
-  return {{}, std::make_unique<acoustics::ColumnRays>()};
-}
-
-channel_server::SharedLine CoverageLinks::line_of_bearing(std::vector<double> rising_ranges_m) {
-  return {{}, std::make_unique<acoustics::BearingRays>(std::move(rising_ranges_m))};
 }
 
 acoustics::BottomProfile CoverageLinks::bottom_profile(const Vec3& to_ned_m,

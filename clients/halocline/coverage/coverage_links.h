@@ -26,7 +26,7 @@ namespace halocline::clients {
 enum class RaySharing {
   kNone,    // each has a search of its own, as `halocline link`
   kDepths,  // depths of a place have one, and paths between depths are interpolated where that is verified (acoustics/rays/column_rays.h)
-  kBearings  // places of a bearing have one fan, along whose bearing the bottom is taken (acoustics/rays/bearing_rays.h)
+  kBearings  // places of a bearing have one fan, along whose bearing the bottom is taken (acoustics/rays/bearings/bearing_rays.h)
 };
 
 class CoverageLinks {
@@ -54,9 +54,6 @@ class CoverageLinks {
   // and a line of its own; null: none are shared.
   std::vector<Sample> links(LinkSurveyor& surveyor, const Vec3& place_ned_m, const std::vector<double>& z_m,
                             const LinkSurveyor::Seabed& seabed, channel_server::SharedLine* line) const;
-  // Of the depths of one place; of the places of one bearing, the furthest of which is asked for first.
-  static channel_server::SharedLine line_of_depths();
-  static channel_server::SharedLine line_of_bearing(std::vector<double> rising_ranges_m);
   // The bottom to a place, as rays meet it.
   acoustics::BottomProfile bottom_profile(const Vec3& to_ned_m,
                                           const channel_server::SeabedProfile& seabed) const;

@@ -20,6 +20,7 @@
 #include "clients/halocline/scenario/link_survey.h"
 #include "core/check.h"
 #include "core/random.h"
+#include "core/units.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::clients {

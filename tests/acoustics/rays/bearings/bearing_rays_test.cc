@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rays of one bearing to receivers at many ranges and depths, against searches of each by itself.
-#include "acoustics/rays/bearing_rays.h"
+#include "acoustics/rays/bearings/bearing_rays.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 //
 // Left out: paths that lie between rays further apart, windows of diffuse sound, waves beyond folds. Water that changes along the link
 // is not known to it: such links are searched one by one, as are those at ranges that it was not made for.
-// Error beside profile_rays(): tests/acoustics/rays/bearing_rays_test.cc.
+// Error beside profile_rays(): tests/acoustics/rays/bearings/bearing_rays_test.cc.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,6 @@
 #include "acoustics/math/fold_field.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/shared_rays.h"
 #include "acoustics/rays/traced_ray.h"
 
 namespace halocline::acoustics {

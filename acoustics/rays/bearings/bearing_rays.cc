@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/bearing_rays.h"
+#include "acoustics/rays/bearings/bearing_rays.h"
 
 #include <algorithm>
 #include <cmath>
