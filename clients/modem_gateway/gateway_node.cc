@@ -41,10 +41,7 @@ GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Gatewa
 void GatewayNode::add_door(const GatewayConfig& config, const DoorConfig& door,
                            const SoundFieldMaker& make_sound) {
   if (needs_sound(door.kind) && !sound_) {
-    require(make_sound != nullptr,
-            "a door of kind '" + door.kind +
-                "' needs the water of the scenario, which `halocline run` has and this "
-                "program has not");
+    require(make_sound != nullptr, "a door of kind '" + door.kind + "' needs the water of a scenario");
     sound_ = make_sound(bus());
   }
   AddressBook& addresses = addresses_[door.kind];

@@ -98,6 +98,10 @@ std::optional<bathymetry::PreparedTerrain> try_terrain(const ScenarioConfig& con
 ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides,
                              ScenarioUse use) {
   auto file = bus::ConfigFile::load(path, overrides);
+  return load_scenario(file, use);
+}
+
+ScenarioConfig load_scenario(bus::ConfigFile& file, ScenarioUse use) {
   ScenarioConfig config = read_scenario(file, use);
   file.check_findings();
   return config;

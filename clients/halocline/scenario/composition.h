@@ -50,6 +50,7 @@ void visit(bus::ConfigVisitor& v, ScenarioConfig& config);
 enum class ScenarioUse { kRun, kWater };
 ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides,
                              ScenarioUse use = ScenarioUse::kRun);
+ScenarioConfig load_scenario(bus::ConfigFile& file, ScenarioUse use);
 
 // A scenario that makes sense on its terrain (scenario_checks.h).
 struct CheckedScenario {

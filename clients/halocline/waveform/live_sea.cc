@@ -40,6 +40,7 @@ LiveSea::LiveSea(const ScenarioConfig& config, const bathymetry::PreparedTerrain
   bus.subscribe<vehicle_state_t>(
       bus::channels::kState,
       [this](std::string_view vehicle, const vehicle_state_t& state) {
+        if (config_.scenario.find(vehicle) == nullptr) return;
         placed_.emplace(vehicle);
         keep(bus::channels::kState.of(std::string(vehicle)), state);
       },
@@ -57,12 +58,13 @@ LiveSea::LiveSea(const ScenarioConfig& config, const bathymetry::PreparedTerrain
 
 template <class Message>
 void LiveSea::keep(std::string channel, const Message& message) {
-  constexpr std::size_t kFew = 1000;
+  constexpr std::size_t kFew = 1000, kMost = 200'000;  // whatever times they claim
   auto& events = run_.events;
   const SimTime at = SimTime::from_utime(message.utime);
   events.push_back({at, std::move(channel), message});
   // Half of them at a time.
-  if (events.size() < kFew || events[events.size() / 2].at + kKept >= at) return;
+  const bool are_late = events[events.size() / 2].at + kKept < at;
+  if (events.size() < kFew || (!are_late && events.size() < kMost)) return;
   events.erase(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(events.size() / 2));
 }
 

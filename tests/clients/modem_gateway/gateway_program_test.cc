@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program by itself, on a private bus (scripts/isolated): doors of its command line, its trace, its end.
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -11,7 +13,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "acoustics/waveform/moving_link.h"
 #include "tests/clients/modem_gateway/host.h"
+#include "tests/clients/modem_gateway/waveform_host.h"
 #include "tests/support/process.h"
 #include "tests/support/working_folder.h"
 
@@ -64,6 +68,67 @@ TEST(GatewayProgram, NamesWhatIsWrongWithADoor) {
     EXPECT_EQ(gateway.wait(), 2) << door;
     EXPECT_THAT(gateway.output(), HasSubstr(problem));
   }
+}
+
+// A buoy and a lander 750 m apart: the sound that one plays at an instant comes to the other half a second later.
+TEST(GatewayProgram, CarriesSoundFromADoorOfWaveformsToAnother) {
+  const halocline::testing::TemporaryFolder folder;
+  std::ofstream("s.toml") << R"(
+[scenario]
+duration_s = 60
+[terrain.flat]
+depth_m = 200.0
+[propagation]
+model = "straight"
+[[vehicle]]
+name = "buoy"
+id = 1
+model = "fixed"
+start_ned_m = [0.0, 0.0, 50.0]
+[[vehicle]]
+name = "lander"
+id = 2
+model = "fixed"
+start_ned_m = [750.0, 0.0, 50.0]
+[[door]]
+vehicle = "buoy"
+kind = "uasp2"
+place = "tcp:9701"
+[[door]]
+vehicle = "lander"
+kind = "uasp2"
+place = "tcp:9702"
+)";
+  const std::string bin = HALOCLINE_BIN_DIR;
+  halocline::testing::Process gateway({kProgram, "s.toml"}),
+      vehicles({bin + "/halocline-vehicle-sim", "s.toml"}),
+      conductor({bin + "/halocline-conductor", "s.toml"});
+  const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(10)); };
+  ASSERT_TRUE(work_until(pause, [] { return Host("tcp:9701").is_open() && Host("tcp:9702").is_open(); }))
+      << gateway.output();
+  Host buoy("tcp:9701"), lander("tcp:9702");
+  testing::DataPort port;
+  acoustics::Samples heard{0, 96'000, {}};
+  const auto listen = [&] {
+    pause();
+    port.take(heard);
+  };
+  const auto seconds = [&] { return static_cast<double>(heard.values.size()) / heard.rate_hz; };
+  lander.write(port.istart());
+  ASSERT_TRUE(work_until(listen, [&] { return seconds() > 0.5; })) << gateway.output();
+  for (const std::string& line : testing::odata(testing::sweep(96'000, 0.1))) buoy.write(line);
+  const double at_s = heard.begin_s + seconds() + 1.5;
+  buoy.write(testing::ostart(at_s));
+  ASSERT_TRUE(work_until(listen, [&] { return heard.begin_s + seconds() > at_s + 0.8; }));
+  const double noise = testing::rms({heard.values.begin(), heard.values.begin() + 48'000});
+  const auto first = std::find_if(heard.values.begin(), heard.values.end(),
+                                  [&](double value) { return std::abs(value) > 20 * noise; });
+  ASSERT_NE(first, heard.values.end());
+  const double delay_s = heard.begin_s + static_cast<double>(first - heard.values.begin()) / 96'000 - at_s;
+  EXPECT_GT(delay_s, 750.0 / 1550);
+  EXPECT_LT(delay_s, 750.0 / 1450);
+  gateway.signal(SIGTERM);
+  EXPECT_EQ(gateway.wait(std::chrono::milliseconds(1500)), 0) << gateway.output();
 }
 
 }  // namespace

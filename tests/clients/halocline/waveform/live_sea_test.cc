@@ -3,22 +3,17 @@
 #include "clients/halocline/waveform/live_sea.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <lcm/lcm-cpp.hpp>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include "bus/event_log.h"
@@ -26,19 +21,19 @@
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/vehicle_track.h"
 #include "clients/halocline/waveform/received_waveform.h"
-#include "clients/modem_gateway/endpoint.h"
 #include "clients/modem_gateway/gateway_node.h"
-#include "clients/modem_gateway/protocols/base64.h"
 #include "core/check.h"
 #include "core/sim_time.h"
 #include "tests/clients/modem_gateway/host.h"
+#include "tests/clients/modem_gateway/waveform_host.h"
 
 namespace halocline::clients {
 namespace {
 
 using acoustics::Samples;
 using modem_gateway::testing::Host;
-using std::numbers::pi;
+using modem_gateway::testing::rms;
+using modem_gateway::testing::sweep;
 
 // Under way along echoes of surface and bottom.
 constexpr const char* kScenario = R"(
@@ -96,49 +91,6 @@ ScenarioConfig load() {
   return config;
 }
 
-// A port of UDP on loopback, and the samples of the units that came.
-class DataPort {
- public:
-  DataPort() : file_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
-    const int size = 8 << 20;
-    setsockopt(file_.get(), SOL_SOCKET, SO_RCVBUF, &size, sizeof size);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
-    bind(file_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address);
-  }
-  std::uint16_t port() const { return modem_gateway::port_of(file_); }
-  void take(Samples& heard) {
-    std::vector<std::uint8_t> unit(2000);
-    for (ssize_t size = 0; (size = recv(file_.get(), unit.data(), unit.size(), 0)) > 0;) {
-      const auto number = [&](std::size_t at, std::size_t bytes) {
-        std::uint64_t value = 0;
-        for (std::size_t i = 0; i < bytes; ++i) value = value << 8 | unit[at + i];
-        return value;
-      };
-      ASSERT_EQ(number(8, 4), next_++) << "a unit is missing";
-      if (heard.values.empty())
-        heard.begin_s = std::round(static_cast<double>(number(0, 8)) * 1e-6 * heard.rate_hz) / heard.rate_hz;
-      for (std::size_t i = 16; i < static_cast<std::size_t>(size); i += 4)
-        heard.values.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(number(i, 4))));
-    }
-  }
-
- private:
-  modem_gateway::File file_;
-  std::uint64_t next_ = 0;
-};
-
-// From 20 to 30 kHz.
-std::vector<double> sweep(double rate_hz, double seconds) {
-  std::vector<double> values;
-  for (int n = 0; n < seconds * rate_hz; ++n) {
-    const double t = n / rate_hz;
-    values.push_back(static_cast<float>(std::sin(2 * pi * (20'000 + 5'000 / seconds * t) * t)));
-  }
-  return values;
-}
-
 class LiveSeaTest : public ::testing::Test {
  protected:
   explicit LiveSeaTest() {
@@ -156,25 +108,13 @@ class LiveSeaTest : public ::testing::Test {
     }
   }
   void play(std::size_t host, const std::vector<double>& samples, double at_s) {
-    constexpr std::size_t kUnit = 10'000;
-    for (std::size_t begin = 0; begin < samples.size(); begin += kUnit) {
-      const std::size_t count = std::min(kUnit, samples.size() - begin);
-      std::vector<std::uint8_t> bytes(12);
-      bytes.insert(bytes.end(),
-                   {static_cast<std::uint8_t>(count >> 8), static_cast<std::uint8_t>(count), 0, 1});
-      for (std::size_t i = begin; i < begin + count; ++i) {
-        const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(samples[i]));
-        for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<std::uint8_t>(bits >> shift));
-      }
-      hosts_[host]->write(R"({"action":"odata","data":")" + modem_gateway::base64_of(bytes) + "\"}\n");
+    for (const std::string& line : modem_gateway::testing::odata(samples)) {
+      hosts_[host]->write(line);
       run_until(now_s_ + 0.05);
     }
-    hosts_[host]->write("{\"action\":\"ostart\",\"time\":" + std::to_string(std::llround(at_s * 1e6)) +
-                        "}\n");
+    hosts_[host]->write(modem_gateway::testing::ostart(at_s));
   }
-  void stream(std::size_t host) {
-    hosts_[host]->write("{\"action\":\"istart\",\"port\":" + std::to_string(port_.port()) + "}\n");
-  }
+  void stream(std::size_t host) { hosts_[host]->write(port_.istart()); }
   // What `halocline waveform` finds, at the samples that were heard.
   Samples expected(const std::string& receiver, const std::vector<std::pair<std::string, Samples>>& sounds) {
     std::vector<SentWaveform> sent;
@@ -192,16 +132,10 @@ class LiveSeaTest : public ::testing::Test {
   bus::LockstepRunner runner_{nodes_.nodes()};
   modem_gateway::GatewayNode* gateway_ = nullptr;
   std::vector<std::unique_ptr<Host>> hosts_;
-  DataPort port_;
+  modem_gateway::testing::DataPort port_;
   Samples heard_{0, 96'000, {}};
   double now_s_ = 0;
 };
-
-double rms(const std::vector<double>& values) {
-  double squares = 0;
-  for (const double value : values) squares += value * value;
-  return std::sqrt(squares / static_cast<double>(values.size()));
-}
 
 // Noise and echoes, sample by sample: where one is a sample late or 0.1 dB (1.2 %) off, a sweep up to 30 kHz differs by more.
 TEST_F(LiveSeaTest, WhatAHostHearsOfAnotherIsWhatTheCommandFindsAfterwards) {

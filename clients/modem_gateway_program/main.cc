@@ -1,17 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The program halocline-modem-gateway: the doors of clients/modem_gateway, and the water for those that play sound.
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "bus/bus.h"
 #include "bus/config/config.h"
 #include "bus/runtime/node_process.h"
+#include "clients/halocline/scenario/composition.h"
+#include "clients/halocline/waveform/live_sea.h"
 #include "clients/modem_gateway/gateway_config.h"
 #include "clients/modem_gateway/gateway_node.h"
+#include "clients/modem_gateway/protocols/sound_field.h"
 #include "core/sim_time.h"
 
 using halocline::SimDuration;
+using halocline::bus::ConfigFile;
 using halocline::bus::NodeProgram;
 using halocline::modem_gateway::GatewayNode;
+using halocline::modem_gateway::SoundFieldMaker;
+
+namespace {
+
+// The water of the scenario, for doors of waveforms; empty without a scenario. The file outlives it.
+SoundFieldMaker water_of(ConfigFile* file) {
+  using namespace halocline::clients;
+  if (file == nullptr) return {};
+  return [file](halocline::bus::Bus& bus) {
+    const ScenarioConfig config = load_scenario(*file, ScenarioUse::kWater);
+    return live_sea_maker(config, make_terrain(config))(bus);
+  };
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   halocline::modem_gateway::GatewayConfig config;
@@ -40,7 +61,7 @@ int main(int argc, char** argv) {
     for (const std::string& door : doors) add_door(config, door);
     return std::make_unique<GatewayNode>(context.lcm, context.identity, config,
                                          context.in_lockstep ? GatewayNode::kLockstepPeriod : SimDuration(),
-                                         trace);
+                                         trace, water_of(context.file));
   };
   return halocline::bus::run_node_program(argc, argv, program);
 }
