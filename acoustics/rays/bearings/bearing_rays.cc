@@ -24,6 +24,7 @@ constexpr double kDiffering =
     0.3;  // of the ranges: two rays whose histories differ at more have others between them
 constexpr int kHalvings = 2;         // of an interval of the fan
 constexpr double kSameRange = 1e-3;  // m
+constexpr double kLeastSlope = 1;    // m: of a ray on a caustic
 constexpr double kLeastBend = 0.2;   // of slopes beside each other
 constexpr double kGoesOn = 0.3;  // of zeta between two rays: how far it may be from where their slopes lead
 constexpr double kTurned = 1;    // rad between the phases of two rays: beyond, that of the nearer
@@ -124,7 +125,7 @@ Arrival BearingRays::beside(const Range& range, std::size_t i, double target) {
   const double off = target - range.places[i].zeta;
   path.delay_s += ray.slowness * off;
   path.launch_angle_rad += off / ray.zeta_slope;
-  path.amplitude /= std::sqrt(std::abs(ray.zeta_slope));
+  path.amplitude /= std::sqrt(std::max(std::abs(ray.zeta_slope), kLeastSlope));
   return path;
 }
 
