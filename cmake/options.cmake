@@ -13,7 +13,10 @@ target_compile_options(halocline_options INTERFACE
   # A fused multiply-add rounds once where two operations round twice: results would depend on the
   # optimisation level and the processor. The same scenario has to give the same bytes everywhere.
   -ffp-contract=off
-  $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},aarch64>:-U__ARM_FEATURE_FMA>  # by which Eigen takes them by name
+  # GCC makes vfmaddsub all the same where it builds for processors that have it, and Eigen takes them by name and sums in
+  # wider vectors.
+  $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},x86_64>:-mno-fma>
+  -U__ARM_FEATURE_FMA -U__AVX__ -U__AVX2__ -U__AVX512F__
   # Nobody looks at errno or at floating-point exceptions: a root is one instruction, and loops with comparisons and roots
   # become vectors, of the same values.
   -fno-math-errno -fno-trapping-math
