@@ -57,6 +57,8 @@ CoverageArea area_of(const CoverageOptions& options, const LinkSurveyEnd& from) 
   return area;
 }
 
+constexpr std::size_t kMany = 100'000;  // links, of a millisecond or more
+
 int map(const CoverageOptions& options, const ScenarioConfig& config, const LinkSurveyEnd& from) {
   const CoverageArea area = area_of(options, from);
   const auto quantities = quantities_of(options.quantities);
@@ -64,8 +66,16 @@ int map(const CoverageOptions& options, const ScenarioConfig& config, const Link
                           {config.terrain.frame, to_radians(config.scenario.origin_latitude_deg),
                            to_radians(config.scenario.origin_longitude_deg)},
                           config.scenario.name + ": how " + options.from + " is heard"};
-  const Coverage coverage = compute_coverage(config, make_terrain(config).terrain, from, area, quantities,
-                                             options.threads, sharing_of(options));
+  const auto terrain = make_terrain(config).terrain;
+  const std::size_t links = area.side * area.side * area.depths_m.size();
+  if (sharing_of(options) == RaySharing::kNone && links > kMany && !level_z_m(*terrain))
+    fmt::print(
+        std::cerr,
+        "{} links over terrain are searched one by one; --share-rays depths takes a third of the time, "
+        "--share-rays bearings a fortieth\n",
+        links);
+  const Coverage coverage =
+      compute_coverage(config, terrain, from, area, quantities, options.threads, sharing_of(options));
   write_coverage(coverage, file, options.output);
   if (!options.plot.empty()) write_coverage_picture(coverage, file, options.plot);
   const auto best = coverage.best_depth();

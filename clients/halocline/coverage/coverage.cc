@@ -34,17 +34,6 @@ Sample tolerances(const std::vector<CoverageQuantity>& wanted) {
           asks(CoverageQuantity::kDelay) ? kDelayToleranceS : kNotLooked};
 }
 
-// z of a terrain that is level everywhere; empty for others.
-std::optional<double> level_z_m(const bathymetry::Terrain& terrain) {
-  const double z_m = terrain.grid(0).post(0, 0);
-  for (std::size_t i = 0; i < terrain.grid_count(); ++i) {
-    const auto& posts = terrain.grid(i).posts();
-    if (!std::all_of(posts.begin(), posts.end(), [z_m](float post_m) { return post_m == z_m; }))
-      return std::nullopt;
-  }
-  return z_m;
-}
-
 class Mapping {
  public:
   Mapping(const ScenarioConfig& config, const std::shared_ptr<const bathymetry::Terrain>& terrain,
@@ -230,6 +219,16 @@ class Mapping {
 };
 
 }  // namespace
+
+std::optional<double> level_z_m(const bathymetry::Terrain& terrain) {
+  const double z_m = terrain.grid(0).post(0, 0);
+  for (std::size_t i = 0; i < terrain.grid_count(); ++i) {
+    const auto& posts = terrain.grid(i).posts();
+    if (!std::all_of(posts.begin(), posts.end(), [z_m](float post_m) { return post_m == z_m; }))
+      return std::nullopt;
+  }
+  return z_m;
+}
 
 Coverage compute_coverage(const ScenarioConfig& config,
                           const std::shared_ptr<const bathymetry::Terrain>& terrain,

@@ -74,6 +74,9 @@ struct Coverage {
   std::optional<std::size_t> best_depth() const;
 };
 
+// z of a terrain that is level everywhere; empty for others.
+std::optional<double> level_z_m(const bathymetry::Terrain& terrain);
+
 // Throws InvalidArgument where `from` lies inside the seabed. `threads` share the work.
 Coverage compute_coverage(const ScenarioConfig& config,
                           const std::shared_ptr<const bathymetry::Terrain>& terrain,
