@@ -289,7 +289,8 @@ SignalHistory still_history(const std::vector<SoundPath>& paths, const Lock& loc
   for (std::size_t i = 0; i + 1 < history.edges_s.size(); ++i) {
     double echoes = 0;
     for (const Echo& echo : own_echoes) {
-      echoes += echo.power * share_within(echo.when, history.edges_s[i], history.edges_s[i + 1]);
+      if (echo.when.begin_s < history.edges_s[i + 1] && echo.when.end_s > history.edges_s[i])
+        echoes += echo.power * share_within(echo.when, history.edges_s[i], history.edges_s[i + 1]);
     }
     history.signal.push_back(signal);
     history.echoes.push_back(echoes);

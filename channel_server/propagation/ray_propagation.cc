@@ -152,7 +152,8 @@ Reception RayPropagation::answer(const Task& task, const FoundPaths& found,
   Reception reception;
   reception.used = PropagationUsed::kRays;
   reception.paths_age = task.age;
-  const acoustics::Arrivals arrivals = arrivals_at(task, found);
+  const std::optional<acoustics::Arrivals> elsewhere = arrivals_at(task, found);
+  const acoustics::Arrivals& arrivals = elsewhere ? *elsewhere : found.arrivals;
   reception.paths = with_reverberation(model_.reverberation, {found.mean_depth_m, boundaries_.trapped_share},
                                        sound_paths(task, arrivals));
   reception.delay_spread_s = delay_spread_s(reception.paths);
@@ -174,13 +175,15 @@ PathState RayPropagation::state_without_path(const FoundPaths& found) {
   return found.blocked ? PathState::kBlocked : PathState::kShadow;
 }
 
-acoustics::Arrivals RayPropagation::arrivals_at(const Task& task, const FoundPaths& found) const {
+std::optional<acoustics::Arrivals> RayPropagation::arrivals_at(const Task& task,
+                                                               const FoundPaths& found) const {
   const acoustics::RayLink &searched = task.query.link, &link = task.link;
   const bool itself = searched.range_m == link.range_m && searched.source_depth_m == link.source_depth_m &&
                       searched.receiver_depth_m == link.receiver_depth_m;
-  if (itself) return found.arrivals;
+  if (itself) return std::nullopt;
   const acoustics::EndSpeeds speeds = end_speeds(*task.water, *task.environment, task.query);
-  return {found.arrivals.solver, extrapolate_arrivals(found.arrivals.paths, searched, speeds, link)};
+  return acoustics::Arrivals{found.arrivals.solver,
+                             extrapolate_arrivals(found.arrivals.paths, searched, speeds, link)};
 }
 
 std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,

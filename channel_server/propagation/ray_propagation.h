@@ -126,8 +126,8 @@ class RayPropagation : public Propagation {
                              acoustics::Capacity capacity = acoustics::Capacity::kComputed);
   Reception answer(const Task& task, const FoundPaths& found, acoustics::Capacity capacity) const;
   static PathState state_without_path(const FoundPaths& found);
-  // What was found, at the ends of the task.
-  acoustics::Arrivals arrivals_at(const Task& task, const FoundPaths& found) const;
+  // What was found, at the ends of the task where it was not found there.
+  std::optional<acoustics::Arrivals> arrivals_at(const Task& task, const FoundPaths& found) const;
   std::vector<SoundPath> sound_paths(const Task& task, const acoustics::Arrivals& arrivals) const;
   Decibels received_level(const Task& task, const acoustics::Arrivals& arrivals,
                           const std::vector<SoundPath>& paths) const;
