@@ -133,10 +133,9 @@ std::optional<Arrival> window_of(const MixedSea& sea, const RayLink& link,
   set_bounces(sea, xi, half, link.range_m, window);
   const double angle = elementary::asin(sine_at(xi, sea.water.speed_at(sea.depth_m)));
   const bool is_turned = !turned.empty() && half.lower_m == sea.depth_m && angle < kRayWidth * kBottomRays;
-  const double power = is_turned
-                           ? power_at(turned, angle)
-                           : density_at(sea, xi, link.receiver_depth_m, half) *
-                                 elementary::exp10(-(window.surface_loss_db + window.bottom_loss_db) / 10);
+  const double power = is_turned ? power_at(turned, angle)
+                                 : density_at(sea, xi, link.receiver_depth_m, half) *
+                                       elementary::exp10(-window.bounce_loss_db() / 10);
   if (!(power > 0)) return std::nullopt;
   window.amplitude = std::sqrt((high - low) * power / link.range_m);
   const double halves = link.range_m / half.range_m;
@@ -218,7 +217,7 @@ LeastMixedLoss::LeastMixedLoss(const MixedSea& sea, const Depths& depths, Decibe
       for (int j = 0; j <= i; ++j) {
         links_.emplace_back();
         for (const Arrival& one : all_windows(here, {(i + 0.5) * step_m, (j + 0.5) * step_m, kMetre})) {
-          const double boundaries_db = one.surface_loss_db + one.bottom_loss_db;
+          const double boundaries_db = one.bounce_loss_db();
           if (!(one.amplitude > 0)) continue;
           links_.back().push_back({one.amplitude * one.amplitude * elementary::exp10(boundaries_db / 10),
                                    kNepersPerDb * (one.absorption_db + boundaries_db)});

@@ -43,8 +43,6 @@ bool are_one_fold(const Key& a, const Key& b) {
 }
 
 // Of an angle, 0..2 pi.
-double positive_angle(double angle_rad) { return angle_rad - 2 * pi * std::floor(angle_rad / (2 * pi)); }
-
 // The stronger of the two, with the pressure of both: the sum of A e^(i (phi - 2 pi f t)) at the carrier f.
 Arrival merged(const Arrival& a, const Arrival& b, double frequency_hz) {
   const auto phasor = [frequency_hz](const Arrival& path) {
@@ -212,7 +210,7 @@ RayOptions widened(RayOptions options) {
 void drop_faint(std::vector<Arrival>& paths, const RayOptions& options) {
   if (!(options.min_boundary_factor > 0)) return;
   std::erase_if(paths, [most_db = most_loss_db(options)](const Arrival& path) {
-    return path.surface_loss_db + path.bottom_loss_db > most_db;
+    return path.bounce_loss_db() > most_db;
   });
 }
 

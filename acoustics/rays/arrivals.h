@@ -8,8 +8,10 @@
 // given beside it).
 #pragma once
 
+#include <cmath>
 #include <compare>
 #include <cstdint>
+#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -52,7 +54,15 @@ struct Arrival {
 
   // Pressure relative to that at 1 m with everything in it.
   double received_pressure() const;
+  // Of all bounces.
+  double bounce_loss_db() const { return surface_loss_db + bottom_loss_db; }
 };
+
+// The same angle within 0..2 pi, rad.
+inline double positive_angle(double angle_rad) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  return angle_rad - kTurn * std::floor(angle_rad / kTurn);
+}
 
 enum class RaySolver { kImages, kSnell, kArcs };
 

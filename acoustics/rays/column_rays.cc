@@ -26,11 +26,9 @@ constexpr double kMostLossDb = 0.5;  // between the two, of bounces and of absor
 constexpr double kMostPhaseRad = 0.3;
 constexpr double kMostSlack = 100, kMostDelaySlack = 10;
 
-double bounce_loss_db(const Arrival& path) { return path.surface_loss_db + path.bottom_loss_db; }
-
 // 1 / A^2 without the losses of bounces.
 double spreading(const Arrival& path) {
-  return elementary::exp10(-bounce_loss_db(path) / 10) / (path.amplitude * path.amplitude);
+  return elementary::exp10(-path.bounce_loss_db() / 10) / (path.amplitude * path.amplitude);
 }
 
 double mixed(double a, double b, double share) { return a + share * (b - a); }
@@ -113,7 +111,7 @@ std::optional<ProfilePath> PathChains::interpolated(const Node& a, const Node& b
   const Arrival &one = a.path.arrival, &other = b.path.arrival;
   const double height = b.depth_m - a.depth_m, share = (tracer_.receiver_depth_m() - a.depth_m) / height;
   const double slack = slack_of(a, b);
-  const double loss_a = bounce_loss_db(one), loss_b = bounce_loss_db(other);
+  const double loss_a = one.bounce_loss_db(), loss_b = other.bounce_loss_db();
   if (std::abs(loss_b - loss_a) > slack * kMostLossDb ||
       std::abs(other.absorption_db - one.absorption_db) > slack * kMostLossDb)
     return std::nullopt;
@@ -158,10 +156,9 @@ std::optional<ProfilePath> PathChains::interpolated(const Node& a, const Node& b
   mean.launch_angle_rad = theta;
   mean.arrival_angle_rad = elementary::asin(arrival->sine);
   mean.launch_slowness_spm = elementary::cos(theta) / tracer_.source_speed_mps();
-  mean.amplitude = elementary::exp10(-bounce_loss_db(mean) / 20) /
+  mean.amplitude = elementary::exp10(-mean.bounce_loss_db() / 20) /
                    std::sqrt(mixed(spread_a, spread_b, share) * std::abs(slope));
-  const double phase = one.phase_rad + share * turned;
-  mean.phase_rad = phase - 2 * pi * std::floor(phase / (2 * pi));
+  mean.phase_rad = positive_angle(one.phase_rad + share * turned);
   return path;
 }
 

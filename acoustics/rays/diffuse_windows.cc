@@ -50,8 +50,7 @@ void DiffuseWindows::begin_cell(std::size_t cell) {
 
 // Near a caustic the tube is too narrow to tell how strong the path will be: no focusing then.
 void DiffuseWindows::note(const Arrival& path) {
-  const double spherical =
-      elementary::exp10(-(path.surface_loss_db + path.bottom_loss_db) / 20) / path.path_length_m;
+  const double spherical = elementary::exp10(-path.bounce_loss_db() / 20) / path.path_length_m;
   const double pressure = std::min(path.amplitude, spherical);
   strongest_ = std::max(strongest_, pressure * pressure);
 }

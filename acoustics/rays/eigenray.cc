@@ -27,7 +27,6 @@ constexpr int kBouncesThatTell = 40;              // of rays that are searched o
 const double kNearlyVertical = to_radians(89.5);  // rays over a profile stop at 89.9 degrees
 
 double factor_of(double loss_db) { return elementary::exp10(-loss_db / 20); }
-double bounce_loss_db(const Arrival& path) { return path.surface_loss_db + path.bottom_loss_db; }
 
 // By received pressure, which is at most the amplitude; of paths that are not diffuse, if there is one.
 const Arrival& strongest(const std::vector<Arrival>& paths) {
@@ -163,10 +162,10 @@ std::vector<Arrival> LinkSearch::paths() const {
     paths = paths_with(with_bounce_loss(searched_db));
   }
   if (paths.empty()) return paths;
-  const double wanted_db = limit_db + bounce_loss_db(strongest(paths));
+  const double wanted_db = limit_db + strongest(paths).bounce_loss_db();
   if (wanted_db > searched_db + kStrongestMayLoseDb) return paths_with(with_bounce_loss(wanted_db));
   if (searched_db > limit_db)
-    std::erase_if(paths, [wanted_db](const Arrival& path) { return bounce_loss_db(path) > wanted_db; });
+    std::erase_if(paths, [wanted_db](const Arrival& path) { return path.bounce_loss_db() > wanted_db; });
   return paths;
 }
 

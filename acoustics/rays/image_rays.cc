@@ -143,8 +143,7 @@ bool ImageSum::add(const Image& image) {
 void ImageSum::set_phase(const Image&, const Reflection& one, int surface, int bottom, Arrival& path) const {
   path.surface_bounces = surface;
   path.bottom_bounces = bottom;
-  const double phase = pi * (surface % 2) + one.phase_rad * bottom;
-  path.phase_rad = phase - 2 * pi * std::floor(phase / (2 * pi));
+  path.phase_rad = positive_angle(pi * (surface % 2) + one.phase_rad * bottom);
 }
 
 }  // namespace

@@ -119,8 +119,7 @@ void set_spreading(const LayeredLink& link, const LayeredLegs& legs, const Layer
   const int caustics = caustics_of(bounces, is_dark ? 0 : m);
   path.caustics = std::max(caustics, 0);
   // On a fold half way between before and after it.
-  const double phase = path.phase_rad + (caustics + (is_dark ? 0.5 : 0)) * pi / 2;
-  path.phase_rad = phase - 2 * pi * std::floor(phase / (2 * pi));
+  path.phase_rad = positive_angle(path.phase_rad + (caustics + (is_dark ? 0.5 : 0)) * pi / 2);
 }
 
 void set_lengths(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray, double xi,

@@ -128,8 +128,8 @@ Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDe
   path.delay_s = details.delay_s + ray.sine / speed * down * (place.target_m - ray.zeta);
   path.amplitude = ray.factor * std::sqrt(speed * elementary::cos(ray.theta) /
                                           (tracer.source_speed_mps() * place.range_m * place.tube_m));
-  const double phase = pi * (ray.surface_bounces % 2) + details.bottom_phase_rad + ray.caustics * pi / 2;
-  path.phase_rad = phase - 2 * pi * std::floor(phase / (2 * pi));
+  path.phase_rad =
+      positive_angle(pi * (ray.surface_bounces % 2) + details.bottom_phase_rad + ray.caustics * pi / 2);
   path.launch_angle_rad = ray.theta;
   path.launch_slowness_spm = elementary::cos(ray.theta) / tracer.source_speed_mps();
   path.range_slowness_spm = details.slowness_over_range / place.range_m;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,7 @@
 
 namespace halocline::acoustics {
 
+inline constexpr double kSteepestRay = 89.9 * std::numbers::pi / 180;  // rad: of rays that do not bounce
 inline constexpr double kNearFold = 0.06;  // of the water depth: a turn nearer to an image is sought out
 
 // The images of a receiver in unfolded depth, +-z + 2 H k.

@@ -14,9 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kSteepest = 89.9 * pi / 180;  // rad: of rays that do not bounce
-constexpr double kMinParting = 1e-10;          // rad: between the rays on both sides of a parting
-constexpr double kNextToEachOther = 4e-9;      // rad: the two rays of a fan beside one that grazes a knot
+constexpr double kMinParting = 1e-10;      // rad: between the rays on both sides of a parting
+constexpr double kNextToEachOther = 4e-9;  // rad: the two rays of a fan beside one that grazes a knot
 constexpr int kDeepestHalving = 14;
 constexpr int kDeepestEdgeHalving = 10;   // towards where rays become too faint or turn back
 constexpr int kDeepestWindowHalving = 5;  // between rays that do not arrive
@@ -35,11 +34,11 @@ constexpr double kLeastStrongest = 3e-3;  // of the energy flux: that of the str
 }  // namespace
 
 std::vector<double> launch_angles(const ArcTracer& tracer) {
-  std::vector<double> angles = {-kSteepest};
-  for (const double theta : fan_angles(tracer, kSteepest)) {
-    if (theta < kSteepest) angles.push_back(theta);
+  std::vector<double> angles = {-kSteepestRay};
+  for (const double theta : fan_angles(tracer, kSteepestRay)) {
+    if (theta < kSteepestRay) angles.push_back(theta);
   }
-  angles.push_back(kSteepest);
+  angles.push_back(kSteepestRay);
   return angles;
 }
 

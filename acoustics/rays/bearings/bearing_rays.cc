@@ -18,8 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kSteepest = 89.9 * pi / 180;  // rad
-constexpr double kCoarseness = 0.1;            // of the fan beside that of a search
+constexpr double kCoarseness = 0.1;  // of the fan beside that of a search
 constexpr double kDiffering =
     0.3;  // of the ranges: two rays whose histories differ at more have others between them
 constexpr int kHalvings = 2;         // of an interval of the fan
@@ -28,8 +27,6 @@ constexpr double kLeastSlope = 1;    // m: of a ray on a caustic
 constexpr double kLeastBend = 0.2;   // of slopes beside each other
 constexpr double kGoesOn = 0.3;  // of zeta between two rays: how far it may be from where their slopes lead
 constexpr double kTurned = 1;    // rad between the phases of two rays: beyond, that of the nearer
-
-double positive_angle(double rad) { return rad - 2 * pi * std::floor(rad / (2 * pi)); }
 
 double mixed(double a, double b, double share) { return a + share * (b - a); }
 
@@ -89,7 +86,7 @@ const BearingRays::Fan& BearingRays::fan_of(const ProfiledSea& sea, double sourc
   if (known != fans_.end()) return *known;
   const ArcTracer tracer(wide, {source_depth_m, 0, ranges_m_.back()});
   std::vector<Traced> all;
-  for (const double theta : even_angles(kSteepest, kCoarseness)) {
+  for (const double theta : even_angles(kSteepestRay, kCoarseness)) {
     Traced next = traced(tracer, theta);
     if (all.empty()) {
       all.push_back(std::move(next));

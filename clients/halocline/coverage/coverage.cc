@@ -71,6 +71,10 @@ class Mapping {
   Vec3 place(std::size_t cell, double depth_m) const {
     return {area_.north_m(cell / area_.side), area_.east_m(cell % area_.side), depth_m + surface_z_m_};
   }
+  double range_m(std::size_t cell) const {
+    const Vec3 way = place(cell, 0) - from_ned_m_;
+    return elementary::hypot(way.x(), way.y());
+  }
   bool is_water(std::size_t cell, std::size_t depth) const {
     return area_.depths_m[depth] + surface_z_m_ <= seabed_z_m_[cell];
   }
@@ -84,8 +88,7 @@ class Mapping {
     std::vector<double> ranges;
     std::vector<double> of_cells;
     for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell) {
-      const Vec3 way = place(cell, 0) - from_ned_m_;
-      of_cells.push_back(std::round(elementary::hypot(way.x(), way.y()) / kSameRangeM) * kSameRangeM);
+      of_cells.push_back(std::round(range_m(cell) / kSameRangeM) * kSameRangeM);
       if (!std::isnan(seabed_z_m_[cell])) ranges.push_back(of_cells.back());
     }
     std::sort(ranges.begin(), ranges.end());
@@ -113,11 +116,6 @@ class Mapping {
     Vec3 end_ned_m;
   };
 
-  double range_m(std::size_t cell) const {
-    const Vec3 way = place(cell, 0) - from_ned_m_;
-    return elementary::hypot(way.x(), way.y());
-  }
-
   std::vector<Line> lines_of_cells() const {
     std::vector<Line> lines;
     for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell) {
@@ -144,7 +142,8 @@ class Mapping {
                        [&](std::size_t a, std::size_t b) { return range_m(a) > range_m(b); });
       if (on_it.empty()) continue;
       const double angle = turn * static_cast<double>(i) / count, end_m = range_m(on_it.front());
-      lines[i].end_ned_m = from_ned_m_ + end_m * Vec3(elementary::cos(angle), elementary::sin(angle), 0);
+      const auto [sine, cosine] = elementary::sin_cos(angle);
+      lines[i].end_ned_m = from_ned_m_ + end_m * Vec3(cosine, sine, 0);
     }
     std::erase_if(lines, [](const Line& line) { return line.cells.empty(); });
     return lines;
@@ -170,10 +169,8 @@ class Mapping {
     links_.share(threads_, known.size(), [&](LinkSurveyor& surveyor, std::size_t i) {
       const LinkSurveyor::Seabed profile = links_.bottom(known[i].end_ned_m, seabed);
       if (known[i].cells.size() > 1) return along_bearing(surveyor, known[i], profile);
-      channel_server::SharedLine line = channel_server::SharedLine::of_depths();
       const std::size_t cell = known[i].cells.front();
-      set_all(cell, links_.links(surveyor, place(cell, 0), water_z_m(cell), profile,
-                                 sharing_ == RaySharing::kNone ? nullptr : &line));
+      set_all(cell, links_.links_to_one_place(surveyor, place(cell, 0), water_z_m(cell), profile, sharing_));
     });
   }
 

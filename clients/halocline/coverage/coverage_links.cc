@@ -98,6 +98,15 @@ std::vector<Sample> CoverageLinks::links(LinkSurveyor& surveyor, const Vec3& pla
   return samples;
 }
 
+std::vector<Sample> CoverageLinks::links_to_one_place(LinkSurveyor& surveyor, const Vec3& place_ned_m,
+                                                      const std::vector<double>& z_m,
+                                                      const LinkSurveyor::Seabed& seabed,
+                                                      RaySharing sharing) const {
+  if (sharing == RaySharing::kNone) return links(surveyor, place_ned_m, z_m, seabed, nullptr);
+  channel_server::SharedLine depths = channel_server::SharedLine::of_depths();
+  return links(surveyor, place_ned_m, z_m, seabed, &depths);
+}
+
 acoustics::BottomProfile CoverageLinks::bottom_profile(const Vec3& to_ned_m,
                                                        const channel_server::SeabedProfile& seabed) const {
   const Vec3 way = to_ned_m - from_.position_ned_m;

@@ -54,6 +54,10 @@ class CoverageLinks {
   // and a line of its own; null: none are shared.
   std::vector<Sample> links(LinkSurveyor& surveyor, const Vec3& place_ned_m, const std::vector<double>& z_m,
                             const LinkSurveyor::Seabed& seabed, channel_server::SharedLine* line) const;
+  // The same where no other place shares rays: its depths do, unless nothing is to be shared.
+  std::vector<Sample> links_to_one_place(LinkSurveyor& surveyor, const Vec3& place_ned_m,
+                                         const std::vector<double>& z_m, const LinkSurveyor::Seabed& seabed,
+                                         RaySharing sharing) const;
   // The bottom to a place, as rays meet it.
   acoustics::BottomProfile bottom_profile(const Vec3& to_ned_m,
                                           const channel_server::SeabedProfile& seabed) const;

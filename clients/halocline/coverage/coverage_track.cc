@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "clients/halocline/coverage/coverage_links.h"
 #include "clients/halocline/plot/plot.h"
@@ -82,9 +81,7 @@ std::vector<DepthChoice> best_depths(const ScenarioConfig& config,
       const double at_m = place_of(track[i], depth_m).z();
       if (bottom_z_m && at_m <= *bottom_z_m) z_m.push_back(at_m);
     }
-    channel_server::SharedLine line = channel_server::SharedLine::of_depths();
-    const std::vector<Sample> samples =
-        links.links(surveyor, surface, z_m, profile, sharing == RaySharing::kNone ? nullptr : &line);
+    const std::vector<Sample> samples = links.links_to_one_place(surveyor, surface, z_m, profile, sharing);
     const auto best = std::max_element(samples.begin(), samples.end());
     if (best == samples.end()) return;
     choices[i].best = static_cast<std::size_t>(best - samples.begin());
