@@ -72,7 +72,7 @@ int map(const CoverageOptions& options, const ScenarioConfig& config, const Link
     fmt::print(
         std::cerr,
         "{} links over terrain are searched one by one; --share-rays depths takes a third of the time, "
-        "--share-rays bearings a fortieth\n",
+        "--share-rays bearings a twentieth\n",
         links);
   const Coverage coverage =
       compute_coverage(config, terrain, from, area, quantities, options.threads, sharing_of(options));
@@ -159,9 +159,10 @@ void add_coverage_command(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--share-rays", options->sharing,
-          "over terrain, whose links share rays: none's (default; as 'halocline link'), those of the "
-          "depths of a place (a third of the time; a path in some hundred cells may be missed), or of "
-          "the places of a bearing (for pictures)")
+          "over terrain, what shares rays: none (default; each link as 'halocline link'), depths of a place "
+          "(a "
+          "third of the time; a path in some hundred cells may be missed), or bearings, all places of one (a "
+          "twentieth; levels are close, for pictures)")
       ->check(CLI::IsMember({"none", "depths", "bearings"}));
   command->add_option("--track", options->track,
                       "instead of a map the best depth along the way of this vehicle, or of a CSV file with "
