@@ -116,7 +116,7 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
            {0, 4e7, "m", "link tables: peers further away have no row; 0: only those who cannot be heard"});
   visit_count(v, "bottom_points", r.bottom_points,
               {1, 64, "", "points of the bottom surveyed for each link"});
-  v.number("echo_reuse_distance_m", r.echo_reuse_distance_m,
+  v.number("echo_reuse_distance_m", r.echoes.reuse_distance_m,
            {0, 1e5, "m", "how far the ends of a link may move before its echoes are surveyed again"});
   v.number("profile_reuse_distance_m", r.profile_reuse_distance_m,
            {0.1, 1000, "m", "rays, link tables: lattice of the ends of bottom profiles"});
@@ -142,8 +142,8 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
               {128, 4096, "", "rays in one RAY_QUERY"});
   visit_count(v, "echo_messages_in_flight", r.ray_queries.batches_in_flight,
               {1, 64, "", "RAY_QUERYs without an answer"});
-  visit_count(v, "echo_messages_per_table", r.ray_queries.batches_per_tick,
-              {1, 10000, "", "RAY_QUERYs for one link table"});
+  visit_count(v, "echo_surveys_per_table", r.echoes.surveys_per_table,
+              {1, 1e6, "", "pairs whose echoes are surveyed for one link table, of all servers"});
 }
 
 void visit_extra_loss(bus::ConfigVisitor& v, ExtraLoss& loss) {

@@ -20,6 +20,7 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/config/config.h"
 #include "bus/runtime/scenario.h"
+#include "channel_server/links/echo_plan.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/packets/packet_medium.h"
@@ -116,8 +117,7 @@ struct ServerRules {
   ReachRule reach;
   RayQueryRule ray_queries;
   int bottom_points = 9;  // under each link, for its echoes
-  double echo_reuse_distance_m =
-      5;  // how far the ends of a link may move before its echoes are surveyed again
+  EchoRule echoes;
   SeabedRule seabed;
   double profile_reuse_distance_m = 25;  // between the places where bottom profiles of link tables end
   double row_reuse_distance_m = 0;       // over which rows of link tables are carried on (links/kept_rows.h)

@@ -66,7 +66,7 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       noise_(sounds_),
       predictor_(make_predictor(rules)),
       kept_rows_(sounds_.differ() ? 0 : rules.row_reuse_distance_m),
-      echoes_(rules.echo_reuse_distance_m),
+      echoes_(rules.echoes.reuse_distance_m),
       rays_(rules.ray_queries),
       queries_(vehicles_, *water_.propagation, predictor_, noise_, echoes_, rays_,
                {rules.bottom_points, rules.ray_queries.answer_deadline}),
@@ -75,7 +75,8 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       publisher_(bus()),
       journal_(bus(), publisher_),
       inbox_(bus(), rules.medium.shard, vehicles_.equipment()),
-      seabed_(bus(), {rays_, queries_, echoes_, *water_.seabed, *water_.propagation}, rules.bottom_points),
+      seabed_(bus(), {rays_, queries_, echoes_, *water_.seabed, *water_.propagation}, rules.bottom_points,
+              rules.echoes, rules.medium.shard),
       exchange_(bus(), publisher_, rules.medium.shard, rules.ray_queries.answer_deadline, hash_of(scenario)),
       packets_(bus(), journal_),
       tables_(publisher_, bus().log(),
@@ -175,7 +176,7 @@ bool ChannelServerNode::run_tick(SimTime tick, SimTime steady) {
   if (!tables.is_prepared && !prepare(tables, steady)) return false;
   if (shares_searches_ && exchange_.must_wait(steady)) return false;
   tables_.publish(tick, tables.present, tables.rows);
-  seabed_.begin_tick(tables.present, tables.rows);
+  seabed_.begin_tick(tables.present, tables.all_links());
   tables_in_work_.reset();
   return true;
 }
@@ -195,6 +196,8 @@ ChannelServerNode::Tables ChannelServerNode::begin_tables(SimTime tick) {
       tick, vehicles_, tables.present,
       [this](const acoustics::Modem& modem) { return predictor_.least_sinr_db(modem); });
   tables.rows = table_rows(tables.present, tables.ranges_m, rules_.medium.shard);
+  if (!rules_.medium.shard.is_alone())
+    tables.links_of_all = table_rows(tables.present, tables.ranges_m).links;
   kept_rows_.carry_on(tick, {water_.waters->water_at(tick), water_.seabed->version()},
                       water_.propagation->environment(tick), tables.present, tables.rows);
   return tables;
@@ -204,11 +207,9 @@ bool ChannelServerNode::prepare(Tables& tables, SimTime steady) {
   Propagation& propagation = *water_.propagation;
   const SimTime tick = tables.tick;
   const std::vector<EndPair> links = tables.rows.to_compute();
-  const bool is_noise_ready =
-      tables_.is_noise_ready(tick, links);  // asked first, so that all is requested at once
+  const bool is_noise_ready = tables_.is_noise_ready(tick, links);  // asked first: all is requested at once
   if (!propagation.are_ready(tick, links) || !is_noise_ready) return false;
-  if (propagation.plans_ticks())
-    propagation.begin_tick(tick, table_rows(tables.present, tables.ranges_m).links);
+  if (propagation.plans_ticks()) propagation.begin_tick(tick, tables.all_links());
   if (shares_searches_) {
     propagation.prepare_tables(tick, links, pool_.sharing_out());
     exchange_.end_tick(tick, steady);

@@ -35,6 +35,7 @@
 #include "channel_server/packet_publisher.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/packets/vehicle_sounds.h"
+#include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/reach.h"
 #include "channel_server/seabed_client.h"
 #include "channel_server/server_recovery.h"
@@ -79,6 +80,8 @@ class ChannelServerNode : public bus::Node {
     std::vector<PlacedVehicle> present;
     std::vector<double> ranges_m;
     TableRows rows;
+    std::vector<EndPair> links_of_all;  // of this server and others; empty where there are none
+    const std::vector<EndPair>& all_links() const { return links_of_all.empty() ? rows.links : links_of_all; }
     bool is_prepared = false;  // what this server is to search has been searched
   };
   Tables begin_tables(SimTime tick);

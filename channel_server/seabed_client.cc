@@ -27,10 +27,12 @@ std::string in_base_36(std::uint64_t number) {
 
 }  // namespace
 
-SeabedClient::SeabedClient(bus::Bus& bus, Models models, int bottom_points)
+SeabedClient::SeabedClient(bus::Bus& bus, Models models, int bottom_points, EchoRule echoes, Shard shard)
     : bus_(bus),
       models_(models),
       bottom_points_(bottom_points),
+      plan_(echoes),
+      shard_(std::move(shard)),
       client_name_(client_name(bus.identity().session)) {
   bus_.subscribe<ray_reply_t>(channels::kRayReply.of(client_name_),
                               [this](const ray_reply_t& reply) { replies_.push_back(reply); });
@@ -66,6 +68,7 @@ void SeabedClient::forget_terrain() {
   if (terrain_version_.empty()) return;
   models_.echoes.clear();
   models_.seabed.clear();
+  plan_.clear();
   surveyed_pairs_.clear();
   surveyed_tiles_.clear();
 }
@@ -84,22 +87,25 @@ void SeabedClient::take_finished_surveys() {
       continue;
     }
     const auto pair = surveyed_pairs_.extract(finished.id);
-    if (!pair.empty()) store(pair.mapped(), std::move(finished));
+    if (pair.empty()) continue;
+    if (finished.answered)
+      models_.echoes.store(pair.mapped(), std::move(std::get<EchoSurvey>(finished.survey)));
+    else
+      plan_.note_unanswered(pair.mapped());
   }
 }
 
-void SeabedClient::store(const VehiclePair& pair, RayQueryClient::Finished finished) {
-  models_.echoes.note_queried(pair);
-  if (finished.answered) models_.echoes.store(pair, std::move(std::get<EchoSurvey>(finished.survey)));
-}
-
-void SeabedClient::begin_tick(const std::vector<PlacedVehicle>& vehicles, const TableRows& rows) {
+void SeabedClient::begin_tick(const std::vector<PlacedVehicle>& vehicles, const std::vector<EndPair>& links) {
   models_.seabed.forget_unused();
-  for (const RayQueryClient::SurveyId dropped : models_.rays.begin_tick()) surveyed_pairs_.erase(dropped);
+  for (const RayQueryClient::SurveyId dropped : models_.rays.begin_tick()) {
+    const auto pair = surveyed_pairs_.extract(dropped);
+    if (!pair.empty()) plan_.note_unanswered(pair.mapped());
+  }
   if (models_.propagation.uses_bottom()) return;  // rays hold the echoes
-  for (const VehiclePair& pair : models_.echoes.begin_tick(vehicles, rows)) {
-    const EchoSurvey survey(models_.echoes.place(pair.first), models_.echoes.place(pair.second),
-                            bottom_points_);
+  models_.echoes.begin_tick(vehicles);
+  for (const auto& [pair, low_ned_m, high_ned_m] : plan_.begin_tick(links)) {
+    if (!shard_.serves(pair.first) && !shard_.serves(pair.second)) continue;
+    const EchoSurvey survey(low_ned_m, high_ned_m, bottom_points_);
     surveyed_pairs_.emplace(models_.rays.submit_routine(survey), pair);
   }
 }
@@ -139,6 +145,7 @@ void SeabedClient::clear() {
   models_.rays.clear();
   models_.echoes.clear();
   models_.seabed.clear();
+  plan_.clear();
   surveyed_pairs_.clear();
   surveyed_tiles_.clear();
 }
@@ -148,8 +155,9 @@ std::string SeabedClient::status_text() const {
   const std::string service = models_.rays.is_away()     ? "away"
                               : terrain_version_.empty() ? "not present"
                                                          : "answering";
-  return "bathymetry " + service + ", " + std::to_string(counters.surveys_dropped) +
-         " echo surveys dropped, " + std::to_string(counters.surveys_failed) + " failed";
+  return "bathymetry " + service + ", " + std::to_string(plan_.put_off()) + " echo surveys put off, " +
+         std::to_string(counters.surveys_dropped) + " dropped, " + std::to_string(counters.surveys_failed) +
+         " failed";
 }
 
 }  // namespace halocline::channel_server

@@ -15,12 +15,13 @@
 
 #include "bus/bus.h"
 #include "bus/runtime/node.h"
+#include "channel_server/links/echo_plan.h"
 #include "channel_server/links/link_query_service.h"
-#include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_map.h"
+#include "channel_server/vehicles/shard.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/sim_time.h"
@@ -37,8 +38,8 @@ class SeabedClient {
     SeabedMap& seabed;
     const Propagation& propagation;
   };
-  // `bottom_points`: of an echo survey.
-  SeabedClient(bus::Bus& bus, Models models, int bottom_points);
+  // `bottom_points`: of an echo survey. `shard`: whose vehicles' surveys are queried here.
+  SeabedClient(bus::Bus& bus, Models models, int bottom_points, EchoRule echoes, Shard shard);
   SeabedClient(const SeabedClient&) = delete;
   SeabedClient& operator=(const SeabedClient&) = delete;
 
@@ -47,8 +48,9 @@ class SeabedClient {
 
   // True when the replies received are of another terrain than those before: what was known of that is forgotten.
   [[nodiscard]] bool take_replies();
-  // Echo surveys that no batch has taken yet make room for those of the rows of a tick, at which `vehicles` are present.
-  void begin_tick(const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
+  // Echo surveys that no batch has taken yet make room for those of the tables of a tick, at which `vehicles` are present;
+  // `links`: all links between them.
+  void begin_tick(const std::vector<PlacedVehicle>& vehicles, const std::vector<EndPair>& links);
   void publish_queries(const bus::Now& now);
 
   // Steady time at which take_replies() or publish_queries() has something to do, or who waits for the seabed may
@@ -63,13 +65,14 @@ class SeabedClient {
  private:
   void forget_terrain();
   void take_finished_surveys();
-  void store(const VehiclePair& pair, RayQueryClient::Finished finished);
   void retry_failed_tiles(SimTime steady);
   void report_presence();
 
   bus::Bus& bus_;
   Models models_;
   int bottom_points_;
+  EchoPlan plan_;
+  Shard shard_;
   std::string client_name_;
   std::vector<ray_reply_t> replies_;
   std::map<RayQueryClient::SurveyId, VehiclePair> surveyed_pairs_;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/links/multipath_cache.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace halocline::channel_server {
 
 bool MultipathCache::serves(const Entry& entry, const Vec3& low, const Vec3& high) const {
-  return entry.surveyed && (entry.survey.from_ned_m() - low).norm() <= reuse_distance_m_ &&
+  return (entry.survey.from_ned_m() - low).norm() <= reuse_distance_m_ &&
          (entry.survey.to_ned_m() - high).norm() <= reuse_distance_m_;
 }
 
@@ -44,43 +44,17 @@ Multipath MultipathCache::verdict_of(Entry& entry, SimTime at, const PlacedVehic
   return verdict.multipath;
 }
 
-std::vector<VehiclePair> MultipathCache::begin_tick(const std::vector<PlacedVehicle>& vehicles,
-                                                    const TableRows& rows) {
-  ++tick_;
+void MultipathCache::begin_tick(const std::vector<PlacedVehicle>& vehicles) {
   places_.clear();
   for (const auto& vehicle : vehicles) places_.emplace(vehicle.id, vehicle.placement.position_ned_m);
   std::erase_if(entries_, [&](const auto& entry) {
     return !places_.contains(entry.first.first) || !places_.contains(entry.first.second);
   });
-  std::vector<VehiclePair> pairs_with_rows;
-  pairs_with_rows.reserve(rows.links.size());
-  for (const EndPair& link : rows.links) pairs_with_rows.push_back(pair_of(link.from.id, link.to.id));
-  std::sort(pairs_with_rows.begin(), pairs_with_rows.end());
-  pairs_with_rows.erase(std::unique(pairs_with_rows.begin(), pairs_with_rows.end()), pairs_with_rows.end());
-  std::vector<std::pair<std::int64_t, VehiclePair>> wanted;
-  for (const VehiclePair& pair : pairs_with_rows) {
-    const Entry& entry = entries_[pair];
-    if (!serves(entry, places_.at(pair.first), places_.at(pair.second))) {
-      wanted.push_back({entry.queried_at_tick, pair});
-    }
-  }
-  std::sort(wanted.begin(), wanted.end());
-  std::vector<VehiclePair> pairs;
-  for (const auto& [queried_at_tick, pair] : wanted) pairs.push_back(pair);
-  return pairs;
-}
-
-void MultipathCache::note_queried(const VehiclePair& pair) {
-  const auto entry = entries_.find(pair);
-  if (entry != entries_.end()) entry->second.queried_at_tick = tick_;
 }
 
 void MultipathCache::store(const VehiclePair& pair, EchoSurvey survey) {
-  const auto entry = entries_.find(pair);
-  if (entry == entries_.end()) return;  // one of the two has left
-  entry->second.survey = std::move(survey);
-  entry->second.surveyed = true;
-  entry->second.verdicts[0] = entry->second.verdicts[1] = Verdict();
+  if (!places_.contains(pair.first) || !places_.contains(pair.second)) return;  // one of the two has left
+  entries_[pair] = {std::move(survey), {}};
 }
 
 void MultipathCache::forget_verdicts() {
@@ -88,7 +62,6 @@ void MultipathCache::forget_verdicts() {
 }
 
 void MultipathCache::clear() {
-  tick_ = 0;
   places_.clear();
   entries_.clear();
 }

@@ -4,7 +4,7 @@
 // Rule. The row of tick k holds the echoes of the geometry of tick k-1: its answer has had a whole period to
 // arrive, so a table never waits, and a replay gives the same tables. A survey serves as long as both ends (at
 // tick k-1) lie within `reuse_distance` of where they were when it was queried; without one the row holds
-// unknown. One survey serves both directions.
+// unknown. One survey serves both directions. Which pairs are surveyed: echo_plan.h.
 #pragma once
 
 #include <cstddef>
@@ -38,15 +38,9 @@ class MultipathCache {
   Multipath at(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
                Propagation& propagation);
 
-  // The tables of a tick are made; its geometry is this. Returns the pairs with rows that need a survey, those
-  // queried longest ago first.
-  std::vector<VehiclePair> begin_tick(const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
-  // Place of a vehicle at the last tick; the vehicle was among those of begin_tick.
-  const Vec3& place(VehicleId id) const { return places_.at(id); }
-
-  // The pair was queried, with or without an answer.
-  void note_queried(const VehiclePair& pair);
-  // The survey's `from` is the lower id.
+  // The tables of a tick are made; its geometry is this.
+  void begin_tick(const std::vector<PlacedVehicle>& vehicles);
+  // The survey's `from` is the lower id. Of vehicles that are not present it is not kept.
   void store(const VehiclePair& pair, EchoSurvey survey);
 
   // The water is another from now on: verdicts are computed anew.
@@ -61,8 +55,6 @@ class MultipathCache {
     bool known = false;
   };
   struct Entry {
-    bool surveyed = false;
-    std::int64_t queried_at_tick = -1;
     EchoSurvey survey;
     Verdict verdicts[2];  // from the lower id, from the higher
   };
@@ -73,7 +65,6 @@ class MultipathCache {
                     const Vec3& from, const Vec3& to, Propagation& propagation);
 
   double reuse_distance_m_;
-  std::int64_t tick_ = 0;
   struct PairHash {
     std::size_t operator()(const VehiclePair& pair) const {
       return std::hash<std::uint64_t>()(static_cast<std::uint64_t>(pair.first) << 32 |

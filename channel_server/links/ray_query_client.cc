@@ -19,7 +19,7 @@ constexpr int kSendings = 4;  // of a batch without an answer
 RayQueryClient::RayQueryClient(RayQueryRule rule) : rule_(rule) {
   require(rule.rays_per_batch >= 128 && rule.rays_per_batch <= 4096,
           "rays_per_batch: allowed is 128 to 4096");
-  require(rule.batches_in_flight >= 1 && rule.batches_per_tick >= 1, "at least one batch must be allowed");
+  require(rule.batches_in_flight >= 1, "at least one batch must be allowed");
   require(rule.answer_deadline > SimDuration(), "the deadline of answers must be positive");
 }
 
@@ -50,18 +50,17 @@ std::vector<RayQueryClient::SurveyId> RayQueryClient::begin_tick() {
     queue->clear();
   }
   counters_.surveys_dropped += static_cast<std::int64_t>(dropped.size());
-  sent_this_tick_ = 0;
   return dropped;
 }
 
-bool RayQueryClient::may_send(bool urgent) const {
-  if (away_) return in_flight_.empty();
-  return in_flight_.size() < rule_.batches_in_flight && (urgent || sent_this_tick_ < rule_.batches_per_tick);
+bool RayQueryClient::may_send() const {
+  return away_ ? in_flight_.empty() : in_flight_.size() < rule_.batches_in_flight;
 }
 
 const RayQueryClient::Queue* RayQueryClient::next_queue() const {
+  if (!may_send()) return nullptr;
   for (const Queue* queue : {&urgent_ways_, &urgent_depths_, &routine_ways_, &routine_depths_}) {
-    if (!queue->empty()) return may_send(queue->front().urgent) ? queue : nullptr;
+    if (!queue->empty()) return queue;
   }
   return nullptr;
 }
@@ -87,7 +86,6 @@ RayQueryBatch RayQueryClient::send_from(Queue& queue, SimTime steady) {
   InFlight sent{{++last_request_, kind, {}}, {}, steady};
   if (const auto* tile = std::get_if<TileSurvey>(&queue.front().survey))
     sent.batch.spacing_m = tile->spacing_m();
-  if (!queue.front().urgent) ++sent_this_tick_;
   while (!queue.empty() && next_query(queue.front().survey) == kind) {
     const auto rays = rays_of(queue.front().survey);
     const bool fits = sent.batch.rays.size() + rays.size() <= max_rays;
@@ -186,7 +184,6 @@ void RayQueryClient::clear() {
   for (Queue* queue : {&urgent_ways_, &urgent_depths_, &routine_ways_, &routine_depths_}) queue->clear();
   in_flight_.clear();
   finished_.clear();
-  sent_this_tick_ = 0;
 }
 
 }  // namespace halocline::channel_server

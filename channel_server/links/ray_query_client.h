@@ -3,10 +3,8 @@
 // in flight, repeats and times out, and detects when the service is away and back.
 //
 // Surveys go through their queries (a tile; of an echo survey depths, then ways), each in batches of one kind of up to
-// `rays_per_batch` rays or kTilesPerBatch tiles. No more than `batches_in_flight` wait for an answer, no more than `batches_per_tick`
-// are sent between two begin_tick(); routine surveys that have not been sent by the next tick are dropped and
-// counted: their rows hold unknown, and they come first then. Urgent surveys go before routine ones and
-// do not count.
+// `rays_per_batch` rays or kTilesPerBatch tiles. No more than `batches_in_flight` wait for an answer. Routine surveys that have not
+// been sent by the next tick are dropped and counted: their rows hold unknown. Urgent surveys go before routine ones.
 //
 // A batch without an answer is sent again after each quarter of the deadline, and given up at the deadline: the
 // service is away then. Where the owner looks for the first time after the deadline, because it was busy itself, the deadline counts from there. While it is away urgent surveys fail at once, and one batch at a time keeps probing;
@@ -31,7 +29,6 @@ namespace halocline::channel_server {
 struct RayQueryRule {
   std::size_t rays_per_batch = 1024;  // 128..4096; a batch of 1024 is a message of 57 kB
   std::size_t batches_in_flight = 4;  // 1 and up
-  std::size_t batches_per_tick = 64;  // 1 and up
   SimDuration answer_deadline = SimDuration::from_milliseconds(250);  // above 0
 };
 
@@ -62,7 +59,7 @@ class RayQueryClient {
 
   SurveyId submit_routine(TerrainSurvey survey);
   SurveyId submit_urgent(TerrainSurvey survey);
-  // Drops routine surveys not sent yet and opens the allowance of a new tick; returns the dropped.
+  // Drops routine surveys not sent yet, and returns them.
   std::vector<SurveyId> begin_tick();
 
   // What to send at `steady`: new batches and repetitions. Gives up what is overdue.
@@ -98,7 +95,7 @@ class RayQueryClient {
   };
   using Queue = std::deque<Waiting>;
   Queue& queue_of(const Waiting& waiting);
-  bool may_send(bool urgent) const;
+  bool may_send() const;
   // What goes next; null when nothing may.
   const Queue* next_queue() const;
   SimTime next_action(const InFlight& batch) const;
@@ -111,7 +108,6 @@ class RayQueryClient {
 
   RayQueryRule rule_;
   bool away_ = false;
-  std::size_t sent_this_tick_ = 0;
   SurveyId last_survey_ = 0;
   std::int64_t last_request_ = 0;
   // What is begun is finished before anything new is; what is urgent goes before all.
