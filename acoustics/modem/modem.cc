@@ -110,7 +110,8 @@ bool hops_well(const Modem& modem) {
 bool same_family(const Modem& sender, const Modem& receiver) { return sender.family == receiver.family; }
 
 Decibels band_loss(const Modem& sender, const Modem& receiver) {
-  return -to_decibels(PowerRatio{std::max(band_share(sender.band(), receiver.band()), kLeastShare)});
+  const double share = band_share(sender.band(), receiver.band());
+  return share == 1 ? Decibels{} : -to_decibels(PowerRatio{std::max(share, kLeastShare)});
 }
 
 }  // namespace halocline::acoustics

@@ -94,15 +94,13 @@ std::vector<double> window_powers(const std::vector<SoundPath>& paths, const std
 
 GuardWindow window_from(std::size_t first, const std::vector<SoundPath>& paths,
                         const std::vector<double>& powers, const Modem& modem, const Guard& guard) {
-  GuardWindow window{.first = first, .strongest = first, .weights = {}, .interference = {}};
-  window.weights.reserve(paths.size());
-  window.interference.reserve(paths.size());
+  GuardWindow window{.first = first, .strongest = first, .shares = {}};
+  window.shares.reserve(paths.size());
   double strongest = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const double after_s = paths[i].delay_s - paths[first].delay_s;
     const double w = i < first ? 0 : guard.weight(after_s);
-    window.weights.push_back(w);
-    window.interference.push_back((1 - w * w) * (w < 1 ? hop_overlap(modem, std::abs(after_s)) : 0));
+    window.shares.push_back({w, (1 - w * w) * (w < 1 ? hop_overlap(modem, std::abs(after_s)) : 0)});
     if (w * w * powers[i] > strongest) {
       strongest = w * w * powers[i];
       window.strongest = i;
@@ -134,7 +132,7 @@ const std::vector<SoundPath>& without_faint(const std::vector<SoundPath>& paths,
 }
 
 GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem) {
-  if (paths.size() == 1) return {.first = 0, .strongest = 0, .weights = {1}, .interference = {0}};
+  if (paths.size() == 1) return {.first = 0, .strongest = 0, .shares = {{1, 0}}};
   const Guard guard(modem);
   const std::vector<double> powers = mean_powers(paths), sums = window_powers(paths, powers, guard);
   const auto best = std::max_element(sums.begin(), sums.end());
@@ -163,7 +161,7 @@ std::vector<LikelyWindow> likely_windows(const std::vector<SoundPath>& paths, co
 double mean_signal(const std::vector<SoundPath>& paths, const GuardWindow& window) {
   double sum = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    sum += window.weights[i] * window.weights[i] * to_power_ratio(paths[i].level).value;
+    sum += window.shares[i].weight * window.shares[i].weight * to_power_ratio(paths[i].level).value;
   }
   return sum;
 }
@@ -171,7 +169,7 @@ double mean_signal(const std::vector<SoundPath>& paths, const GuardWindow& windo
 double mean_interference(const std::vector<SoundPath>& paths, const GuardWindow& window) {
   double sum = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    sum += window.interference[i] * to_power_ratio(paths[i].level).value;
+    sum += window.shares[i].interference * to_power_ratio(paths[i].level).value;
   }
   return sum;
 }

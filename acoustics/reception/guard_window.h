@@ -17,11 +17,16 @@
 
 namespace halocline::acoustics {
 
+// Of a path in a window.
+struct WindowShare {
+  double weight = 0;        // of its pressure in the signal, 0..1
+  double interference = 0;  // share of its power that interferes, 0..1
+};
+
 struct GuardWindow {
-  std::size_t first = 0;             // path at which it begins
-  std::size_t strongest = 0;         // of the paths in it, by weighted power
-  std::vector<double> weights;       // of each path's pressure in the signal, 0..1
-  std::vector<double> interference;  // share of each path's power that interferes, 0..1
+  std::size_t first = 0;            // path at which it begins
+  std::size_t strongest = 0;        // of the paths in it, by weighted power
+  std::vector<WindowShare> shares;  // of each path
 };
 
 // Mean powers of paths, uPa^2, within 1e-9.

@@ -178,10 +178,10 @@ double late_share(const std::vector<SoundPath>& paths, const std::vector<double>
                   const GuardWindow& window, double preamble_s, double end_s) {
   double all = 0, shared = 0;
   for (std::size_t p = 0; p < paths.size(); ++p) {
-    if (!(window.interference[p] > 0)) continue;
+    if (!(window.shares[p].interference > 0)) continue;
     const double begin_s = paths[p].delay_s - paths[window.first].delay_s,
                  share = share_within(begin_s, begin_s + end_s, preamble_s, end_s),
-                 power = window.interference[p] * powers[p] * share;
+                 power = window.shares[p].interference * powers[p] * share;
     all += power;
     shared += share * power;
   }
@@ -220,10 +220,10 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     const double holds = rates.holds[p];
     const double fast = fading.scattered * (1 - holds),
                  turned_share = fading.medium + fading.scattered * holds,
-                 within = squared(lock.window.weights[p]) * power;
+                 within = squared(lock.window.shares[p].weight) * power;
     const double of_path = within * kept * tracked_share(*lock.modem, path), rest = within - of_path;
     double interference = rest;
-    if (const double late = lock.window.interference[p] * power; late > 0) {
+    if (const double late = lock.window.shares[p].interference * power; late > 0) {
       const double of_bits = late * share_within(begin_s, begin_s + end_s, preamble_s, end_s);
       const double of_preamble = late * share_within(begin_s, begin_s + end_s, 0, preamble_s);
       const double fades = 1 - squared(fading.coherent);

@@ -66,8 +66,8 @@ class BandSum {
     for (std::size_t p = 0; p < paths.size(); ++p) {
       const double excess_s = paths[p].delay_s - strongest.delay_s;
       const Complex between = elementary::polar(1.0, -2 * pi * cycles_in(step_hz, excess_s));
-      Complex turn =
-          elementary::polar(lock.window.weights[p], -2 * pi * cycles_in(band.low_hz + step_hz / 2, excess_s));
+      Complex turn = elementary::polar(lock.window.shares[p].weight,
+                                       -2 * pi * cycles_in(band.low_hz + step_hz / 2, excess_s));
       for (std::size_t i = 0; i < places_; ++i, turn *= between) first_.push_back(turn);
       next_.push_back(elementary::polar(1.0, -2 * pi * cycles_in(spacing_hz, excess_s)));
     }
@@ -93,15 +93,15 @@ class BandMean {
  public:
   BandMean(const std::vector<SoundPath>& paths, const Lock& lock, const Band& band) {
     for (std::size_t p = 0; p < paths.size(); ++p) {
-      if (!(lock.window.weights[p] > 0)) continue;
+      if (!(lock.window.shares[p].weight > 0)) continue;
       for (const std::size_t q : within_) {
         const double apart_s = paths[p].delay_s - paths[q].delay_s;
         pairs_.push_back(elementary::polar(
-            2 * lock.window.weights[p] * lock.window.weights[q] * sinc(band.width_hz() * apart_s),
+            2 * lock.window.shares[p].weight * lock.window.shares[q].weight * sinc(band.width_hz() * apart_s),
             -2 * pi * cycles_in(band.centre_hz(), apart_s)));
       }
       within_.push_back(p);
-      squares_.push_back(squared(lock.window.weights[p]));
+      squares_.push_back(squared(lock.window.shares[p].weight));
     }
   }
   // `responses` of all paths.
@@ -166,9 +166,9 @@ class HistoryMaker {
     double echoes = 0;
     for (std::size_t p = 0; p < paths_.size(); ++p) {
       const Complex h = responses[p * static_cast<std::size_t>(times.count) + static_cast<std::size_t>(i)];
-      const double power = std::norm(h), w2 = squared(lock_.window.weights[p]);
+      const double power = std::norm(h), w2 = squared(lock_.window.shares[p].weight);
       const Sounding when = sounding(paths_[p], first, strongest, timing_.duration_s);
-      echoes += (lock_.window.interference[p] + w2 * (1 - tracked_[p])) * power *
+      echoes += (lock_.window.shares[p].interference + w2 * (1 - tracked_[p])) * power *
                 share_within(when, at_s - times.step_s / 2, at_s + times.step_s / 2);
       if (!(w2 > 0)) continue;
       const double turned = band_.centre_hz() * (paths_[p].doppler_factor - strongest.doppler_factor) * at_s;
@@ -224,8 +224,8 @@ double tracked_share(const Modem& receiver, const SoundPath& path) {
 double coherence_time_s(const std::vector<SoundPath>& paths, const GuardWindow& window) {
   double weight = 0, squares = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (!(window.weights[i] > 0)) continue;
-    const double power = squared(window.weights[i]) * fast_power(paths[i].level.value);
+    if (!(window.shares[i].weight > 0)) continue;
+    const double power = squared(window.shares[i].weight) * fast_power(paths[i].level.value);
     weight += power;
     squares += power * squared(paths[i].fading.doppler_spread_hz);
   }
@@ -274,9 +274,9 @@ SignalHistory still_history(const std::vector<SoundPath>& paths, const Lock& loc
   };
   std::vector<Echo> own_echoes;
   for (std::size_t p = 0; p < paths.size(); ++p) {
-    if (!(lock.window.interference[p] > 0)) continue;
+    if (!(lock.window.shares[p].interference > 0)) continue;
     const Sounding when = sounding(paths[p], first, strongest, timing.duration_s);
-    own_echoes.push_back({when, lock.window.interference[p] * to_power_ratio(paths[p].level).value});
+    own_echoes.push_back({when, lock.window.shares[p].interference * to_power_ratio(paths[p].level).value});
     for (const double edge : {when.begin_s, when.end_s}) {
       if (edge > 0 && edge < timing.duration_s) history.edges_s.push_back(edge);
     }

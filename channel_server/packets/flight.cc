@@ -90,6 +90,16 @@ SimTime expected_arrival(const Flight& flight, SimTime decided_at, const Vehicle
   return departure + SimDuration::from_seconds((place->position_ned_m - from).norm() / speed_mps);
 }
 
+// Where the receiver is when the propagation is evaluated for it next, with what is known at `decided_at`; empty: nowhere.
+std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
+                                Propagation& propagation) {
+  const SimTime expected = expected_arrival(flight, decided_at, fleet, propagation);
+  const auto predicted = fleet.prediction(flight.receiver_id, expected, decided_at);
+  if (!predicted) return std::nullopt;
+  return LinkEnd{flight.receiver_id, predicted->position_ned_m, predicted->velocity_ned_mps,
+                 &receiving_modem(fleet.modem(flight.receiver_id, expected), flight.packet->modem)};
+}
+
 }  // namespace
 
 SimTime Flight::first_sound() const {
@@ -103,15 +113,6 @@ SimTime Flight::lock() const {
 
 double Flight::doppler_factor() const {
   return reception.paths.empty() ? 1 : reception.paths[window.strongest].doppler_factor;
-}
-
-std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
-                                Propagation& propagation) {
-  const SimTime expected = expected_arrival(flight, decided_at, fleet, propagation);
-  const auto predicted = fleet.prediction(flight.receiver_id, expected, decided_at);
-  if (!predicted) return std::nullopt;
-  return LinkEnd{flight.receiver_id, predicted->position_ned_m, predicted->velocity_ned_mps,
-                 &receiving_modem(fleet.modem(flight.receiver_id, expected), flight.packet->modem)};
 }
 
 void evaluate_together(const std::vector<Flight*>& begun, const VehicleRegistry& fleet,
@@ -133,15 +134,18 @@ void evaluate_together(const std::vector<Flight*>& begun, const VehicleRegistry&
   });
 }
 
-void solve_arrival(Flight& flight, const std::optional<LinkEnd>& end, SimTime decided_at,
-                   const VehicleRegistry& fleet, Propagation& propagation) {
-  ++flight.solutions;
-  if (!end) return;
-  if (!serves(flight, *end)) {
+bool try_to_solve(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
+                  Propagation& propagation) {
+  const auto end = next_end(flight, decided_at, fleet, propagation);
+  if (end && !serves(flight, *end)) {
     const SimTime departure = flight.packet->departure;
-    evaluate(flight, *end, propagation.reception_without_capacity(departure, flight.packet->link_end(), *end),
+    const LinkEnd from = flight.packet->link_end();
+    if (!propagation.is_ready_for_packet(departure, from, *end)) return false;
+    evaluate(flight, *end, propagation.reception_without_capacity(departure, from, *end),
              propagation.environment(departure));
   }
+  ++flight.solutions;
+  if (!end) return true;
   const StateHistory& states = *fleet.states_of(flight.receiver_id);
   for (int round = 0; round < kMaxRounds; ++round) {
     const auto receiver = states.at(flight.arrival(), decided_at, fleet.rule());
@@ -149,13 +153,9 @@ void solve_arrival(Flight& flight, const std::optional<LinkEnd>& end, SimTime de
     const double travel_time_s = std::max(flight.solved_delay_s + flight.slowness_s_per_m.dot(moved), 0.0);
     const double change_s = std::abs(travel_time_s - flight.travel_time_s);
     flight.travel_time_s = travel_time_s;
-    if (change_s < kSettledS) return;
+    if (change_s < kSettledS) break;
   }
-}
-
-bool is_solvable(const Flight& flight, const std::optional<LinkEnd>& end, Propagation& propagation) {
-  return !end || serves(flight, *end) ||
-         propagation.is_ready_for_packet(flight.packet->departure, flight.packet->link_end(), *end);
+  return true;
 }
 
 AudiblePacket audible_packet(const Flight& flight) {
@@ -181,6 +181,7 @@ AudiblePacket disturbing_sound(const Flight& flight, const ReachModel* reach) {
 }
 
 double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed) {
+  if (!fading.enabled) return 1;
   return acoustics::LinkFading(fading, fading_link(flight, seed)).large_scale(flight.lock());
 }
 

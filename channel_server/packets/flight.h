@@ -81,22 +81,16 @@ struct Flight {
   double doppler_factor() const;
 };
 
-// Where the receiver is when the propagation is evaluated for it next, with what is known at `decided_at`; empty: nowhere.
-std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
-                                Propagation& propagation);
-
-// Gives flights of one packet, none of which was solved yet, the reception that solve_arrival() would ask for, where the
+// Gives flights of one packet, none of which was solved yet, the reception that try_to_solve() would ask for, where the
 // propagation is ready for it; that is shared out by `for_each`.
 void evaluate_together(const std::vector<Flight*>& begun, const VehicleRegistry& fleet,
                        Propagation& propagation, const ForEach& for_each);
 
-// Solves for travel time and reception, with what is known at `decided_at`; `end` is next_end() of the same. A receiver that
-// is forgotten keeps the last solution. Throws as Propagation::reception.
-void solve_arrival(Flight& flight, const std::optional<LinkEnd>& end, SimTime decided_at,
-                   const VehicleRegistry& fleet, Propagation& propagation);
-
-// Whether the propagation knows all that solve_arrival() needs of it (Propagation::is_ready).
-bool is_solvable(const Flight& flight, const std::optional<LinkEnd>& end, Propagation& propagation);
+// Solves for travel time and reception, with what is known at `decided_at`; false, and nothing is changed, where the propagation
+// does not know all that it needs (Propagation::is_ready_for_packet). A receiver that is forgotten keeps the last solution.
+// Throws as Propagation::reception.
+[[nodiscard]] bool try_to_solve(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
+                                Propagation& propagation);
 
 // All paths of a flight that has arrived, as the receiver gets them, with the link's large-scale fading.
 AudiblePacket audible_packet(const Flight& flight);

@@ -171,8 +171,11 @@ PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleEq
   return outcome;
 }
 
-PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m) {
+PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m, VehicleId receiver_id,
+                                   std::string receiver) {
   PacketOutcome outcome;
+  outcome.receiver_id = receiver_id;
+  outcome.receiver = std::move(receiver);
   outcome.kind = OutcomeKind::kOutOfReach;
   outcome.packet = packet;
   outcome.budget.range_m = range_m;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
@@ -40,9 +41,10 @@ OutcomeKind decide_outcome(Flight& flight, SimTime at, const VehicleRegistry& fl
 // The record of a flight that ended as `kind`; `promiscuous`: the receiver takes packets for others, too.
 PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleEquipment& equipment,
                          bool promiscuous = false);
-// Of a packet that does not get as far as `range_m`, at several receivers: kOutOfReach. Levels are kSilence, nothing else was
-// computed.
-PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m);
+// Of a packet that does not get as far as `range_m`, at a receiver, or without one at several: kOutOfReach. Levels are kSilence,
+// nothing else was computed.
+PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m, VehicleId receiver_id = 0,
+                                   std::string receiver = {});
 // What a packet took from the battery of its sender, and of its receiver by its end; nothing without one.
 void add_sending(const Packet& packet, const VehiclePower& power, std::vector<MediumEvent>& events);
 void add_receiving(const Flight& flight, const PacketOutcome& outcome, SimTime at, const VehiclePower& power,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "channel_server/packets/packet.h"
 #include "core/check.h"
@@ -30,11 +31,16 @@ Flight& FlightQueue::take_first() {
   return *first.flight;
 }
 
-Flight& FlightQueue::make_flight() {
-  if (ended_.empty()) return flights_.emplace_back();
-  Flight* flight = ended_.back();
+Flight& FlightQueue::make_flight(PacketPointer packet, std::uint64_t identity, VehicleId receiver_id,
+                                 std::string receiver) {
+  if (ended_.empty()) ended_.push_back(&flights_.emplace_back());
+  Flight& flight = *ended_.back();
   ended_.pop_back();
-  return *flight;
+  flight.packet = std::move(packet);
+  flight.identity = identity;
+  flight.receiver_id = receiver_id;
+  flight.receiver = std::move(receiver);
+  return flight;
 }
 
 std::vector<Flight*> FlightQueue::due_by(SimTime time, Flight::Stage stage) const {

@@ -8,9 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <string>
 #include <vector>
 
 #include "channel_server/packets/flight.h"
+#include "channel_server/packets/packet.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -19,14 +22,14 @@ class FlightQueue {
  public:
   bool empty() const { return entries_.empty(); }
   std::size_t size() const { return entries_.size(); }
-  // Of the first, only while not empty.
+  // Of the first flight, only while not empty.
   SimTime next_event() const { return entries_.front().at; }
-  const Flight& first() const { return *entries_.front().flight; }
   // Removes it: to be added again, or to be ended.
   Flight& take_first();
 
-  // As made by default; to be added.
-  Flight& make_flight();
+  // Of a packet (`identity`: identity_for_draws) to a receiver; to be added.
+  Flight& make_flight(PacketPointer packet, std::uint64_t identity, VehicleId receiver_id,
+                      std::string receiver);
   // Its next event is at `at`, in the stage that it has. No other flight may be of the same packet to the same receiver.
   void add(SimTime at, Flight& flight);
   void end(Flight& flight);

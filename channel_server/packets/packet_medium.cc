@@ -2,8 +2,6 @@
 #include "channel_server/packets/packet_medium.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 
 #include "acoustics/modem/modem.h"
 #include "channel_server/packets/flight_outcome.h"
@@ -99,7 +97,7 @@ SimTime PacketMedium::next_answerable() const {
   return next;
 }
 
-std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
+const std::vector<MediumEvent>& PacketMedium::advance_to(SimTime time) {
   events_.clear();
   waiting_ = false;
   SimTime reached = time;
@@ -117,7 +115,7 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
   }
   for (MediumEvent& event : events_) event.late = event.at < advanced_to_;
   advanced_to_ = std::max(advanced_to_, reached);
-  return {std::make_move_iterator(events_.begin()), std::make_move_iterator(events_.end())};
+  return events_;
 }
 
 bool PacketMedium::must_be_put_off(const Departure& departure) const {
@@ -195,56 +193,54 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
       if (receiver.id != destination) {
         ++others.receivers;
       } else if (is_served) {
-        PacketOutcome lost = outcome_out_of_reach(packet, range_m);
-        lost.receiver_id = receiver.id;
-        lost.receiver = fleet_.name_of(receiver.id);
-        events.push_back({departure, std::move(lost)});
+        events.push_back(
+            {departure, outcome_out_of_reach(packet, range_m, receiver.id, fleet_.name_of(receiver.id))});
       }
     } else if (rule_.shard.serves(receiver.id)) {
-      Flight& flight = flights_.make_flight();
-      flight.packet = packet;
+      Flight& flight = flights_.make_flight(packet, identity, receiver.id, fleet_.name_of(receiver.id));
       flight.is_too_late = is_late;
-      flight.identity = identity;
-      flight.receiver_id = receiver.id;
-      flight.receiver = fleet_.name_of(receiver.id);
       begun.push_back(&flight);
-      flights_.add(departure, flight);  // solved there
     }
   }
   if (propagation_.uses_bottom()) evaluate_together(begun, fleet_, propagation_, for_each_);
+  for (Flight* flight : begun)
+    if (!try_to_arrive(*flight, departure)) flights_.add(departure, *flight);
   if (is_served && others.receivers > 0) {
     events.push_back({departure, std::move(others)});
   }
 }
 
 bool PacketMedium::on_flight_event(SimTime at, std::vector<MediumEvent>& events) {
-  const Flight& first = flights_.first();
-  if (first.stage == Flight::Stage::kTravelling) {
-    const auto end = next_end(first, at, fleet_, propagation_);
-    if (!is_solvable(first, end, propagation_)) return false;
-    arrive(flights_.take_first(), end, at);
-  } else if (first.stage == Flight::Stage::kSolved) {
-    if (!sounds_.are_ready(first, at)) return false;
-    begin_reception(flights_.take_first(), at);
-  } else if (first.stage == Flight::Stage::kPreamble) {
-    end_preamble(flights_.take_first(), at, events);
-  } else {
-    Flight& flight = flights_.take_first();
+  Flight& flight = flights_.take_first();
+  const Flight::Stage stage = flight.stage;
+  const bool waits = stage == Flight::Stage::kTravelling
+                         ? !try_to_arrive(flight, at)
+                         : stage == Flight::Stage::kSolved && !sounds_.are_ready(flight, at);
+  if (waits) {
+    flights_.add(at, flight);
+  } else if (stage == Flight::Stage::kSolved) {
+    begin_reception(flight, at);
+  } else if (stage == Flight::Stage::kPreamble) {
+    end_preamble(flight, at, events);
+  } else if (stage == Flight::Stage::kBits) {
     end_packet(flight, at, events);
     flights_.end(flight);
   }
-  return true;
+  return !waits;
 }
 
-void PacketMedium::arrive(Flight& flight, const std::optional<LinkEnd>& end, SimTime at) {
-  solve_arrival(flight, end, at, fleet_, propagation_);
+bool PacketMedium::try_to_arrive(Flight& flight, SimTime at) {
+  if (!try_to_solve(flight, at, fleet_, propagation_)) return false;
   const SimTime first_sound = flight.first_sound();
   if (first_sound > at + kSolvedInTime && flight.solutions < kMaxSolutions) {
-    return flights_.add(first_sound, flight);
+    flights_.add(first_sound, flight);
+  } else if (!sounds_.any()) {
+    begin_reception(flight, at);
+  } else {
+    flight.stage = Flight::Stage::kSolved;
+    flights_.add(at, flight);
   }
-  if (!sounds_.any()) return begin_reception(flight, at);
-  flight.stage = Flight::Stage::kSolved;
-  flights_.add(at, flight);
+  return true;
 }
 
 void PacketMedium::begin_reception(Flight& flight, SimTime at) {
@@ -278,9 +274,10 @@ void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEv
                              !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
   if (!is_impossible) flight.followed = receiver.followed_at(signal.preamble_end, *flight.packet);
   if (!is_impossible && !flight.followed) {
-    if (!flight.is_evaluated)
+    if (!flight.is_evaluated && signal.fades)
       evaluate_signals(flight, flights_.due_by(at + kSoon, Flight::Stage::kPreamble), rule_.fading,
                        rule_.seed, for_each_);
+    if (!flight.is_evaluated) evaluate_signal(flight, rule_.fading, rule_.seed);
     const auto others = interferers_of(flight, receiver, signal.begin, signal.preamble_end);
     flight.acquired = acquires(signal, others, flight.draws, flight.statistics);
     if (flight.acquired && signal.fades) {
@@ -330,10 +327,10 @@ void PacketMedium::forget_before(SimTime time) {
   register_.forget_before(time);
   watch_.forget_before(time);
   answered_.erase(answered_.begin(), answered_.lower_bound({time, {}, {}, {}, {}}));
-  for (auto receiver = receivers_.begin(); receiver != receivers_.end();) {
-    receiver->second.forget(time + rule_.max_lateness);
-    receiver = receiver->second.silent() ? receivers_.erase(receiver) : std::next(receiver);
-  }
+  for (auto& [id, receiver] : receivers_) receiver.forget(time + rule_.max_lateness);
+  std::erase_if(receivers_, [&](const auto& receiver) {
+    return receiver.second.silent() && fleet_.states_of(receiver.first) == nullptr;
+  });
 }
 
 void PacketMedium::clear() {

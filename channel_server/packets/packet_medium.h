@@ -48,6 +48,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <unordered_map>
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
@@ -109,8 +110,8 @@ class PacketMedium {
   // When a packet that a modem may answer next departs, arrives or ends; SimTime::never() without one, though the water waits.
   SimTime next_answerable() const;
   // Everything that happens up to and including `time`, which does not decrease from call to call; up to the first
-  // event that waits.
-  std::vector<MediumEvent> advance_to(SimTime time);
+  // event that waits. Valid until the next call.
+  const std::vector<MediumEvent>& advance_to(SimTime time);
   // Whether the last advance_to() ended at an event that waits for the propagation: to be called again when that may
   // be ready.
   bool is_waiting() const { return waiting_; }
@@ -144,7 +145,8 @@ class PacketMedium {
 
   // Of the first flight; false: it must wait for the propagation.
   bool on_flight_event(SimTime at, std::vector<MediumEvent>& events);
-  void arrive(Flight& flight, const std::optional<LinkEnd>& end, SimTime at);
+  // Solves for the arrival of a flight that is not in the queue and puts it there; false, and nothing: it must wait.
+  [[nodiscard]] bool try_to_arrive(Flight& flight, SimTime at);
   void begin_reception(Flight& flight, SimTime at);
   void end_preamble(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   void end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
@@ -160,7 +162,7 @@ class PacketMedium {
   ModemWatch watch_;
   std::map<DepartureKey, Departure> departures_;
   FlightQueue flights_;
-  std::map<VehicleId, ReceiverState> receivers_;
+  std::unordered_map<VehicleId, ReceiverState> receivers_;  // of vehicles that are known
   std::set<std::tuple<SimTime, VehicleId, VehicleId, std::int64_t, std::int64_t>>
       answered_;  // see add_answer
   // Of one launch and of one advance, whose memory serves the next.

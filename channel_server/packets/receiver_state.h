@@ -10,6 +10,8 @@
 #include <memory>
 #include <vector>
 
+#include <boost/container/small_vector.hpp>
+
 #include "acoustics/math/frequency_band.h"
 #include "channel_server/packets/packet.h"
 #include "core/sim_time.h"
@@ -24,8 +26,8 @@ struct AudiblePath {
 
 struct AudiblePacket {
   PacketPointer packet;
-  SimTime begin, end;  // of all paths together
-  std::vector<AudiblePath> paths;
+  SimTime begin, end;                                    // of all paths together
+  boost::container::small_vector<AudiblePath, 1> paths;  // one on a straight line
 };
 
 // The noise of a vehicle, over the band of the packet it disturbs.

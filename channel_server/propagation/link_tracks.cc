@@ -9,14 +9,16 @@ namespace halocline::channel_server {
 void weigh(const std::vector<acoustics::SoundPath>& paths, const acoustics::Modem& receiver,
            LinkTracks& tracks) {
   if (paths.empty()) return;
-  const std::vector<double> weights = best_window(paths, receiver).weights;
+  const acoustics::GuardWindow window = best_window(paths, receiver);
   std::size_t at = 0;
   for (PathTrack& track : tracks.paths) {
     const auto is_this = [&](const acoustics::SoundPath& path) {
       return path.delay_s == track.path.delay_s && path.identity == track.path.identity;
     };
     while (at < paths.size() && !is_this(paths[at])) ++at;
-    if (at < paths.size()) track.guard_weight = weights[at] * weights[at];
+    if (at == paths.size()) continue;
+    const double weight = window.shares[at].weight;
+    track.guard_weight = weight * weight;
   }
 }
 

@@ -64,9 +64,8 @@ Reception StraightPropagation::along_line(const acoustics::LinkKernel& kernel,
   Reception reception;
   reception.budget = kernel.budget(from.position_ned_m, to.position_ned_m, capacity, to.above_ambient);
   if (water.field) take_field(kernel, water, ends, capacity, reception.budget);
-  SoundPath path = straight_path(water, reception.budget, from, to);
+  SoundPath& path = reception.paths.emplace_back(straight_path(water, reception.budget, from, to));
   path.fading = path_fading(fading_, water.noise.wind_mps, from.modem->centre_frequency_hz, 0, 0);
-  reception.paths = {path};
   return reception;
 }
 
@@ -114,10 +113,18 @@ StraightPropagation::ModemKey StraightPropagation::key_of(const acoustics::Modem
   return {numbers, std::move(beam), modem.family};
 }
 
+// Whether key_of() gives them the same.
+bool StraightPropagation::are_alike(const acoustics::Modem& a, const acoustics::Modem& b) {
+  return a.source_level == b.source_level && a.min_receivable_level == b.min_receivable_level &&
+         a.centre_frequency_hz == b.centre_frequency_hz && a.bandwidth_hz == b.bandwidth_hz &&
+         a.directivity_index == b.directivity_index && a.family == b.family && a.beam == b.beam;
+}
+
 std::shared_ptr<const acoustics::LinkKernel> StraightPropagation::kernel_of(
     SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver) {
   const EnvironmentTimeline::WaterId water = waters_->water_at(at);
-  if (last_ && water == last_water_ && last_->transmitter() == transmitter && last_->receiver() == receiver)
+  if (last_ && water == last_water_ && are_alike(last_->transmitter(), transmitter) &&
+      are_alike(last_->receiver(), receiver))
     return last_;
   last_ = kernels_.find_or_make({water, key_of(transmitter), key_of(receiver)}, [&] {
     return std::make_shared<const acoustics::LinkKernel>(waters_->at(at), transmitter, receiver);

@@ -74,6 +74,7 @@ class StraightPropagation : public Propagation {
   using ModemKey = std::tuple<std::array<double, 5>, std::vector<double>, std::string>;
   using PairKey = std::tuple<EnvironmentTimeline::WaterId, ModemKey, ModemKey>;
   static ModemKey key_of(const acoustics::Modem& modem);
+  static bool are_alike(const acoustics::Modem& a, const acoustics::Modem& b);
   Reception along_line(const acoustics::LinkKernel& kernel, const acoustics::Environment& water,
                        const EndPair& ends, acoustics::Capacity capacity) const;
 

@@ -54,20 +54,11 @@ std::string VehicleRegistry::problem_of_stranger(VehicleId id) const {
 }
 
 // Where the vehicle is among all, or belongs. Ids that follow one another, as those of most fleets, need no search.
-std::size_t VehicleRegistry::place_of(VehicleId id) const {
-  if (vehicles_.empty() || id <= vehicles_.front()->id) return 0;
-  const auto guess = static_cast<std::size_t>(static_cast<std::int64_t>(id) -
-                                              static_cast<std::int64_t>(vehicles_.front()->id));
-  if (guess < vehicles_.size() && vehicles_[guess]->id == id) return guess;
+std::size_t VehicleRegistry::searched_place_of(VehicleId id) const {
   const auto place =
       std::lower_bound(vehicles_.begin(), vehicles_.end(), id,
                        [](const auto& vehicle, VehicleId sought) { return vehicle->id < sought; });
   return static_cast<std::size_t>(place - vehicles_.begin());
-}
-
-const VehicleRegistry::Vehicle* VehicleRegistry::find(VehicleId id) const {
-  const std::size_t place = place_of(id);
-  return place < vehicles_.size() && vehicles_[place]->id == id ? vehicles_[place].get() : nullptr;
 }
 
 VehicleRegistry::Vehicle& VehicleRegistry::add_vehicle(std::string_view name, VehicleId id) {

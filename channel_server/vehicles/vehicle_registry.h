@@ -134,8 +134,18 @@ class VehicleRegistry {
   };
   // Empty, or why the scenario's vehicles leave no place for another.
   std::string problem_of_stranger(VehicleId id) const;
-  std::size_t place_of(VehicleId id) const;
-  const Vehicle* find(VehicleId id) const;
+  // Where the vehicle is among vehicles_, or would be. Ids mostly rise by one.
+  std::size_t place_of(VehicleId id) const {
+    const std::size_t guess =
+        vehicles_.empty() ? 0
+                          : static_cast<std::size_t>(id) - static_cast<std::size_t>(vehicles_.front()->id);
+    return guess < vehicles_.size() && vehicles_[guess]->id == id ? guess : searched_place_of(id);
+  }
+  std::size_t searched_place_of(VehicleId id) const;
+  const Vehicle* find(VehicleId id) const {
+    const std::size_t place = place_of(id);
+    return place < vehicles_.size() && vehicles_[place]->id == id ? vehicles_[place].get() : nullptr;
+  }
   Vehicle& add_vehicle(std::string_view name, VehicleId id);
   Schedules configured(std::string_view name) const;
   // Of a vehicle with or without a state; what is announced now was received at `received_at`.

@@ -103,7 +103,7 @@ class ScriptedWater : public ::testing::Test {
     send(request_of(source, start_s, sequence, bytes));
   }
   void run(double until_s = 110) {
-    for (MediumEvent& event : medium.advance_to(at_s(until_s))) events.push_back(std::move(event));
+    for (const MediumEvent& event : medium.advance_to(at_s(until_s))) events.push_back(event);
   }
   // Of the packet that `source` called `sequence`, at `receiver`.
   const PacketOutcome& end_of(VehicleId source, std::int64_t sequence, VehicleId receiver,

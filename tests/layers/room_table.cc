@@ -79,7 +79,7 @@ const std::vector<Room>& rooms() {
        {"core", "acoustics/math", "acoustics/noise", "acoustics/sea", "acoustics/modem", "acoustics/rays",
         "acoustics/fading", "acoustics/reception", "acoustics/link", "channel_server/vehicles",
         "channel_server/propagation"},
-       {},
+       {"boost/container/"},
        "packets need no tables of links"},
       {"channel_server/links",
        {"core", "acoustics/math", "acoustics/sea", "acoustics/modem", "acoustics/rays", "acoustics/fading",

@@ -26,7 +26,9 @@ TEST(GuardWindow, LocksOnTheIntervalThatHoldsTheMostPowerNotOnAWeakPrecursor) {
   const GuardWindow window = best_window(paths, modem());
   EXPECT_EQ(window.first, 1u);
   EXPECT_EQ(window.strongest, 1u);
-  EXPECT_EQ(window.weights, (std::vector<double>{0, 1, 1}));
+  EXPECT_EQ(window.shares[0].weight, 0);
+  EXPECT_EQ(window.shares[1].weight, 1);
+  EXPECT_EQ(window.shares[2].weight, 1);
   EXPECT_NEAR(mean_signal(paths, window), 1 + std::pow(10, -0.3), 1e-12);
   EXPECT_NEAR(mean_interference(paths, window), std::pow(10, -1.5), 1e-12);
 }
@@ -44,8 +46,8 @@ TEST(GuardWindow, WeightsAnEchoByARaisedCosineAfterTheGuardTime) {
     const std::vector<SoundPath> paths{path_at(1, 0), path_at(1.010 + 0.010 * late, -10)};
     const double w = (1 + std::cos(std::numbers::pi * late)) / 2;
     const GuardWindow window = best_window(paths, modem());
-    EXPECT_NEAR(window.weights[1], w, 1e-9);
-    EXPECT_NEAR(window.interference[1], 1 - w * w, 1e-9);
+    EXPECT_NEAR(window.shares[1].weight, w, 1e-9);
+    EXPECT_NEAR(window.shares[1].interference, 1 - w * w, 1e-9);
   }
 }
 

@@ -53,7 +53,7 @@ class PacketEnergy : public ::testing::Test {
     fleet_.equipment().power.add_report(testing::name_of(id), at_s(at), is_empty);
   }
   void run(double until_s = 50) {
-    for (MediumEvent& event : medium_.advance_to(at_s(until_s))) events_.push_back(std::move(event));
+    for (const MediumEvent& event : medium_.advance_to(at_s(until_s))) events_.push_back(event);
   }
   std::vector<EnergyUse> uses() const {
     std::vector<EnergyUse> uses;
