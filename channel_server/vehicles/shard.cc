@@ -8,12 +8,22 @@
 namespace halocline::channel_server {
 namespace {
 
+// In an area of this side vehicles hear most others, and no cut across it saves links.
+constexpr double kSmallAreaM = 3000;
+
 double side_m(std::span<const StartPlace> vehicles, int axis) {
   const auto by_place = [axis](const StartPlace& a, const StartPlace& b) {
     return a.start_ned_m[axis] < b.start_ned_m[axis];
   };
   const auto [least, most] = std::minmax_element(vehicles.begin(), vehicles.end(), by_place);
   return most->start_ned_m[axis] - least->start_ned_m[axis];
+}
+
+void take_turns(std::span<StartPlace> vehicles, int first, int count, ServersByVehicle& servers) {
+  std::sort(vehicles.begin(), vehicles.end(),
+            [](const StartPlace& a, const StartPlace& b) { return a.id < b.id; });
+  int turn = 0;
+  for (const StartPlace& vehicle : vehicles) servers[vehicle.id] = first + turn++ % count;
 }
 
 // Among the servers from `first` on.
@@ -24,6 +34,10 @@ void share_out(std::span<StartPlace> vehicles, int first, int count, ServersByVe
     return;
   }
   const int axis = side_m(vehicles, 0) > side_m(vehicles, 1) ? 0 : 1;
+  if (side_m(vehicles, axis) <= kSmallAreaM) {
+    take_turns(vehicles, first, count, servers);
+    return;
+  }
   std::sort(vehicles.begin(), vehicles.end(), [axis](const StartPlace& a, const StartPlace& b) {
     return std::tuple(a.start_ned_m[axis], a.id) < std::tuple(b.start_ned_m[axis], b.id);
   });

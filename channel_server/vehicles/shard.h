@@ -49,8 +49,9 @@ struct StartPlace {
 };
 
 // Shares vehicles out among `count` servers by where they start, so that few links run from those of one to those of another: the
-// vehicles are cut in two across their longer side, north or east, and the parts again, until each server has as many as any
-// other but for one. They stay with their servers wherever they go.
+// vehicles are cut in two across their longer side, north or east, and the parts again. In an area of 3 km, where most hear each
+// other, the servers take the vehicles in turns of their ids instead, so that each has as many in the middle, which hear most. Each
+// server has as many vehicles as any other but for one. They stay with their servers wherever they go.
 std::shared_ptr<const ServersByVehicle> servers_by_place(std::vector<StartPlace> vehicles, int count);
 
 }  // namespace halocline::channel_server

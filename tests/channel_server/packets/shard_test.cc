@@ -9,6 +9,7 @@
 #include <memory>
 #include <set>
 #include <sstream>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -139,14 +140,26 @@ TEST(Shard, VehiclesOfOnePlaceHaveOneServer) {
 }
 
 TEST(Shard, ServersHaveAsManyVehiclesButForOne) {
-  for (const int count : {2, 3, 7, 25}) {
+  for (const auto& [count, scale] : {std::pair{2, 1.0}, {3, 20.0}, {7, 1.0}, {25, 20.0}}) {
     std::vector<StartPlace> vehicles;
-    for (VehicleId id = 1; id <= 100; ++id) vehicles.push_back({id, {37.0 * (id % 11), 53.0 * (id % 7), 20}});
+    for (VehicleId id = 1; id <= 100; ++id)
+      vehicles.push_back({id, {37.0 * scale * (id % 11), 53.0 * scale * (id % 7), 20}});
     std::vector<int> served(static_cast<std::size_t>(count));
     for (const auto& [id, server] : *servers_by_place(vehicles, count))
       ++served[static_cast<std::size_t>(server)];
     const auto [least, most] = std::minmax_element(served.begin(), served.end());
     EXPECT_LE(*most - *least, 1) << count;
+  }
+}
+
+// Whoever starts in one area of 3 km is shared in turns, whatever its place there; beyond, by place.
+TEST(Shard, VehiclesOfASmallAreaAreSharedInTurns) {
+  for (const double side_m : {2900.0, 3100.0}) {
+    std::vector<StartPlace> vehicles;
+    for (VehicleId id = 1; id <= 100; ++id) vehicles.push_back({id, {side_m * (id - 1) / 99, 500, 20}});
+    const Shard shard{0, 2, servers_by_place(vehicles, 2)};
+    for (VehicleId id = 1; id <= 100; ++id)
+      EXPECT_EQ(shard.of(id), side_m < 3000 ? (id - 1) % 2 : (id <= 50 ? 0 : 1)) << side_m << ' ' << id;
   }
 }
 
