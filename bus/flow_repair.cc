@@ -44,9 +44,15 @@ std::vector<FlowRepair::Answer> FlowRepair::take_answers(SimTime steady) {
 // Whether a heartbeat of this session came before, of another moment.
 bool FlowRepair::is_known(SimTime steady, std::int64_t session) {
   constexpr std::size_t kMaxSessions = 4096;
-  if (first_heartbeats_.size() >= kMaxSessions) first_heartbeats_.clear();
-  const SimTime first = first_heartbeats_.emplace(session, steady).first->second;
-  return (steady - first) * 2 >= kHeartbeatPeriod;
+  constexpr SimDuration kForgottenAfter = SimDuration::from_milliseconds(30'000);
+  if (!heartbeats_of_others_.contains(session)) {
+    std::erase_if(heartbeats_of_others_,
+                  [&](const auto& entry) { return steady - entry.second.last >= kForgottenAfter; });
+    if (heartbeats_of_others_.size() >= kMaxSessions) heartbeats_of_others_.clear();
+  }
+  Heard& heard = heartbeats_of_others_.try_emplace(session, Heard{steady, steady}).first->second;
+  heard.last = steady;
+  return (steady - heard.first) * 2 >= kHeartbeatPeriod;
 }
 
 flow_heartbeat_t FlowRepair::take_heartbeat(SimTime sim, SimTime steady) {

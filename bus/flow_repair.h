@@ -87,6 +87,9 @@ class FlowRepair {
     std::string channel;
     std::int64_t session = 0, sequence = 0;
   };
+  struct Heard {
+    SimTime first, last;
+  };
   bool is_known(SimTime steady, std::int64_t session);
 
   std::string name_;
@@ -100,7 +103,7 @@ class FlowRepair {
   std::deque<Wanted> wanted_;
   double answers_ = kLeastAnswers;  // the bucket at filled_at_
   SimTime filled_at_, next_answer_ = SimTime::at_once();
-  std::unordered_map<std::int64_t, SimTime> first_heartbeats_;  // by session; bounded
+  std::unordered_map<std::int64_t, Heard> heartbeats_of_others_;  // by session; bounded
 };
 
 }  // namespace halocline::bus

@@ -30,15 +30,25 @@ FlowWatch::Publisher* FlowWatch::find(std::string_view channel, std::int64_t ses
   return &found->second.back();
 }
 
-FlowWatch::Publisher& FlowWatch::add(std::string_view channel, std::int64_t session, std::int64_t first) {
-  auto found = received_.find(channel);
-  if (found == received_.end()) found = received_.emplace(std::string(channel), Publishers()).first;
-  if (found->second.size() >= kSessionsKept) {
-    const std::size_t missing = found->second.front().missing.size();
+void FlowWatch::make_room(SimTime steady, Publishers& publishers) {
+  const auto is_superfluous = [&](const Publisher& longest_silent) {
+    return publishers.size() >= kMaxSessions || num_flows_ >= kMaxFlows ||
+           steady - longest_silent.heard_at >= kForgottenAfter;
+  };
+  while (publishers.size() >= kSessionsKept && is_superfluous(publishers.front())) {
+    const std::size_t missing = publishers.front().missing.size();
     lose(static_cast<std::int64_t>(missing));
     num_missing_ -= missing;
-    found->second.erase(found->second.begin());
+    --num_flows_;
+    publishers.erase(publishers.begin());
   }
+}
+
+FlowWatch::Publisher& FlowWatch::add(SimTime steady, std::string_view channel, std::int64_t session,
+                                     std::int64_t first) {
+  auto found = received_.find(channel);
+  if (found == received_.end()) found = received_.emplace(std::string(channel), Publishers()).first;
+  make_room(steady, found->second);
   // A flow that was not yet in its publisher's heartbeat is expected from sequence number 0.
   const bool began_after = std::find(listed_.begin(), listed_.end(), session) != listed_.end();
   const std::int64_t expected = began_after ? std::min<std::int64_t>(first, 0) : first;
@@ -46,7 +56,9 @@ FlowWatch::Publisher& FlowWatch::add(std::string_view channel, std::int64_t sess
   publisher.session = session;
   publisher.first = expected;
   publisher.last = expected == std::numeric_limits<std::int64_t>::min() ? expected : expected - 1;
+  publisher.heard_at = steady;
   found->second.push_back(std::move(publisher));
+  ++num_flows_;
   return found->second.back();
 }
 
@@ -79,18 +91,18 @@ FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view
   if (publisher != nullptr) publisher->is_heard = true;
   if (publisher != nullptr && publisher->missing.erase(sequence) > 0) {
     --num_missing_;
-    publisher->received_at = steady;
+    publisher->heard_at = steady;
     return {.fills_gap = true};
   }
   if (is_repair) return {.is_repeated = true};
-  if (publisher == nullptr) publisher = &add(channel, session, sequence);
+  if (publisher == nullptr) publisher = &add(steady, channel, session, sequence);
   publisher->is_heard = true;
   Classification result;
   if (sequence > publisher->last) {
     result.newly_missing = note_missing(*publisher, steady, publisher->last + 1, sequence);
     publisher->last = sequence;
   } else if (distance(sequence, publisher->last) >= kRepetitionReach ||
-             steady - publisher->received_at >= kRepetitionAge) {
+             steady - publisher->heard_at >= kRepetitionAge) {
     if (publisher->is_listed) return {.is_repeated = true};
     publisher->first = publisher->last = sequence;  // it starts its sequence anew
   } else if (sequence < publisher->first) {         // reordered with the first received
@@ -99,7 +111,7 @@ FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view
   } else {
     return {.is_repeated = true};
   }
-  publisher->received_at = steady;
+  publisher->heard_at = steady;
   return result;
 }
 
@@ -110,7 +122,8 @@ std::int64_t FlowWatch::on_last(SimTime steady, std::string_view channel, std::i
   if (has_no_room_for(channel)) return 0;
   Publisher* publisher = find(channel, session);
   if (publisher == nullptr && !makes_flow) return 0;
-  if (publisher == nullptr) publisher = &add(channel, session, last + 1);
+  if (publisher == nullptr) publisher = &add(steady, channel, session, last + 1);
+  publisher->heard_at = steady;
   publisher->is_listed = true;
   std::int64_t newly_missing = 0;
   if (from_its_start && publisher->first > 0) {
@@ -162,7 +175,7 @@ std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {
 void FlowWatch::forget() {
   received_.clear();
   listed_.clear();
-  num_missing_ = 0;
+  num_missing_ = num_flows_ = 0;
   next_due_ = SimTime::never();
 }
 

@@ -80,6 +80,8 @@ class FlowWatch {
   std::int64_t lost() const { return lost_; }
   // Messages that are missing now.
   std::size_t num_missing() const { return num_missing_; }
+  // Sessions of channels that are remembered.
+  std::size_t num_flows() const { return num_flows_; }
 
   // Another run has begun: its publishers may start their sequences anew.
   void forget();
@@ -92,21 +94,24 @@ class FlowWatch {
   struct Publisher {
     std::int64_t session = 0;
     std::int64_t first = 0, last = -1;  // nothing before first is expected; last was received, or announced
-    SimTime received_at;
+    SimTime heard_at;
     bool is_heard = false;  // by more than a heartbeat
     bool is_listed =
         false;  // in a heartbeat: its numbers go on for as long as its session, what is far behind is a duplicate
     std::map<std::int64_t, Missing> missing;
   };
-  // Sessions kept per channel: the one silent for longest makes room, so that memory stays bounded.
-  static constexpr std::size_t kSessionsKept = 8;
+  // Sessions kept per channel: of more than kSessionsKept those that are silent for kForgottenAfter make room, so that memory stays
+  // flat while programs start anew; of kMaxSessions, or while kMaxFlows are known, the one silent for longest.
+  static constexpr std::size_t kSessionsKept = 4, kMaxSessions = 128, kMaxFlows = 4 * kMaxChannels;
+  static constexpr SimDuration kForgottenAfter = SimDuration::from_milliseconds(30'000);
   bool has_no_room_for(std::string_view channel) const {
     return received_.size() >= kMaxChannels && !received_.contains(channel);
   }
   using Publishers = std::vector<Publisher>;  // the one received last is at the end
 
   Publisher* find(std::string_view channel, std::int64_t session);
-  Publisher& add(std::string_view channel, std::int64_t session, std::int64_t first);
+  Publisher& add(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t first);
+  void make_room(SimTime steady, Publishers& publishers);
   void lose(std::int64_t count);
   std::int64_t note_missing(Publisher& publisher, SimTime steady, std::int64_t first, std::int64_t end);
 
@@ -114,7 +119,7 @@ class FlowWatch {
   std::deque<std::int64_t> listed_;  // sessions whose flows a heartbeat has listed, the latest last
   SimTime next_due_ = SimTime::never();
   std::int64_t lost_ = 0;
-  std::size_t num_missing_ = 0;  // of all flows
+  std::size_t num_missing_ = 0, num_flows_ = 0;  // of all channels
 };
 
 }  // namespace halocline::bus

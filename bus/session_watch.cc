@@ -13,9 +13,12 @@ bool SessionWatch::is_recent(SimTime steady, const Times& times, std::int64_t se
 
 void SessionWatch::note(SimTime steady, Times& times, std::int64_t session) {
   constexpr std::size_t kMaxSessions = 4096;
-  if (times.size() >= kMaxSessions)
-    std::erase_if(times, [&](const auto& entry) { return steady - entry.second >= kSilence; });
+  if (times.size() >= kMaxSessions) forget_silent(steady, times);
   if (times.size() < kMaxSessions || times.contains(session)) times[session] = steady;
+}
+
+void SessionWatch::forget_silent(SimTime steady, Times& times) {
+  std::erase_if(times, [&](const auto& entry) { return steady - entry.second >= kSilence; });
 }
 
 bool SessionWatch::holds(SimTime steady, std::string_view name, std::int64_t session) {
@@ -34,6 +37,10 @@ bool SessionWatch::holds(SimTime steady, std::string_view name, std::int64_t ses
 // A session that one name believes is no rival because another name is claimed with it: anybody may claim.
 bool SessionWatch::on_heartbeat(SimTime steady, std::string_view node, std::int64_t session) {
   if (holds(steady, node, session)) {
+    if (!heartbeats_.contains(session)) {
+      forget_silent(steady, heartbeats_);
+      forget_silent(steady, rivals_);
+    }
     note(steady, heartbeats_, session);
     rivals_.erase(session);
     return true;

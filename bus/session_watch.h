@@ -48,6 +48,7 @@ class SessionWatch {
   };
   using Times = std::unordered_map<std::int64_t, SimTime>;  // by session
   static bool is_recent(SimTime steady, const Times& times, std::int64_t session);
+  static void forget_silent(SimTime steady, Times& times);
   static void note(SimTime steady, Times& times, std::int64_t session);
   bool holds(SimTime steady, std::string_view name, std::int64_t session);
   bool decides(SimTime steady, std::int32_t receiver, std::int64_t session);

@@ -148,7 +148,7 @@ SimTime ModemClient::next_resend() const {
 }
 
 void ModemClient::archive(Archive& a) {
-  a(next_sequence_, next_listen_, counters_, pending_, receipts_, waiting_, known_, known_in_order_);
+  a(next_sequence_, next_listen_, counters_, pending_, receipts_, waiting_, known_);
   if (!a.is_loading()) return;
   for (auto& [sequence, pending] : pending_) {
     pending.next_try = SimTime();
@@ -186,12 +186,9 @@ void ModemClient::take_packet(const modem_receive_t& packet) {
 }
 
 bool ModemClient::is_new(const PacketName& packet) {
-  if (!known_.insert(packet).second) return false;
-  known_in_order_.push_back(packet);
-  if (known_in_order_.size() > kMaxRemembered) {
-    known_.erase(known_in_order_.front());
-    known_in_order_.pop_front();
-  }
+  if (std::find(known_.rbegin(), known_.rend(), packet) != known_.rend()) return false;
+  known_.push_back(packet);
+  if (known_.size() > kMaxRemembered) known_.pop_front();
   return true;
 }
 

@@ -24,7 +24,6 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <tuple>
@@ -96,7 +95,7 @@ class ModemClient {
   using EventHandler = std::function<void(const modem_event_t&)>;
 
   // Bounds of what a client keeps: packets not taken yet, receipts, and packet identities to detect duplicates.
-  static constexpr std::size_t kMaxWaiting = 1000, kMaxReceipts = 1000, kMaxRemembered = 1000;
+  static constexpr std::size_t kMaxWaiting = 1000, kMaxReceipts = 100, kMaxRemembered = 200;
 
   // `wakeup`: what the handlers of receipts and packets may do to the node (bus/subscription.h).
   ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy = {},
@@ -179,8 +178,7 @@ class ModemClient {
   std::map<std::int64_t, Pending> pending_;
   std::map<std::int64_t, modem_receipt_t> receipts_;
   std::deque<modem_receive_t> waiting_;
-  std::set<PacketName> known_;
-  std::deque<PacketName> known_in_order_;
+  std::deque<PacketName> known_;  // the latest last
 };
 
 }  // namespace halocline::clients

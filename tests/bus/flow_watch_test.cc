@@ -95,6 +95,29 @@ TEST_F(FlowWatchTest, KeepsTheSessionReceivedLastAmongMany) {
   EXPECT_EQ(missing_before("A", 1, 35), 4);
 }
 
+// As many as shards that share OUTCOME.
+TEST_F(FlowWatchTest, SeventySessionsOfOneChannelAreFollowedWhileAllAreHeard) {
+  for (int sequence = 0; sequence < 100; sequence += 2) {
+    for (int session = 1; session <= 70; ++session) {
+      const auto arrival = watch_.on_message(at_ms(1000 * sequence), "A", session, sequence);
+      EXPECT_EQ(arrival.newly_missing, sequence > 0 ? 1 : 0);
+    }
+  }
+}
+
+// A program that is started anew every minute has four sessions that are known, and one that is silent for less than half of one is
+// remembered whatever follows it.
+TEST_F(FlowWatchTest, SessionsThatAreSilentForLongAreForgotten) {
+  for (int session = 1; session <= 100; ++session)
+    watch_.on_message(at_ms(60'000 * session), "A", session, 5);
+  const SimTime now = at_ms(60'000 * 100 + 1000);
+  for (int session = 97; session <= 100; ++session)
+    EXPECT_TRUE(watch_.on_message(now, "A", session, 5, true).is_repeated);
+  EXPECT_EQ(watch_.num_flows(), 4u);
+  for (int session = 101; session <= 110; ++session) watch_.on_message(now, "A", session, 5);
+  EXPECT_EQ(watch_.num_flows(), 11u);
+}
+
 TEST_F(FlowWatchTest, HostileSequenceNumbersNeitherOverflowNorGrow) {
   missing_before("A", 1, INT64_MIN);
   EXPECT_GE(missing_before("A", 1, INT64_MAX), 0);
