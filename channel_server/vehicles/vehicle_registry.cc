@@ -49,8 +49,9 @@ void VehicleRegistry::reserve(std::string_view name, VehicleId id) {
 std::string VehicleRegistry::problem_of_stranger(VehicleId id) const {
   if (reserved_ids_.contains(id))
     return "vehicle_id " + std::to_string(id) + " is that of another vehicle in the scenario";
-  if (num_strangers_ + reserved_.size() < kMaxVehicles) return {};
-  return "too many vehicles; at most " + std::to_string(kMaxVehicles) + " are followed";
+  if (num_strangers_ < kMaxStrangers) return {};
+  return "too many vehicles; at most " + std::to_string(kMaxStrangers) +
+         " that are not of the scenario are followed";
 }
 
 // Where the vehicle is among all, or belongs. Ids that follow one another, as those of most fleets, need no search.

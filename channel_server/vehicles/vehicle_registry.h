@@ -6,7 +6,7 @@
 // is forgotten. All answers are functions of the messages received and of the instants given, whatever the
 // order of the messages.
 //
-// Bounded: beyond kMaxVehicles a new vehicle is refused; those of reserve() always have their places. The modem of a vehicle without a state is forgotten when no
+// Bounded: beyond kMaxStrangers a new vehicle is refused; those of reserve() always have their places. The modem of a vehicle without a state is forgotten when no
 // state follows in time, and when kMaxAnnounced others were announced after it, so names made up without end keep
 // nobody's modem out.
 //
@@ -43,8 +43,8 @@ struct ConfiguredModems {
 
 class VehicleRegistry {
  public:
-  static constexpr std::size_t kMaxVehicles = halocline::kMaxVehicles;
-  static constexpr std::size_t kMaxAnnounced = 2 * kMaxVehicles;  // modems of vehicles without a state
+  static constexpr std::size_t kMaxStrangers = 4096;          // vehicles that were not reserved
+  static constexpr std::size_t kMaxAnnounced = kMaxVehicles;  // modems of vehicles without a state
 
   VehicleRegistry(PositionRule rule, ConfiguredModems modems, VehicleEquipment equipment = {});
 

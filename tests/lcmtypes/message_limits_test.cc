@@ -24,10 +24,10 @@
 #include "bus/flow_watch.h"
 #include "bus/message_field.h"
 #include "bus/message_fields.h"
+#include "channel_server/link_messages.h"
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/propagation/link_tracks.h"
 #include "channel_server/scenario_messages.h"
-#include "channel_server/vehicles/vehicle_registry.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"
 #include "core/csv_table.h"
@@ -260,7 +260,7 @@ TEST(MessageLimits, OfCountsAndLengthsAreConstantsOfWhatTheyCount) {
   expect_max<flow_heartbeat_t>("num_flows_kept", bus::FlowHistory::kMaxFlows);
   expect_max<repair_request_t>("num_missing", bus::FlowWatch::kMaxPerRequest);
   expect_max<lockstep_message_t>("channel_name", LCM_MAX_CHANNEL_NAME_LENGTH);
-  expect_max<link_table_t>("num_peers", channel_server::VehicleRegistry::kMaxVehicles);
+  expect_max<link_table_t>("num_peers", channel_server::kMaxPeers);
   expect_max<scenario_info_t>("num_vehicles", channel_server::kMaxVehiclesOfPart);
   expect_max<link_paths_t>("num_paths", channel_server::LinkTracks::kMaxPaths);
   expect_max<terrain_tile_t>("num_posts", static_cast<std::size_t>(bathymetry::kMaxPosts));

@@ -187,14 +187,14 @@ TEST(NodeCommandLine, ANetworkThatCannotBeUsedHasAnExitCodeOfItsOwn) {
 }
 
 // The bound of 10 s is the requirement's; a busy machine may add to that.
-TEST(NodeCommandLine, TenThousandVehiclesAreRefusedWithTheLineOfTheFirstTooMany) {
-  const std::string path = ::testing::TempDir() + "halocline-10000-" + std::to_string(getpid()) + ".toml";
+TEST(NodeCommandLine, TwentyThousandVehiclesAreRefusedWithTheLineOfTheFirstTooMany) {
+  const std::string path = ::testing::TempDir() + "halocline-20000-" + std::to_string(getpid()) + ".toml";
   {
     std::ofstream scenario(path);
-    for (int i = 1; i <= 10'000; ++i) scenario << "[[vehicle]]\nname = \"v" << i << "\"\nid = " << i << "\n";
+    for (int i = 1; i <= 20'000; ++i) scenario << "[[vehicle]]\nname = \"v" << i << "\"\nid = " << i << "\n";
   }
   const auto begin = std::chrono::steady_clock::now();
-  EXPECT_THAT(output_of({kConductor, path}, 2), HasSubstr(":12290: vehicle[4096].name is 'v4097'"));
+  EXPECT_THAT(output_of({kConductor, path}, 2), HasSubstr(":49154: vehicle[16384].name is 'v16385'"));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 60s);
   std::filesystem::remove(path);
 }

@@ -82,7 +82,7 @@ TEST(VehicleRegistry, AVehicleWithoutAnnouncementCarriesTheModemOfItsScenario) {
 
 TEST(VehicleRegistry, TooManyVehiclesAreRefused) {
   VehicleRegistry fleet = make_fleet();
-  for (VehicleId id = 1; id <= static_cast<VehicleId>(VehicleRegistry::kMaxVehicles); ++id) {
+  for (VehicleId id = 1; id <= static_cast<VehicleId>(VehicleRegistry::kMaxStrangers); ++id) {
     ASSERT_EQ(fleet.add_state(testing::name_of(id), id, state_at(0, {0, 0, 0})), "");
   }
   EXPECT_GE(fleet.size(), 4096u);
@@ -95,7 +95,7 @@ TEST(VehicleRegistry, AFloodOfNamesLeavesTheVehiclesOfTheScenarioTheirPlaces) {
   std::size_t taken = 0;
   for (VehicleId id = 1; id <= 50'000; ++id)
     taken += fleet.add_state("flood" + std::to_string(id), id, state_at(0, {0, 0, 0})).empty() ? 1 : 0;
-  EXPECT_EQ(taken, VehicleRegistry::kMaxVehicles - 20);
+  EXPECT_EQ(taken, VehicleRegistry::kMaxStrangers);
   EXPECT_THAT(fleet.add_state(testing::name_of(7), 70'000, state_at(0, {0, 0, 0})),
               HasSubstr("in the scenario"));
   for (VehicleId id = 1; id <= 20; ++id)

@@ -290,11 +290,11 @@ TEST_F(ScenarioChecks, NamesAreThoseOfVehicles) {
 
 TEST_F(ScenarioChecks, MoreVehiclesThanAreFollowedAreRefused) {
   std::string text;
-  for (int i = 1; i <= 4097; ++i)
+  for (int i = 1; i <= 16385; ++i)
     text += "[[vehicle]]\nname = \"v" + std::to_string(i) + "\"\nid = " + std::to_string(i) +
             "\nmodel = \"external\"\n";
-  EXPECT_THAT(findings_in(text).errors, ElementsAre(AllOf(HasSubstr("vehicle[4096].name is 'v4097'"),
-                                                          HasSubstr("follows 4096 vehicles"))));
+  EXPECT_THAT(findings_in(text).errors, ElementsAre(AllOf(HasSubstr("vehicle[16384].name is 'v16385'"),
+                                                          HasSubstr("follows 16384 vehicles"))));
 }
 
 // A log of such a mission can be replayed, and its links computed.
