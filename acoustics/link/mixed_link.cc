@@ -30,12 +30,19 @@ struct HalfCycle {
   double upper_m = 0, lower_m = 0;  // from where to where it goes
 };
 
-// From `depth_m` to where the ray of `xi` turns, or to `limit_m`; layers upwards or downwards.
-double add_leg(const RayWater& water, double xi, double depth_m, double limit_m, HalfCycle& half) {
+// A depth and the speed of sound there.
+struct Place {
+  Place(const RayWater& water, double at_m) : depth_m(at_m), speed_mps(water.speed_at(at_m)) {}
+  double depth_m, speed_mps;
+};
+
+// From a place to where the ray of `xi` turns, or to `limit_m`; layers upwards or downwards.
+double add_leg(const RayWater& water, double xi, const Place& from, double limit_m, HalfCycle& half) {
+  const double depth_m = from.depth_m;
   const bool down = limit_m > depth_m;
   std::size_t layer = water.layer_at(depth_m);
   if (!down && depth_m == water.depths_m()[layer] && layer > 0) --layer;
-  double z = depth_m, c = water.speed_at(z), s = sine_at(xi, c);
+  double z = depth_m, c = from.speed_mps, s = sine_at(xi, c);
   while (z != limit_m && s > 0) {
     const double edge =
         down ? std::min(water.depths_m()[layer + 1], limit_m) : std::max(water.depths_m()[layer], limit_m);
@@ -47,7 +54,7 @@ double add_leg(const RayWater& water, double xi, double depth_m, double limit_m,
     half.range_m += dr;
     half.length_m += length;
     half.delay_s += length / (s2 > 0 ? 0.5 * (c + c2) : 0.5 * (c + 1 / xi));
-    half.absorption_db += length * water.absorption_db_per_m(0.5 * (z + end));
+    half.absorption_db += length * water.absorption_db_per_m(0.5 * (z + end), layer);
     z = end;
     c = c2;
     s = s2;
@@ -68,7 +75,8 @@ double surface_loss_of(const MixedSea& sea, double xi) {
 }
 
 // What the boundaries take on the way.
-void set_bounces(const MixedSea& sea, double xi, const HalfCycle& half, double range_m, Arrival& window) {
+void set_bounces(const MixedSea& sea, double xi, const HalfCycle& half, double bottom_speed_mps,
+                 double range_m, Arrival& window) {
   const double times = range_m / half.range_m / 2;
   if (half.upper_m == 0) {
     const double sine = sine_at(xi, sea.water.speeds_mps().front());
@@ -77,36 +85,35 @@ void set_bounces(const MixedSea& sea, double xi, const HalfCycle& half, double r
     window.surface_loss_db = times * surface_loss_of(sea, xi);
   }
   if (half.lower_m == sea.depth_m) {
-    const double speed = sea.water.speed_at(sea.depth_m), sine = sine_at(xi, speed);
+    const double sine = sine_at(xi, bottom_speed_mps);
     window.bottom_bounces = static_cast<int>(times);
     window.bottom_sine_squares = times * sine * sine;
     window.bottom_loss_db =
-        -20 * times * elementary::log10(bottom_magnitude_at_sine(sea.bottom, sine, speed));
+        -20 * times * elementary::log10(bottom_magnitude_at_sine(sea.bottom, sine, bottom_speed_mps));
   }
 }
 
 // What of the rays of `xi` in half a cycle lies at a depth, for a metre.
-double density_at(const MixedSea& sea, double xi, double depth_m, const HalfCycle& half) {
-  if (depth_m < half.upper_m || depth_m > half.lower_m) return 0;
-  const double speed = sea.water.speed_at(depth_m);
-  return xi * speed / std::max(sine_at(xi, speed), kLeastSine) / half.range_m;
+double density_at(double xi, const Place& place, const HalfCycle& half) {
+  if (place.depth_m < half.upper_m || place.depth_m > half.lower_m) return 0;
+  return xi * place.speed_mps / std::max(sine_at(xi, place.speed_mps), kLeastSine) / half.range_m;
 }
 
 // What rays of each angle at the bottom bring, times the range and for a launch angle: slopes turn them on their way.
 std::vector<BottomRay> rays_after_slopes(const MixedSea& sea, const RayLink& link) {
-  const double speed = sea.water.speed_at(sea.depth_m);
+  const Place bottom(sea.water, sea.depth_m), receiver(sea.water, link.receiver_depth_m);
+  const double speed = bottom.speed_mps;
   std::vector<BottomRay> rays;
   for (std::size_t i = 0; i < kBottomRays; ++i) {
     const double angle = (static_cast<double>(i) + 0.5) * kRayWidth, xi = elementary::cos(angle) / speed;
     HalfCycle half;
     half.lower_m = sea.depth_m;
-    half.upper_m = add_leg(sea.water, xi, sea.depth_m, 0, half);
+    half.upper_m = add_leg(sea.water, xi, bottom, 0, half);
     double loss_db =
         -20 * elementary::log10(bottom_magnitude_at_sine(sea.bottom, elementary::sin(angle), speed));
     if (half.upper_m == 0) loss_db += surface_loss_of(sea, xi);
     const double cycle_m = 2 * half.range_m;
-    rays.push_back({cycle_m, std::numbers::ln10 / 10 * loss_db / cycle_m,
-                    density_at(sea, xi, link.receiver_depth_m, half)});
+    rays.push_back({cycle_m, std::numbers::ln10 / 10 * loss_db / cycle_m, density_at(xi, receiver, half)});
   }
   diffuse_by_slopes(rays, kRayWidth, sea.mean_square_slope, link.range_m);
   return rays;
@@ -120,22 +127,28 @@ double power_at(const std::vector<BottomRay>& rays, double angle) {
   return (1 - share) * rays[i].power + share * rays[i + 1].power;
 }
 
-// Rays launched between `low` and `high`; `turned`: those that slopes turn, empty without slopes.
-std::optional<Arrival> window_of(const MixedSea& sea, const RayLink& link,
-                                 const std::vector<BottomRay>& turned, double low, double high) {
-  const double theta = 0.5 * (low + high), speed = sea.water.speed_at(link.receiver_depth_m);
-  const double xi = elementary::cos(theta) / sea.water.speed_at(link.source_depth_m);
+struct MixedLink {
+  Place source, receiver, bottom;
+  double range_m;
+  std::vector<BottomRay> turned;  // the rays that slopes turn; empty without slopes
+};
+
+// Rays launched between `low` and `high`.
+std::optional<Arrival> window_of(const MixedSea& sea, const MixedLink& link, double low, double high) {
+  const double theta = 0.5 * (low + high), speed = link.receiver.speed_mps;
+  const double xi = elementary::cos(theta) / link.source.speed_mps;
   HalfCycle half;
-  half.upper_m = add_leg(sea.water, xi, link.source_depth_m, 0, half);
-  half.lower_m = add_leg(sea.water, xi, link.source_depth_m, sea.depth_m, half);
+  half.upper_m = add_leg(sea.water, xi, link.source, 0, half);
+  half.lower_m = add_leg(sea.water, xi, link.source, sea.depth_m, half);
   if (!(half.range_m > 0)) return std::nullopt;
   Arrival window;
-  set_bounces(sea, xi, half, link.range_m, window);
-  const double angle = elementary::asin(sine_at(xi, sea.water.speed_at(sea.depth_m)));
-  const bool is_turned = !turned.empty() && half.lower_m == sea.depth_m && angle < kRayWidth * kBottomRays;
-  const double power = is_turned ? power_at(turned, angle)
-                                 : density_at(sea, xi, link.receiver_depth_m, half) *
-                                       elementary::exp10(-window.bounce_loss_db() / 10);
+  set_bounces(sea, xi, half, link.bottom.speed_mps, link.range_m, window);
+  const double angle = elementary::asin(sine_at(xi, link.bottom.speed_mps));
+  const bool is_turned =
+      !link.turned.empty() && half.lower_m == sea.depth_m && angle < kRayWidth * kBottomRays;
+  const double power =
+      is_turned ? power_at(link.turned, angle)
+                : density_at(xi, link.receiver, half) * elementary::exp10(-window.bounce_loss_db() / 10);
   if (!(power > 0)) return std::nullopt;
   window.amplitude = std::sqrt((high - low) * power / link.range_m);
   const double halves = link.range_m / half.range_m;
@@ -164,11 +177,15 @@ void keep_most(std::vector<Arrival>& windows) {
 
 std::vector<Arrival> all_windows(const MixedSea& sea, const RayLink& link) {
   const std::vector<double> edges = even_angles(sea.options.max_launch_angle_rad, kCoarseness);
-  std::vector<BottomRay> turned;
-  if (sea.mean_square_slope > 0) turned = rays_after_slopes(sea, link);
+  MixedLink mixed{{sea.water, link.source_depth_m},
+                  {sea.water, link.receiver_depth_m},
+                  {sea.water, sea.depth_m},
+                  link.range_m,
+                  {}};
+  if (sea.mean_square_slope > 0) mixed.turned = rays_after_slopes(sea, link);
   std::vector<Arrival> windows;
   for (std::size_t i = 1; i < edges.size(); ++i) {
-    auto window = window_of(sea, link, turned, edges[i - 1], edges[i]);
+    auto window = window_of(sea, mixed, edges[i - 1], edges[i]);
     if (!window) continue;
     window->identity = diffuse_identity(window->launch_angle_rad, i);
     windows.push_back(*window);

@@ -41,16 +41,15 @@ void extend(Front& to, const Edge& edge, const Bundle& bundle, int distance, uns
   sum.information_ones += bundle.information_ones + bit * bundle.paths;
 }
 
-// All paths one bit further on, except those that have come back to state 0.
-Front step(const ConvolutionalCode& code, const Front& now) {
-  Front next(now.size(), std::vector<Bundle>(now[0].size()));
+// `next`: all paths of `now` one bit further on, except those that have come back to state 0.
+void step(const ConvolutionalCode& code, const Front& now, Front& next) {
+  for (std::vector<Bundle>& state : next) std::fill(state.begin(), state.end(), Bundle{});
   for (unsigned state = 1; state < now.size(); ++state) {
     for (int distance = 0; distance < static_cast<int>(now[state].size()); ++distance) {
       const Bundle& bundle = now[state][static_cast<std::size_t>(distance)];
       for (const unsigned bit : {0u, 1u}) extend(next, edge_of(code, state, bit), bundle, distance, bit);
     }
   }
-  return next;
 }
 
 bool any_on_the_way(const Front& front) {
@@ -71,6 +70,7 @@ double soft_without_fading(int d, double g) {
   const double half = d * g / 2;
   if (half > kExponentOfZero) return 0;
   std::vector<double> choices;  // choices[m] = sum over n <= m of C(2d-1, n)
+  choices.reserve(static_cast<std::size_t>(d));
   for (int n = 0; n < d; ++n) choices.push_back((n ? choices.back() : 0) + binomial(2 * d - 1, n));
   double sum = 0, power = 1;  // power = half^k / k!
   for (int k = 0; k < d; ++k) {
@@ -114,14 +114,15 @@ std::vector<SpectrumTerm> distance_spectrum(const ConvolutionalCode& code, int m
   // Terms of the transfer function T(D, N) of the trellis (Proakis, 4th edition, section 8.2): a_d is the coefficient of
   // D^d in T(D, 1), B_d that in dT/dN at N = 1, summed bit by bit over all paths that leave state 0 and return once.
   const auto distances = static_cast<std::size_t>(max_distance) + 1;
-  Front front(states, std::vector<Bundle>(distances));
+  Front front(states, std::vector<Bundle>(distances)), next = front;
   extend(front, edge_of(code, 0, 1), {1, 0}, 0, 1);
   std::vector<Bundle> back(distances);
   // A path that adds nothing for as many bits as there are states has gone round a loop of distance 0.
   const std::size_t longest = (distances + 1) * states;
   for (std::size_t bits = 1; any_on_the_way(front); ++bits) {
     require(bits < longest, "the code is catastrophic: endless paths of finite distance");
-    front = step(code, front);
+    step(code, front, next);
+    front.swap(next);
     for (std::size_t d = 0; d < distances; ++d) {
       back[d].paths += front[0][d].paths;
       back[d].information_ones += front[0][d].information_ones;

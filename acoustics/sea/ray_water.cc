@@ -123,12 +123,6 @@ double RayWater::speed_at(double depth_m) const {
   return speed_[i] + gradient_[i] * (depth_m - depth_[i]);
 }
 
-double RayWater::absorption_db_per_m(double depth_m) const {
-  const std::size_t i = layer_at(depth_m);
-  const double u = (depth_m - depth_[i]) / (depth_[i + 1] - depth_[i]);
-  return absorption_[i].a0 + u * (absorption_[i].a1 + u * absorption_[i].a2);
-}
-
 bool RayWater::is_isovelocity_above(double bottom_depth_m) const {
   for (std::size_t i = 0; i < layers() && depth_[i] < bottom_depth_m; ++i) {
     if (speed_[i + 1] != speed_[i]) return false;

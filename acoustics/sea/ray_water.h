@@ -67,7 +67,13 @@ class RayWater {
   // The layer that holds a depth 0..kDeepestWater; at a knot, the one below.
   std::size_t layer_at(double depth_m) const;
   double speed_at(double depth_m) const;
-  double absorption_db_per_m(double depth_m) const;
+  double absorption_db_per_m(double depth_m) const { return absorption_db_per_m(depth_m, layer_at(depth_m)); }
+  // The same of a depth in a layer that is known.
+  double absorption_db_per_m(double depth_m, std::size_t layer) const {
+    const double u = (depth_m - depth_[layer]) / (depth_[layer + 1] - depth_[layer]);
+    const LayerAbsorption& of_layer = absorption_[layer];
+    return of_layer.a0 + u * (of_layer.a1 + u * of_layer.a2);
+  }
   // True when the speed is the same at all depths from the surface to `bottom_depth_m`.
   bool is_isovelocity_above(double bottom_depth_m) const;
 
