@@ -17,13 +17,14 @@
 #include <vector>
 
 #include "bus/message_codec.h"
+#include "core/limits.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {
 
 class FlowHistory {
  public:
-  static constexpr std::size_t kMaxFlows = 16'384;
+  static constexpr std::size_t kMaxFlows = 4 * kMaxVehicles;
   // Flows in one listing.
   static constexpr std::size_t kMaxListed = 500;
   // A message is answered at most once in this: as long as its receivers wait before they request it again (flow_watch.h).

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "core/hash.h"
+#include "core/limits.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {
@@ -46,7 +47,7 @@ class FlowWatch {
   static constexpr std::size_t kMaxMissing = 2000, kMaxMissingOfAll = 20'000, kMaxMissingUnheard = 5000;
   static constexpr std::size_t kMaxPerRequest = 200;
   // Channels beyond these are not watched: endless invented names must not exhaust memory.
-  static constexpr std::size_t kMaxChannels = 20'000;
+  static constexpr std::size_t kMaxChannels = 4 * kMaxVehicles;
 
   // How a received message fits into its flow.
   struct Classification {
@@ -102,7 +103,7 @@ class FlowWatch {
   };
   // Sessions kept per channel: of more than kSessionsKept those that are silent for kForgottenAfter make room, so that memory stays
   // flat while programs start anew; of kMaxSessions, or while kMaxFlows are known, the one silent for longest.
-  static constexpr std::size_t kSessionsKept = 4, kMaxSessions = 128, kMaxFlows = 4 * kMaxChannels;
+  static constexpr std::size_t kSessionsKept = 4, kMaxSessions = 128, kMaxFlows = 2 * kMaxChannels;
   static constexpr SimDuration kForgottenAfter = SimDuration::from_milliseconds(30'000);
   bool has_no_room_for(std::string_view channel) const {
     return received_.size() >= kMaxChannels && !received_.contains(channel);

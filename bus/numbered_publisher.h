@@ -18,13 +18,14 @@
 
 #include "bus/bus.h"
 #include "core/archive.h"
+#include "core/limits.h"
 
 namespace halocline::bus {
 
 class NumberedPublisher {
  public:
-  // Channels whose numbers are kept; beyond these the ones longest unused begin again at 0.
-  static constexpr std::size_t kMaxChannels = 32'768;
+  // Channels whose numbers are kept, more than a scenario's vehicles have; beyond these the ones longest unused begin again at 0.
+  static constexpr std::size_t kMaxChannels = 16 * kMaxVehicles;
 
   explicit NumberedPublisher(Bus& bus) : bus_(bus) {}
 

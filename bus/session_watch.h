@@ -23,6 +23,7 @@
 
 #include "bus/channels.h"
 #include "core/hash.h"
+#include "core/limits.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {
@@ -31,7 +32,7 @@ class SessionWatch {
  public:
   // Four heartbeats.
   static constexpr SimDuration kSilence = SimDuration::from_milliseconds(1000);
-  static constexpr std::size_t kMaxNames = 20'000;
+  static constexpr std::size_t kMaxNames = 4 * kMaxVehicles;
   // Their channels are of one publisher each.
   static constexpr std::array kHeld{channels::kState, channels::kReceipt, channels::kReceive};
 

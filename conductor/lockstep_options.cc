@@ -52,8 +52,25 @@ std::vector<bus::ProgramOption> LockstepOptions::options() {
   };
 }
 
+void LockstepOptions::require_no_other() const {
+  const LockstepOptions none;
+  const auto refuse_if = [](bool is_given, const std::string& option) {
+    require(!is_given, option + " needs --lockstep");
+  };
+  require(rate_ == none.rate_, "--rate needs --lockstep; in real time it is --set time.rate=" + rate_);
+  refuse_if(expect_ != none.expect_, "--expect");
+  refuse_if(log_ != none.log_, "--log");
+  refuse_if(journal_ != none.journal_, "--journal");
+  refuse_if(drop_after_ != none.drop_after_, "--drop-after");
+  refuse_if(no_lookahead_, "--no-lookahead");
+  refuse_if(bridge_bus_, "--bridge-bus");
+}
+
 bool LockstepOptions::run_if_requested(const bus::NodeProgram::Context& context) const {
-  if (!lockstep_) return false;
+  if (!lockstep_) {
+    require_no_other();
+    return false;
+  }
   LockstepRun run;
   run.expected = names_of(expect_);
   run.log_path = log_;

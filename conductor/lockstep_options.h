@@ -14,10 +14,12 @@ class LockstepOptions {
   // They point into this, which must outlive the parsing.
   std::vector<bus::ProgramOption> options();
   // Coordinates a lockstep run when --lockstep was given; false when it was not. Throws InvalidArgument for impossible
-  // values.
+  // values, and for options that need --lockstep where it was not given.
   [[nodiscard]] bool run_if_requested(const bus::NodeProgram::Context& context) const;
 
  private:
+  void require_no_other() const;
+
   bool lockstep_ = false, no_lookahead_ = false, bridge_bus_ = false;
   std::string expect_ = "bathymetry,vehicle-sim,autopilot,traffic,localiser,channel-server";
   std::string log_, journal_, rate_ = "0", drop_after_ = "0";

@@ -64,7 +64,10 @@ void describe(CLI::App& app, Arguments& arguments, const NodeProgram& program) {
   app.add_flag("--interface", arguments.interface, "print the channels subscribed and published and exit");
   app.add_flag("--print-config", arguments.print_config, "print the effective configuration and exit");
   app.set_version_flag("--version", [&program] { return version_text(program.program); });
-  app.footer("Example:\n  " + program.program + " scenarios/seamount.toml --log-level debug");
+  app.footer("Examples:\n  " + program.program + " " + program.example_scenario + " --log-level debug\n\n" +
+             "Exit codes: 0 stopped when asked to, 1 failed, " + std::to_string(kExitConfiguration) +
+             " wrong command line or configuration, " + std::to_string(kExitNetwork) +
+             " the network cannot be used.");
 }
 
 std::vector<std::string> overrides_of(const Arguments& arguments, const NodeProgram& program) {

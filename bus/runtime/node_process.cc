@@ -192,6 +192,7 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
   log.info("started", "url=" + url);
   ReceiveFilter filter(*lcm, url, accepted_hosts(run.scenario.accept, url));
   run_node(*lcm, *node, *time, stop_requested, &filter);
+  if (const auto now = time->now(steady_now())) log.set_time(*now);
 }
 
 int run_checked(int argc, char** argv, const NodeProgram& program) {

@@ -42,6 +42,7 @@ struct NodeProgram {
   std::string purpose;    // one sentence
   std::string node_name;  // default for --name
   std::string interface;  // for --interface: the channels subscribed and published, one a line
+  std::string example_scenario = "scenarios/seamount.toml";  // of --help
   TimeSourceKind time_source = TimeSourceKind::kConductor;
   Stage stage = Stage::kClients;  // its place in lockstep
   std::vector<ProgramOption> options = {};

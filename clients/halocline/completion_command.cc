@@ -119,7 +119,7 @@ complete -c halocline -a '(__halocline_words)'
 
 }  // namespace
 
-std::string footer(const std::string& examples) { return "Example:\n" + examples + "\n\n" + kExitCodes; }
+std::string footer(const std::string& examples) { return "Examples:\n" + examples + "\n\n" + kExitCodes; }
 
 void add_completion_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("completion", "Print the completion of a shell");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
+#include <string>
 
 #include "bus/files/output_check.h"
 #include "bus/files/version_text.h"
@@ -27,6 +29,25 @@ void describe(CLI::App& app, int& exit_code) {
   }
 }
 
+// What stands where a subcommand has to, and is none; empty where all are.
+std::string wrong_subcommand(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* command = &app;
+  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+    const auto all = command->get_subcommands({});
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const CLI::App* one) { return one->check_name(argv[i]); });
+    if (all.empty()) return "";
+    if (found == all.end()) {
+      std::string allowed;
+      for (const CLI::App* one : all) allowed += (allowed.empty() ? "" : ", ") + one->get_name();
+      return "'" + std::string(argv[i]) + "' is no subcommand of " + command->get_name() + "; allowed are " +
+             allowed;
+    }
+    command = *found;
+  }
+  return "";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -43,6 +64,10 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     return checked(exit_code);
   } catch (const CLI::ParseError& error) {
+    if (const std::string wrong = wrong_subcommand(app, argc, argv); !wrong.empty()) {
+      std::fprintf(stderr, "halocline: %s\n", wrong.c_str());
+      return hc::kUserError;
+    }
     return checked(app.exit(error) == 0 ? hc::kDone : hc::kUserError);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "halocline: %s\n", error.what());

@@ -28,7 +28,6 @@
 
 namespace halocline {
 namespace {
-
 constexpr const char* kUsage =
     "usage: [--name N] [--id N] [--to ID] [--north M] [--depth M] [--every S] [--family F] [--center-hz F]\n";
 struct Options {
@@ -64,6 +63,7 @@ bool due(std::int64_t now, std::int64_t period, std::int64_t& next) {
 class Vehicle {
  public:
   Vehicle(lcm::LCM& lcm, const Options& options) : lcm_(lcm), options_(options) {
+    if (!lcm_.good()) return;
     lcm_.subscribe("CLOCK|OUTCOME|(RECEIPT|RECEIVE)\\." + options_.name, &Vehicle::on_message, this)
         ->setQueueCapacity(0);
   }

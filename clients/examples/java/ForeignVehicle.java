@@ -185,6 +185,10 @@ public final class ForeignVehicle implements LCMSubscriber {
                 System.exit(2);
             }
         }
+        Thread.setDefaultUncaughtExceptionHandler((thread, error) -> {
+            System.err.println(error); // a number that is none; LCM cannot be used
+            System.exit(error instanceof IOException ? 69 : 2);
+        });
         final ForeignVehicle vehicle = new ForeignVehicle(new LCM(), options);
         for (int steps = 1; true; ++steps) {
             Thread.sleep(10);

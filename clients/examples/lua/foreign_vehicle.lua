@@ -53,7 +53,11 @@ for i = 1, #arg, 2 do
   options[option] = value
 end
 
-local bus = lcm.lcm.new()
+local opened, bus = pcall(lcm.lcm.new)
+if not opened then
+  io.stderr:write("LCM cannot be opened: see LCM_DEFAULT_URL\n")
+  os.exit(69)
+end
 local session = 1 + tonumber(read("/proc/sys/kernel/random/uuid"):sub(1, 8), 16)  -- another one at each start
 local clock, clock_s  -- the last, and the wall clock then
 local pending, sent_s  -- the packet that waits for its RECEIPT

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <random>
 
 #include "bus/transport.h"
@@ -13,15 +14,12 @@
 
 using halocline::SimDuration;
 
-int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fputs("usage: echo-modem VEHICLE ID\n", stderr);
-    return 2;
-  }
+namespace {
+
+void answer_all(const char* vehicle, int id) {
   const auto lcm = halocline::bus::open_transport(halocline::bus::effective_url(""));  // LCM_DEFAULT_URL
   const std::int64_t session = std::random_device()() + 1LL;  // another one at each start
-  halocline::clients::BlockingModem modem(
-      *lcm, {.vehicle = argv[1], .vehicle_id = std::atoi(argv[2]), .session = session});
+  halocline::clients::BlockingModem modem(*lcm, {.vehicle = vehicle, .vehicle_id = id, .session = session});
   while (const auto packet = modem.wait_receive(SimDuration::from_seconds(120))) {
     std::printf("%.3f s: %d bytes from vehicle %d, %.1f dB SNR\n", static_cast<double>(packet->utime) * 1e-6,
                 packet->payload_size, packet->source_id, packet->snr_db);
@@ -35,5 +33,20 @@ int main(int argc, char** argv) {
     }
     std::fflush(stdout);
   }
-  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fputs("usage: echo-modem VEHICLE ID\n", stderr);
+    return 2;
+  }
+  try {
+    answer_all(argv[1], std::atoi(argv[2]));
+    return 0;
+  } catch (const std::exception& error) {  // a name that is none; the network cannot be used
+    std::fprintf(stderr, "echo-modem: %s\n", error.what());
+    return dynamic_cast<const halocline::bus::NetworkError*>(&error) != nullptr ? 69 : 2;
+  }
 }

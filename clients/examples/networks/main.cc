@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   program.program = "halocline-network";
   program.purpose = "Runs an example network protocol for the vehicles of a scenario.";
   program.node_name = "network";
+  program.example_scenario = "scenarios/networks/one_hop.toml";
   program.stage = halocline::bus::Stage::kTraffic;
   program.interface =
       "receives:  CLOCK, RECEIPT.<vehicle>, RECEIVE.<vehicle>, MODEM_EVENT.<vehicle>\n"

@@ -155,3 +155,6 @@ if __name__ == "__main__":
         main()
     except KeyboardInterrupt:
         pass
+    except OSError as error:
+        print(f"LCM cannot be used: {error}; see LCM_DEFAULT_URL", file=sys.stderr)
+        sys.exit(69)

@@ -5,6 +5,7 @@
 BIN has the programs; PYTHONPATH leads to the package of the same build.
 """
 import ast
+import contextlib
 import csv
 import inspect
 import json
@@ -252,6 +253,18 @@ class Interface(PackageTest):
         self.assertRegex(said, r"received +\d+\n")
         self.assertRegex(said, r"\d\.\d{3} s, -?\d+\.\d dB SNR, \d+ paths\n")
         self.assertEqual(picture.exists(), str(picture) in said)
+
+    def test_the_example_of_its_page_runs(self):
+        page = re.search(r"^```python\n(.*?)^```", (TREE / "clients/python/README.md").read_text(), re.M | re.S)[1]
+        place, found = pathlib.Path(self.folder.name, "page"), {}
+        (place / "runs/harbour").mkdir(parents=True)
+        (place / "runs/harbour/harbour.lcm").symlink_to(self.log)
+        (place / "scenarios").symlink_to(TREE / "scenarios")
+        with contextlib.chdir(place):
+            exec(page, found)
+        self.assertGreater(np.count_nonzero(found["state"]["channel"] == "STATE.scout-1"), 100)
+        self.assertGreater(found["link"].paths["delay_s"].size, 0)
+        self.assertGreater(found["paths"]["delay_s"].size, 1)
 
 
 if __name__ == "__main__":
