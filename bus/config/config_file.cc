@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -19,6 +21,59 @@ std::string parse_error_text(const std::string& where, const toml::parse_error& 
   std::ostringstream text;
   text << where << ":" << error.source().begin.line << ": " << error.description();
   return text.str();
+}
+
+// The parts of a dotted key that are read. toml++ nests a table for each and frees them by recursion; with its 256
+// values within values this bounds the stack. The keys of a scenario have at most five.
+constexpr int kMaxKeyParts = 32;
+
+// Behind the string that opens at `at`: a quote, or three for one of many lines.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string three(3, quote);
+  const bool long_string = text.substr(at, 3) == three;
+  for (std::size_t i = at + (long_string ? 3 : 1); i < text.size(); ++i) {
+    if (quote == '"' && text[i] == '\\') {
+      ++i;
+    } else if (long_string && text.substr(i, 3) == three) {
+      // It may end with two quotes of its own.
+      return std::min(text.find_first_not_of(quote, i), text.size());
+    } else if (!long_string && (text[i] == quote || text[i] == '\n')) {
+      return i + (text[i] == quote ? 1 : 0);
+    }
+  }
+  return text.size();
+}
+
+// The line of the first key with more than kMaxKeyParts parts; 0 when there is none.
+std::ptrdiff_t line_of_deep_key(std::string_view text) {
+  int parts = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      i = end_of_string(text, i);
+      continue;
+    }
+    if (c == '#') {
+      i = std::min(text.find('\n', i), text.size());
+      continue;
+    }
+    if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) parts = 1;
+    if (c == '.' && ++parts > kMaxKeyParts)
+      return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\n');
+    ++i;
+  }
+  return 0;
+}
+
+// Every text in TOML is parsed here. Throws toml::parse_error.
+toml::table parsed_table(const std::string& text, std::string_view name) {
+  if (const std::ptrdiff_t line = line_of_deep_key(text); line != 0) {
+    const toml::source_position place{static_cast<toml::source_index>(line), 1};
+    const std::string problem = "a key has more than " + std::to_string(kMaxKeyParts) + " dotted parts";
+    throw toml::parse_error(problem.c_str(), place);
+  }
+  return toml::parse(text, name);
 }
 
 // A member of a table by key, of an array by index; null when there is none.
@@ -49,7 +104,7 @@ void merge(toml::node& into, toml::table& from, const std::string& override_text
 
 void apply_override(toml::table& root, const std::string& text) {
   try {
-    toml::table given = toml::parse(text, std::string_view("command line"));
+    toml::table given = parsed_table(text, "command line");
     merge(root, given, text);
   } catch (const toml::parse_error& error) {
     throw ConfigErrors({"override '" + text + "': " + std::string(error.description()) +
@@ -124,7 +179,7 @@ std::unique_ptr<ConfigDocument> parsed(const std::string& text, const std::strin
   auto document = std::make_unique<ConfigDocument>();
   document->path = path;
   try {
-    document->root = toml::parse(text, std::string_view(path));
+    document->root = parsed_table(text, path);
   } catch (const toml::parse_error& error) {
     throw ConfigErrors({parse_error_text(path, error)});
   }

@@ -200,6 +200,23 @@ TEST(ConfigReader, WhatIsNoTomlNamesItsLine) {
   EXPECT_THAT(error_of("wind_mps = 1\nwind_mps = 2\n"), HasSubstr("test.toml:2: "));
 }
 
+TEST(ConfigReader, AKeyOfTooManyPartsIsRefusedWithItsLine) {
+  std::string deep = "a";
+  for (int i = 0; i < 60'000; ++i) deep += i % 2 == 0 ? ".a" : " . 'a.b'";
+  const auto refused = HasSubstr(":2: a key has more than 32 dotted parts");
+  EXPECT_THAT(errors_of("\n" + deep + " = 1"), ElementsAre(refused));
+  EXPECT_THAT(errors_of("\n[" + deep + "]"), ElementsAre(refused));
+  EXPECT_THAT(errors_of("x = \"\"\"\\\"\n\"\"\"\"\ny = {" + deep + " = 1}"),
+              ElementsAre(HasSubstr(":3: a key")));
+  EXPECT_THAT(errors_of("", {deep + " = 1"}), ElementsAre(HasSubstr("a key has more than 32 dotted parts")));
+}
+
+TEST(ConfigReader, DotsOutsideKeysAreNotCounted) {
+  const std::string dots(100, '.');
+  EXPECT_TRUE(errors_of("mode = 'slow' # " + dots + "\nlevels_db = [1.0, 2.0" + ", 3.0, 4.0]").empty());
+  EXPECT_THAT(errors_of("mode = '" + dots + "'"), ElementsAre(HasSubstr("allowed are slow")));
+}
+
 TEST(ConfigReader, AFileThatCannotBeReadIsAnErrorThatNamesIt) {
   try {
     ConfigFile::load("/nowhere/at-all.toml");
