@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -31,11 +33,19 @@ void force_to_disk(const std::string& path) {
 
 }  // namespace
 
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), temporary_path_(path_) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path_, error);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status))
+    temporary_path_ += ".unfinished";
+}
+
 AtomicFile::~AtomicFile() {
-  if (!committed_) std::remove(temporary_path().c_str());
+  if (!committed_ && !is_direct()) std::remove(temporary_path().c_str());
 }
 
 void AtomicFile::commit() {
+  if (is_direct()) return;
   force_to_disk(temporary_path());
   check(std::rename(temporary_path().c_str(), path_.c_str()) == 0, path_);
   committed_ = true;

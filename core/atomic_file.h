@@ -5,6 +5,8 @@
 // (fsync of the file before the rename and of its folder after it; POSIX rename replaces in one step). One writer at a
 // time: two writers of one path share the name of the temporary file.
 //
+// What is at the path and no regular file, such as a device or a pipe, is written to directly and stays what it is.
+//
 //   replace_file("result.json", text);
 //
 //   AtomicFile file("sweep.nc");
@@ -14,25 +16,26 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 
 namespace halocline {
 
 class AtomicFile {
  public:
-  explicit AtomicFile(std::string path) : path_(std::move(path)) {}
+  explicit AtomicFile(std::string path);
   // Removes the temporary file, unless it was committed.
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   // Where the new content is to be written: in the same folder as the file.
-  std::string temporary_path() const { return path_ + ".unfinished"; }
+  const std::string& temporary_path() const { return temporary_path_; }
   // Moves the temporary file into place. Descriptors open on it stay valid. Throws std::runtime_error.
   void commit();
 
  private:
-  std::string path_;
+  bool is_direct() const { return temporary_path_ == path_; }
+
+  std::string path_, temporary_path_;
   bool committed_ = false;
 };
 

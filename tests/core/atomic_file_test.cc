@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace halocline {
@@ -54,6 +55,17 @@ TEST_F(AtomicFileTest, LeavesNothingOfAnAbandonedWrite) {
     std::ofstream(file.temporary_path()) << "half of the n";
   }
   EXPECT_EQ(content(), "old");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(AtomicFileTest, APipeIsWrittenToAndStaysAPipe) {
+  ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
+  std::fstream reader(path_);  // for reading and writing: waits for no other end
+  replace_file(path_, "text\n");
+  EXPECT_TRUE(fs::is_fifo(path_));
+  std::string text;
+  ASSERT_TRUE(fs::is_fifo(path_) && std::getline(reader, text));
+  EXPECT_EQ(text, "text");
   EXPECT_EQ(files(), 1);
 }
 
