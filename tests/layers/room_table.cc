@@ -233,7 +233,7 @@ const std::vector<Room>& rooms() {
        "a mission in formats of others needs no simulator"},
       {"clients/halocline/sweep",
        {"core", "bus", "bus/config", "bus/logs", "bus/runtime", "clients/mission",
-        "clients/halocline/analysis"},
+        "clients/halocline/analysis", "clients/halocline/export"},
        {"fmt/", "nlohmann/"},
        "a sweep starts runs as processes and reads their logs"},
       {"clients/halocline/scenario",

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/export/netcdf_output.h"
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include <netcdf.h>
+#include <netcdf_mem.h>
 
 namespace halocline::clients {
 namespace {
@@ -13,6 +19,8 @@ nc_type to_netcdf(NetcdfOutput::Type type) {
   switch (type) {
     case NetcdfOutput::Type::kInteger:
       return NC_INT;
+    case NetcdfOutput::Type::kLong:
+      return NC_INT64;
     case NetcdfOutput::Type::kText:
       return NC_STRING;
     case NetcdfOutput::Type::kDouble:
@@ -21,10 +29,16 @@ nc_type to_netcdf(NetcdfOutput::Type type) {
   return NC_DOUBLE;
 }
 
+constexpr std::size_t kFirstBytes = 1 << 20;  // grows
+
+struct Free {
+  void operator()(void* memory) const { std::free(memory); }
+};
+
 }  // namespace
 
 NetcdfOutput::NetcdfOutput(const std::string& path) : path_(path) {
-  checked(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_));
+  checked(nc_create_mem(path.c_str(), NC_NETCDF4, kFirstBytes, &id_));
 }
 
 NetcdfOutput::~NetcdfOutput() {
@@ -34,7 +48,13 @@ NetcdfOutput::~NetcdfOutput() {
 void NetcdfOutput::close() {
   const int id = id_;
   id_ = -1;
-  checked(nc_close(id));
+  NC_memio image{};
+  checked(nc_close_memio(id, &image));
+  const std::unique_ptr<void, Free> memory(image.memory);
+  std::ofstream file(path_, std::ios::binary);
+  file.write(static_cast<const char*>(image.memory), static_cast<std::streamsize>(image.size));
+  file.close();
+  if (!file) throw std::runtime_error("cannot write " + path_ + ": " + std::strerror(errno));
 }
 
 int NetcdfOutput::dimension(const std::string& name, std::size_t size) {
@@ -74,6 +94,10 @@ void NetcdfOutput::put(int variable, const std::vector<double>& values) {
 
 void NetcdfOutput::put(int variable, const std::vector<int>& values) {
   checked(nc_put_var_int(id_, variable, values.data()));
+}
+
+void NetcdfOutput::put(int variable, const std::vector<long long>& values) {
+  checked(nc_put_var_longlong(id_, variable, values.data()));
 }
 
 void NetcdfOutput::put(int variable, const std::vector<const char*>& values) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A netCDF-4 file that is being written, through netCDF's C library: for modules that have it.
+//
+// It is made in memory and written by close(): HDF5 reports a full disk, and crashes when the file is closed after that.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +13,14 @@ namespace halocline::clients {
 // Functions throw std::runtime_error, with netCDF's own words.
 class NetcdfOutput {
  public:
-  enum class Type { kDouble, kInteger, kText };
+  enum class Type { kDouble, kInteger, kLong, kText };
 
   explicit NetcdfOutput(const std::string& path);
-  // Removes the file unless it was closed.
   ~NetcdfOutput();
   NetcdfOutput(const NetcdfOutput&) = delete;
   NetcdfOutput& operator=(const NetcdfOutput&) = delete;
 
+  // Writes the file.
   void close();
   int dimension(const std::string& name, std::size_t size);
   int variable(const std::string& name, Type type, const std::vector<int>& dimensions);
@@ -30,6 +32,7 @@ class NetcdfOutput {
   // The whole variable; the last dimension varies fastest.
   void put(int variable, const std::vector<double>& values);
   void put(int variable, const std::vector<int>& values);
+  void put(int variable, const std::vector<long long>& values);
   void put(int variable, const std::vector<const char*>& values);
   // Of a variable's first dimension the values at one index.
   void put_at(int variable, std::size_t index, const std::vector<std::size_t>& other_sizes,

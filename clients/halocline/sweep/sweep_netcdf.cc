@@ -4,15 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <netcdf.h>
-
 #include "bus/version.h"
 #include "clients/halocline/analysis/confidence.h"
+#include "clients/halocline/export/netcdf_output.h"
 #include "clients/halocline/sweep/run_metrics.h"
 #include "clients/halocline/sweep/sweep_plan.h"
 #include "clients/halocline/sweep/sweep_summary.h"
@@ -24,79 +22,45 @@ namespace {
 
 using Dimensions = std::vector<int>;
 
-void checked(int status, const std::string& what) {
-  if (status != NC_NOERR) throw std::runtime_error("cannot write " + what + ": " + nc_strerror(status));
-}
-
-// A file that is being written: variables are defined with their values.
-class NetcdfFile {
+// Variables are defined with their values.
+class NetcdfFile : public NetcdfOutput {
  public:
-  explicit NetcdfFile(const std::string& path) : path_(path) {
-    checked(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_), path_);
-  }
-  ~NetcdfFile() {
-    if (open_) nc_abort(id_);
-  }
-  NetcdfFile(const NetcdfFile&) = delete;
-  NetcdfFile& operator=(const NetcdfFile&) = delete;
-
-  void close() {
-    open_ = false;
-    checked(nc_close(id_), path_);
-  }
-  int dimension(const std::string& name, std::size_t size) {
-    int dimension = 0;
-    checked(nc_def_dim(id_, name.c_str(), size, &dimension), path_ + ", dimension " + name);
-    return dimension;
-  }
-  void attribute(const std::string& name, const std::string& value) { attribute(NC_GLOBAL, name, value); }
+  using NetcdfOutput::NetcdfOutput;
 
   void numbers(const std::string& name, const Dimensions& dimensions, const std::vector<double>& values,
                const std::string& unit, const std::string& meaning) {
-    const double missing = std::numeric_limits<double>::quiet_NaN();
-    const int variable = define(name, NC_DOUBLE, dimensions, meaning);
-    checked(nc_put_att_double(id_, variable, "_FillValue", NC_DOUBLE, 1, &missing), path_);
+    const int variable = define(name, Type::kDouble, dimensions, meaning);
+    attribute(variable, "_FillValue", std::numeric_limits<double>::quiet_NaN());
     attribute(variable, "units", unit);
-    checked(nc_put_var_double(id_, variable, values.data()), path_ + ", " + name);
+    put(variable, values);
   }
   // A dimension's own values, which may not be missing.
   void coordinates(const std::string& name, int dimension, const std::vector<double>& values,
                    const std::string& unit, const std::string& meaning) {
-    const int variable = define(name, NC_DOUBLE, {dimension}, meaning);
+    const int variable = define(name, Type::kDouble, {dimension}, meaning);
     attribute(variable, "units", unit);
-    checked(nc_put_var_double(id_, variable, values.data()), path_ + ", " + name);
+    put(variable, values);
   }
   void counts(const std::string& name, const Dimensions& dimensions, const std::vector<long long>& values,
               const std::string& meaning) {
-    const int variable = define(name, NC_INT64, dimensions, meaning);
+    const int variable = define(name, Type::kLong, dimensions, meaning);
     attribute(variable, "units", "1");
-    checked(nc_put_var_longlong(id_, variable, values.data()), path_ + ", " + name);
+    put(variable, values);
   }
   void texts(const std::string& name, int dimension, const std::vector<std::string>& values,
              const std::string& meaning) {
-    const int variable = define(name, NC_STRING, {dimension}, meaning);
+    const int variable = define(name, Type::kText, {dimension}, meaning);
     std::vector<const char*> pointers;
     for (const std::string& value : values) pointers.push_back(value.c_str());
-    checked(nc_put_var_string(id_, variable, pointers.data()), path_ + ", " + name);
+    put(variable, pointers);
   }
 
  private:
-  int define(const std::string& name, nc_type type, const Dimensions& dimensions,
-             const std::string& meaning) {
-    int variable = 0;
-    checked(nc_def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(),
-                       &variable),
-            path_ + ", variable " + name);
-    attribute(variable, "long_name", meaning);
-    return variable;
+  int define(const std::string& name, Type type, const Dimensions& dimensions, const std::string& meaning) {
+    const int defined = variable(name, type, dimensions);
+    attribute(defined, "long_name", meaning);
+    return defined;
   }
-  void attribute(int variable, const std::string& name, const std::string& value) {
-    checked(nc_put_att_text(id_, variable, name.c_str(), value.size(), value.data()), path_ + ", " + name);
-  }
-
-  std::string path_;
-  int id_ = 0;
-  bool open_ = true;
 };
 
 // environment.wind_mps: environment_wind_mps. A name of netCDF begins with a letter.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/export/mission_export.h"
 
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -10,10 +11,13 @@
 #include <string>
 #include <vector>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netcdf.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "clients/halocline/export/mcap_writer.h"
@@ -119,6 +123,31 @@ TEST_F(MissionExport, McapBeginsAndEndsWithItsMagic) {
 TEST_F(MissionExport, FileThatCannotBeWrittenIsAnError) {
   EXPECT_THROW(export_mcap(mission_, "/nowhere/run.mcap"), std::runtime_error);
   EXPECT_THROW(export_netcdf(mission_, "/nowhere/run.nc"), std::runtime_error);
+}
+
+// As on a full disk, where HDF5 crashed.
+TEST_F(MissionExport, NetcdfThatIsCutOffIsAnError) {
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{4096, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(export_netcdf(mission_, path_), std::runtime_error);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_FALSE(std::filesystem::exists(path_));
+}
+
+TEST_F(MissionExport, APipeGetsTheFileAndStaysAPipe) {
+  set_origin(mission_, "30,-28");
+  ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
+  const int reader = open(path_.c_str(), O_RDWR | O_CLOEXEC);  // waits for no other end
+  ASSERT_GT(fcntl(reader, F_SETPIPE_SZ, 1 << 20), 0);
+  for (const auto write : {export_mcap, export_netcdf, export_geojson, export_gpx}) {
+    write(mission_, path_);
+    EXPECT_TRUE(std::filesystem::is_fifo(path_));
+  }
+  close(reader);
 }
 
 }  // namespace
