@@ -27,7 +27,10 @@ std::optional<std::string> content_of(const std::string& path) {
   return text.str();
 }
 
-std::string check_sum(const std::string& text) { return fmt::format("{:016x}\n", xxh3(text)); }
+// Of a result and the run that it is of, which the folder is named by.
+std::string check_sum(const std::string& folder, const std::string& text) {
+  return fmt::format("{:016x}\n", xxh3(fs::path(folder).filename().string() + "\n" + text));
+}
 
 // For a shell: in single quotes.
 std::string quoted(const std::string& text) {
@@ -48,7 +51,7 @@ std::string run_folder(const std::string& out, const std::string& identity) {
 
 std::optional<RunMetrics> result_in(const std::string& folder) {
   const auto text = content_of(result_path(folder));
-  if (!text || content_of(check_sum_path(folder)) != check_sum(*text)) return std::nullopt;
+  if (!text || content_of(check_sum_path(folder)) != check_sum(folder, *text)) return std::nullopt;
   try {
     return metrics_from_json(*text);
   } catch (const std::runtime_error&) {
@@ -58,7 +61,7 @@ std::optional<RunMetrics> result_in(const std::string& folder) {
 
 void write_result(const std::string& folder, const RunMetrics& metrics) {
   const std::string text = to_json(metrics) + "\n";
-  replace_file(check_sum_path(folder), check_sum(text));
+  replace_file(check_sum_path(folder), check_sum(folder, text));
   replace_file(result_path(folder), text);
 }
 

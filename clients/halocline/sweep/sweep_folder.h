@@ -5,7 +5,8 @@
 // program's version. So a run that is done stays done when a sweep is started again, or with more values, seeds or
 // axes; and is done anew when the scenario changes. Files that the scenario names (terrain,
 // profiles) are not part of the hash. result.json is written last, and moved into place whole: a folder without it
-// is a run that did not finish. So is one whose result.json does not have the check sum in result.xxh3 (XXH3): it was damaged or edited.
+// is a run that did not finish. So is one whose result.json does not have the check sum in result.xxh3 (XXH3 of the folder's name and of
+// it): it was damaged or edited, or is that of another run.
 #pragma once
 
 #include <optional>

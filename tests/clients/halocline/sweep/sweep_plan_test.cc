@@ -2,8 +2,10 @@
 #include "clients/halocline/sweep/sweep_plan.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <set>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -96,6 +98,18 @@ TEST(SweepFolder, ARunIsIdentifiedByWhatItComputes) {
   EXPECT_EQ(run_identity("a"), run_identity("a"));
   EXPECT_NE(run_identity("a"), run_identity("b"));
   EXPECT_EQ(run_identity("a").size(), 16u);
+}
+
+TEST(SweepFolder, AResultOfAnotherRunIsNone) {
+  const std::string out = ::testing::TempDir() + "halocline-sweep-folder-" + std::to_string(getpid());
+  const std::string one = run_folder(out, run_identity("one")),
+                    other = run_folder(out, run_identity("other"));
+  std::filesystem::create_directories(one);
+  write_result(one, {});
+  EXPECT_TRUE(result_in(one));
+  std::filesystem::copy(one, other);
+  EXPECT_FALSE(result_in(other));
+  std::filesystem::remove_all(out);
 }
 
 TEST(SlurmScript, QuotesPathsForTheShell) {
