@@ -52,10 +52,33 @@ bathymetry::LocalFrame required_frame(const MissionStore& mission) {
   return *frame;
 }
 
+// When states and packets were received, and both ends of the mission; in order.
+std::vector<SimTime> times_received(const MissionStore& mission) {
+  std::vector<SimTime> all{mission.begin(), mission.end()};
+  for (const MissionVehicle& vehicle : mission.vehicles()) {
+    for (const auto& entry : vehicle.track.all()) all.push_back(entry.at);
+  }
+  for (const PacketRecord& packet : mission.packets().all()) {
+    all.push_back(packet.at());
+    for (const packet_outcome_t& outcome : packet.outcomes) all.push_back(SimTime::from_utime(outcome.utime));
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// None from a minute after the last of what was received to the period of the next: a state a year later adds no
+// scenes of a year.
 void add_scenes(const MissionStore& mission, std::uint16_t channel, std::vector<Writing>& all) {
   constexpr SimDuration kPeriod = SimDuration::from_milliseconds(500);
-  for (SimTime at = mission.begin(); at <= mission.end(); at = at + kPeriod)
+  constexpr SimDuration kLongestSilence = SimDuration::from_milliseconds(60'000);
+  const std::vector<SimTime> received = times_received(mission);
+  auto next = received.begin();
+  for (SimTime at = mission.begin(); at <= mission.end(); at = at + kPeriod) {
+    while (next != received.end() && *next <= at) ++next;
+    if (next != received.end() && at - *(next - 1) > kLongestSilence)
+      at = at + kPeriod * ((*next - at).nanoseconds() / kPeriod.nanoseconds());
     all.push_back({.at = at, .channel = channel});
+  }
 }
 
 void add_packets(const MissionStore& mission, std::uint16_t channel, std::vector<Writing>& all) {

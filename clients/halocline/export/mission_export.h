@@ -16,7 +16,8 @@ void set_origin(MissionStore& mission, const std::string& text);
 
 // All replace the file and throw std::runtime_error when it cannot be written.
 
-// Topics /scene (2 a second), /vehicles/NAME/position (each state; with an origin) and /log (outcomes and refusals).
+// Topics /scene (2 a second, up to a minute after a message), /vehicles/NAME/position (each state; with an origin) and
+// /log (outcomes and refusals).
 void export_mcap(const MissionStore& mission, const std::string& path);
 
 // A line string for each vehicle, heights in metres; properties: name, id, time_s. Throws InvalidArgument without an origin.

@@ -120,6 +120,12 @@ TEST_F(MissionExport, McapBeginsAndEndsWithItsMagic) {
   EXPECT_THAT(bytes, ::testing::Not(HasSubstr("/position")));  // without an origin
 }
 
+TEST_F(MissionExport, AStateAYearLaterAddsAMinuteOfScenes) {
+  testing::add(mission_, "STATE.auv-1", testing::state(1, 31'000'000 * testing::kSecond, 0, 0, 20));
+  export_mcap(mission_, path_);
+  EXPECT_LT(std::filesystem::file_size(path_), 1'000'000u);
+}
+
 TEST_F(MissionExport, FileThatCannotBeWrittenIsAnError) {
   EXPECT_THROW(export_mcap(mission_, "/nowhere/run.mcap"), std::runtime_error);
   EXPECT_THROW(export_netcdf(mission_, "/nowhere/run.nc"), std::runtime_error);
