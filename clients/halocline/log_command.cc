@@ -40,13 +40,15 @@ int info(const LogArguments& arguments) {
 // By the mission that the log holds, into one file.
 int export_mission(const LogArguments& arguments) {
   require(arguments.channel.empty(), "--channel is for --format csv alone");
-  MissionStore mission = read_mission(arguments.logs).mission;
+  MissionLog log = read_mission(arguments.logs);
+  MissionStore& mission = log.mission;
   if (!arguments.origin.empty()) set_origin(mission, arguments.origin);
   const std::map<std::string, void (*)(const MissionStore&, const std::string&)> writers{
       {"mcap", export_mcap}, {"netcdf", export_netcdf}, {"geojson", export_geojson}, {"gpx", export_gpx}};
   writers.at(arguments.format)(mission, arguments.out);
   std::cout << arguments.out << ": " << mission.vehicles().size() << " vehicles, "
             << mission.packets().all().size() << " packets\n";
+  print_remarks(std::cerr, log);
   return kDone;
 }
 

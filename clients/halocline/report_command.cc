@@ -25,11 +25,13 @@ int write_report(const ReportArguments& arguments) {
   const std::string out = arguments.out.empty() ? report_beside(arguments.logs.back()) : arguments.out;
   require_free({{out}, arguments.force}, arguments.logs);
   const MissionLog first = read_mission({arguments.logs.front()});
+  print_remarks(std::cerr, first);
   const ReportPart part{arguments.logs.front(), first.mission, first.remarks};
   if (is_one) {
     write_text(out, report_page(part));
   } else {
     const MissionLog second = read_mission({arguments.logs.back()});
+    print_remarks(std::cerr, second);
     LogReader before(arguments.logs.front()), after(arguments.logs.back());
     write_text(out, report_page(part, {arguments.logs.back(), second.mission, second.remarks},
                                 Comparison(outcomes_of(before), outcomes_of(after))));

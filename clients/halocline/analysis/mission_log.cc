@@ -65,6 +65,10 @@ MissionTime time_of(LogReader& log) {
   return time;
 }
 
+void print_remarks(std::ostream& out, const MissionLog& log) {
+  for (const std::string& remark : log.remarks) out << remark << "\n";
+}
+
 void print_summary(std::ostream& out, const MissionStore& mission) {
   for (const SummaryRow& row : mission_summary(mission)) fmt::print(out, "{:<11} {}\n", row.key, row.text);
 }

@@ -24,6 +24,9 @@ struct MissionLog {
 // text is taken from the configuration beside the first. Throws as LogReader.
 MissionLog read_mission(const std::vector<std::string>& logs, MissionLimits limits = {});
 
+// A line for each remark.
+void print_remarks(std::ostream& out, const MissionLog& log);
+
 // The rows of mission_summary, for a person.
 void print_summary(std::ostream& out, const MissionStore& mission);
 

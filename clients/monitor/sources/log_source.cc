@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <utility>
 
 #include <unistd.h>
 
@@ -17,9 +19,18 @@
 #include "core/check.h"
 
 namespace halocline::monitor {
+namespace {
+
+clients::MissionStore mission_of(const std::vector<std::string>& logs) {
+  clients::MissionLog log = clients::read_mission(logs);
+  clients::print_remarks(std::cerr, log);
+  return std::move(log.mission);
+}
+
+}  // namespace
 
 LogSource::LogSource(const std::vector<std::string>& logs, const std::string& scenario)
-    : name_(logs.front()), mission_(clients::read_mission(logs).mission) {
+    : name_(logs.front()), mission_(mission_of(logs)) {
   require(mission_.begin() <= mission_.end(), name_ + " holds no states and no packets");
   const std::string file = configuration(scenario);
   if (!file.empty()) nodes_ = std::make_unique<LogNodes>(file);
