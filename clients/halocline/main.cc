@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -13,6 +15,17 @@
 namespace hc = halocline::clients;
 
 namespace {
+
+// The ranges of CLI11 let NaN pass.
+void refuse_nan(CLI::App& app) {
+  const auto check = [](const std::string& text) {
+    return std::isnan(std::strtod(text.c_str(), nullptr)) ? "Value " + text + " is no number" : std::string();
+  };
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_type_name().starts_with("FLOAT")) option->check(check);
+  }
+  for (CLI::App* command : app.get_subcommands({})) refuse_nan(*command);
+}
 
 void describe(CLI::App& app, int& exit_code) {
   app.set_version_flag("--version", [] { return halocline::bus::version_text("halocline"); });
@@ -27,6 +40,7 @@ void describe(CLI::App& app, int& exit_code) {
         hc::add_waveform_command, hc::add_view_command, hc::add_config_command, hc::add_completion_command}) {
     add(app, exit_code);
   }
+  refuse_nan(app);
 }
 
 // What stands where a subcommand has to, and is none; empty where all are.

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "bus/files/output_check.h"
 #include "bus/runtime/node_process.h"
 #include "clients/monitor/monitor.h"
 #include "clients/monitor/monitor_options.h"
@@ -11,10 +12,13 @@
 int main(int argc, char** argv) {
   try {
     const auto options = halocline::monitor::parse_monitor_command_line(argc, argv);
-    if (!options) return 0;
-    halocline::bus::catch_stop_signals();
-    halocline::monitor::run_monitor(*options, std::cout, halocline::bus::stop_requested);
-    return 0;
+    if (options) {
+      halocline::bus::catch_stop_signals();
+      halocline::monitor::run_monitor(*options, std::cout, halocline::bus::stop_requested);
+    }
+    if (halocline::bus::output_is_whole()) return 0;
+    std::fprintf(stderr, "halocline-monitor: standard output could not be written\n");
+    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "halocline-monitor: %s\n", error.what());
     return dynamic_cast<const std::invalid_argument*>(&error) != nullptr ? 2 : 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/monitor/monitor_options.h"
 
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 
@@ -87,6 +88,7 @@ std::optional<MonitorOptions> parse_monitor_command_line(int argc, char** argv) 
   } catch (const CLI::ParseError& error) {
     throw InvalidArgument(std::string(error.what()) + "; halocline-monitor --help lists what is allowed");
   }
+  require(!std::isnan(options.history_s), "--history is nan; allowed is 60 to 10000000 s");
   return options;
 }
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <ios>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -37,6 +41,15 @@ std::string text_of(std::FILE* file) {
     text.append(part.data(), got);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
+}
+
+// Whether a picture has its end: gnuplot says nothing about a disk that was full.
+bool has_end(const std::string& file) {
+  constexpr std::streamoff kEndBytes = 64;
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  in.seekg(-std::min<std::streamoff>(kEndBytes, in.tellg()), std::ios::end);
+  const std::string end{std::istreambuf_iterator<char>(in), {}};
+  return end.find(file.ends_with(".png") ? "IEND" : "</svg>") != std::string::npos;
 }
 
 }  // namespace
@@ -74,6 +87,8 @@ void write_plot(const Plot& plot, const std::string& file) {
   const auto size = std::filesystem::file_size(file, error);
   if (error || size == 0)
     throw std::runtime_error("gnuplot could not make " + file + (output.empty() ? "" : ": " + output));
+  if (!has_end(file))
+    throw std::runtime_error("cannot write " + file + ": it is cut off; the disk may be full");
 }
 
 }  // namespace halocline::clients

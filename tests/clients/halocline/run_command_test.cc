@@ -252,6 +252,24 @@ TEST_F(RunCommand, ARunThatIsRefusedLeavesNoFolder) {
 }
 
 // Where each program is started by hand, the one that makes the terrain checks the starts on it.
+TEST_F(RunCommand, EveryExportAndTheReportSayThatALogIsCutOff) {
+  ASSERT_EQ(run("run pond.toml --duration 5 --out here --quiet --no-csv").code, 0);
+  fs::resize_file(folder_ + "/here/pond.lcm", fs::file_size(folder_ + "/here/pond.lcm") - 9);
+  for (const std::string arguments : {"log export --format mcap", "log export --format netcdf", "report",
+                                      "log export --format geojson --origin 1,1"})
+    EXPECT_THAT(run(arguments + " here/pond.lcm --force --out x").output, HasSubstr("ends within an event"));
+}
+
+TEST_F(RunCommand, NanIsNoNumberOfAnyOption) {
+  for (const std::string arguments :
+       {"run pond.toml --duration nan", "run pond.toml --rate -NaN", "sweep pond.toml --out s --duration nan",
+        "outcomes a.lcm --window-s nan"}) {
+    const Ended refused = run(arguments);
+    EXPECT_EQ(refused.code, 2) << arguments;
+    EXPECT_THAT(refused.output, HasSubstr("is no number"));
+  }
+}
+
 TEST_F(RunCommand, TheVehicleSimulatorRefusesAStartUnderGroundToo) {
   Process process({HALOCLINE_BIN_DIR "/halocline-vehicle-sim", folder_ + "/pond.toml", "--time-source",
                    "lockstep", "--set", "vehicle.0.start_ned_m=[0.0,0.0,500.0]"});

@@ -77,6 +77,14 @@ TEST(Monitor, EndsWithinASecondOfTheSignal) {
   EXPECT_EQ(program.process().wait(milliseconds(1000)), 0);
 }
 
+TEST(Monitor, AStandardOutputThatIsFullOrClosedIsAFailure) {
+  for (const std::string what :
+       {"--help >/dev/full", "--version >/dev/full", "--help >&-", "--version >&-"}) {
+    Process process({"/bin/sh", "-c", HALOCLINE_BIN_DIR "/halocline-monitor " + what});
+    EXPECT_EQ(process.wait(), 1) << what;
+  }
+}
+
 TEST(Monitor, AnotherAddressDemandsAToken) {
   Process open({std::string(HALOCLINE_BIN_DIR) + "/halocline-monitor", "--address", "0.0.0.0"});
   EXPECT_EQ(open.wait(), 2);
