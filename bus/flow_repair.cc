@@ -82,7 +82,7 @@ std::int64_t FlowRepair::on_heartbeat(SimTime steady, const flow_heartbeat_t& he
   for (std::size_t i = 0; i < heartbeat.flow_channel.size(); ++i) {
     if (!is_subscribed_to(heartbeat.flow_channel[i])) continue;
     missing += watch_.on_last(steady, heartbeat.flow_channel[i], heartbeat.flow_session[i],
-                              heartbeat.flow_last_sequence[i], is_younger, known);
+                              heartbeat.flow_last_sequence[i], {heartbeat.session, is_younger, known});
   }
   if (known && heartbeat.num_flows == heartbeat.num_flows_kept) watch_.on_all_listed(heartbeat.session);
   return missing;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace halocline::bus {
 namespace {
@@ -17,6 +18,13 @@ std::int64_t distance(std::int64_t from, std::int64_t to) {
   std::int64_t step = 0;
   return __builtin_sub_overflow(to, from, &step) ? kGreatest : step;
 }
+
+std::int64_t before(std::int64_t sequence) {
+  return sequence == std::numeric_limits<std::int64_t>::min() ? sequence : sequence - 1;
+}
+
+// Numbers further apart are a leap.
+constexpr auto kReach = static_cast<std::int64_t>(FlowWatch::kMaxMissing);
 
 }  // namespace
 
@@ -55,7 +63,7 @@ FlowWatch::Publisher& FlowWatch::add(SimTime steady, std::string_view channel, s
   Publisher publisher;
   publisher.session = session;
   publisher.first = expected;
-  publisher.last = expected == std::numeric_limits<std::int64_t>::min() ? expected : expected - 1;
+  publisher.last = before(expected);
   publisher.heard_at = steady;
   found->second.push_back(std::move(publisher));
   ++num_flows_;
@@ -68,29 +76,81 @@ std::int64_t FlowWatch::note_missing(Publisher& publisher, SimTime steady, std::
   const std::size_t most = publisher.is_heard ? kMaxMissingOfAll : kMaxMissingUnheard;
   const std::size_t room = std::min(most - std::min(most, num_missing_), kMaxMissing);
   const auto kept = std::min(count, static_cast<std::int64_t>(room));
-  lose(count - kept);
+  lose(publisher, first, end - kept);
   num_missing_ -= publisher.missing.size();
   for (std::int64_t sequence = end - kept; sequence < end; ++sequence) {
     publisher.missing[sequence] = {steady + kReorderingDelay, steady + kGivenUpAfter, kFirstRetry};
   }
   while (publisher.missing.size() > kMaxMissing) {
+    const std::int64_t oldest = publisher.missing.begin()->first;
     publisher.missing.erase(publisher.missing.begin());
-    lose(1);
+    lose(publisher, oldest, oldest + 1);
   }
   num_missing_ += publisher.missing.size();
   if (count > 0) next_due_ = std::min(next_due_, steady + kReorderingDelay);
   return count;
 }
 
+// Whether a number ahead is too far to be believed yet; the next one that goes on from there confirms it.
+bool FlowWatch::leaps(Publisher& publisher, std::int64_t sequence) {
+  const bool is_near = distance(publisher.last, sequence) - 1 <= kReach;
+  const bool is_confirmed =
+      publisher.leap && sequence > *publisher.leap && distance(*publisher.leap, sequence) <= kReach;
+  publisher.leap = is_near || is_confirmed ? std::nullopt : std::optional(sequence);
+  return publisher.leap.has_value();
+}
+
+// `last` is the last number of the flow, and what was taken for later ones never was.
+void FlowWatch::go_back(Publisher& publisher, std::int64_t last) {
+  num_missing_ -= publisher.missing.size();
+  publisher.missing.erase(publisher.missing.upper_bound(last), publisher.missing.end());
+  num_missing_ += publisher.missing.size();
+  publisher.last = last;
+  publisher.first = std::min(publisher.first, last + 1);
+}
+
 void FlowWatch::lose(std::int64_t count) { lost_ = saturating_sum(lost_, count); }
+
+void FlowWatch::lose(Publisher& publisher, std::int64_t first, std::int64_t end) {
+  if (first >= end) return;
+  lose(distance(first, end));
+  std::vector<Span>& lost = publisher.lost;
+  if (!lost.empty() && lost.back().end == first) {
+    lost.back().end = end;
+    return;
+  }
+  if (lost.size() == kSpansKept) lost.erase(lost.begin());
+  lost.push_back({first, end});
+}
+
+// Whether the number was given up; it is not any more.
+bool FlowWatch::take_lost(Publisher& publisher, std::int64_t sequence) {
+  std::vector<Span>& lost = publisher.lost;
+  const auto span = std::find_if(
+      lost.begin(), lost.end(), [&](const Span& one) { return one.first <= sequence && sequence < one.end; });
+  if (span == lost.end()) return false;
+  const Span later{sequence + 1, std::exchange(span->end, sequence)};
+  if (later.first < later.end) {
+    if (span->first == span->end) {
+      *span = later;
+    } else if (lost.size() < kSpansKept) {
+      lost.insert(span + 1, later);
+    }
+  } else if (span->first == span->end) {
+    lost.erase(span);
+  }
+  return true;
+}
 
 FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view channel,
                                                 std::int64_t session, std::int64_t sequence, bool is_repair) {
   if ((session == 0 && sequence == 0) || has_no_room_for(channel)) return {};
   Publisher* publisher = find(channel, session);
+  const bool is_first = publisher != nullptr && !publisher->is_heard;
   if (publisher != nullptr) publisher->is_heard = true;
-  if (publisher != nullptr && publisher->missing.erase(sequence) > 0) {
-    --num_missing_;
+  const bool was_missing = publisher != nullptr && publisher->missing.erase(sequence) > 0;
+  num_missing_ -= was_missing ? 1 : 0;
+  if (was_missing || (publisher != nullptr && take_lost(*publisher, sequence))) {
     publisher->heard_at = steady;
     return {.fills_gap = true};
   }
@@ -98,12 +158,20 @@ FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view
   if (publisher == nullptr) publisher = &add(steady, channel, session, sequence);
   publisher->is_heard = true;
   Classification result;
+  if (is_first && distance(sequence, publisher->last) > kReach) {
+    go_back(*publisher, before(sequence));  // what heartbeats claimed of it was wrong
+    publisher->first = sequence;
+  }
+  if (sequence == publisher->leap) return {.is_repeated = true};
   if (sequence > publisher->last) {
+    const std::optional<std::int64_t> leapt = publisher->leap;
+    if (leaps(*publisher, sequence)) return result;
     result.newly_missing = note_missing(*publisher, steady, publisher->last + 1, sequence);
     publisher->last = sequence;
+    if (leapt) num_missing_ -= publisher->missing.erase(*leapt);  // it was received
   } else if (distance(sequence, publisher->last) >= kRepetitionReach ||
              steady - publisher->heard_at >= kRepetitionAge) {
-    if (publisher->is_listed) return {.is_repeated = true};
+    if (publisher->lister != 0) return {.is_repeated = true};
     publisher->first = publisher->last = sequence;  // it starts its sequence anew
   } else if (sequence < publisher->first) {         // reordered with the first received
     result.newly_missing = note_missing(*publisher, steady, sequence + 1, publisher->first);
@@ -116,17 +184,21 @@ FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view
 }
 
 std::int64_t FlowWatch::on_last(SimTime steady, std::string_view channel, std::int64_t session,
-                                std::int64_t last, bool from_its_start, bool makes_flow) {
+                                std::int64_t last, const Lister& lister) {
   if (last < 0 || last == std::numeric_limits<std::int64_t>::max())
     return 0;  // no sequence number of this library
   if (has_no_room_for(channel)) return 0;
   Publisher* publisher = find(channel, session);
-  if (publisher == nullptr && !makes_flow) return 0;
+  if (publisher == nullptr && !lister.makes_flow) return 0;
   if (publisher == nullptr) publisher = &add(steady, channel, session, last + 1);
   publisher->heard_at = steady;
-  publisher->is_listed = true;
+  const bool is_of_another = publisher->lister != 0 && publisher->lister != lister.session;
+  if (is_of_another && steady - publisher->listed_at < kForgottenAfter) return 0;
+  publisher->lister = lister.session;
+  publisher->listed_at = steady;
+  if (publisher->is_heard && distance(publisher->last, last) > kReach) return 0;
   std::int64_t newly_missing = 0;
-  if (from_its_start && publisher->first > 0) {
+  if (lister.from_its_start && publisher->first > 0) {
     newly_missing += note_missing(*publisher, steady, 0, publisher->first);
     publisher->first = 0;
   }
@@ -151,10 +223,11 @@ std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {
   next_due_ = SimTime::never();
   for (auto& [channel, publishers] : received_) {
     for (Publisher& publisher : publishers) {
-      const std::size_t given_up = std::erase_if(
-          publisher.missing, [&](const auto& entry) { return entry.second.given_up <= steady; });
-      lose(static_cast<std::int64_t>(given_up));
-      num_missing_ -= given_up;
+      num_missing_ -= std::erase_if(publisher.missing, [&](const auto& entry) {
+        const bool is_given_up = entry.second.given_up <= steady;
+        if (is_given_up) lose(publisher, entry.first, entry.first + 1);
+        return is_given_up;
+      });
       Request request{channel, publisher.session, {}};
       for (auto& [sequence, missing] : publisher.missing) {
         if (missing.next_request <= steady && request.sequences.size() < kMaxPerRequest) {

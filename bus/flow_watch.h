@@ -7,6 +7,11 @@
 // the publisher, or received a heartbeat of the publisher that did not list the flow yet. A new session starts
 // without a gap: its publisher was restarted.
 //
+// Anybody may publish, so no single number is believed that leaps: one more than kMaxMissing ahead of the flow changes nothing until
+// the next message goes on from there. What was given up is received when it comes after all, so whatever numbers are claimed, a flow
+// that goes on is received. It is listed by the heartbeats of one session, until these are silent for kForgottenAfter; they do not leap
+// where messages were received.
+//
 // Pure: values in, values out; `steady` is the caller's steady time, never set back.
 #pragma once
 
@@ -16,6 +21,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -59,11 +65,15 @@ class FlowWatch {
   Classification on_message(SimTime steady, std::string_view channel, std::int64_t session,
                             std::int64_t sequence, bool is_repair = false);
 
-  // A heartbeat announced `last` as the last sequence number of the flow. `from_its_start`: the receiver is older
-  // than the publisher, so it should have all from 0. `makes_flow`: it is followed although nothing of it was received yet.
-  // Returns how many are newly missing.
+  // Who lists a flow. `from_its_start`: the receiver is older than the publisher, so it should have all from 0. `makes_flow`: the
+  // flow is followed although nothing of it was received yet.
+  struct Lister {
+    std::int64_t session = 1;  // of the heartbeat, not 0
+    bool from_its_start = false, makes_flow = true;
+  };
+  // A heartbeat announced `last` as the last sequence number of the flow. Returns how many are newly missing.
   std::int64_t on_last(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t last,
-                       bool from_its_start = false, bool makes_flow = true);
+                       const Lister& lister);
   // A heartbeat listed all flows of a publisher (each in on_last): any other flow of it begins after now.
   void on_all_listed(std::int64_t session);
 
@@ -92,15 +102,22 @@ class FlowWatch {
     SimTime next_request, given_up;
     SimDuration retry;
   };
+  struct Span {
+    std::int64_t first = 0, end = 0;
+  };
   struct Publisher {
     std::int64_t session = 0;
     std::int64_t first = 0, last = -1;  // nothing before first is expected; last was received, or announced
     SimTime heard_at;
     bool is_heard = false;  // by more than a heartbeat
-    bool is_listed =
-        false;  // in a heartbeat: its numbers go on for as long as its session, what is far behind is a duplicate
+    // Of the heartbeats that list it, 0: none. Its numbers go on for as long as its session then, and what is far behind is a duplicate.
+    std::int64_t lister = 0;
+    SimTime listed_at;
+    std::optional<std::int64_t> leap;  // the number ahead that nothing has confirmed yet
     std::map<std::int64_t, Missing> missing;
+    std::vector<Span> lost;  // the latest that were given up
   };
+  static constexpr std::size_t kSpansKept = 8;  // of one flow
   // Sessions kept per channel: of more than kSessionsKept those that are silent for kForgottenAfter make room, so that memory stays
   // flat while programs start anew; of kMaxSessions, or while kMaxFlows are known, the one silent for longest.
   static constexpr std::size_t kSessionsKept = 4, kMaxSessions = 128, kMaxFlows = 2 * kMaxChannels;
@@ -113,7 +130,11 @@ class FlowWatch {
   Publisher* find(std::string_view channel, std::int64_t session);
   Publisher& add(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t first);
   void make_room(SimTime steady, Publishers& publishers);
+  static bool leaps(Publisher& publisher, std::int64_t sequence);
+  void go_back(Publisher& publisher, std::int64_t last);
   void lose(std::int64_t count);
+  void lose(Publisher& publisher, std::int64_t first, std::int64_t end);
+  static bool take_lost(Publisher& publisher, std::int64_t sequence);
   std::int64_t note_missing(Publisher& publisher, SimTime steady, std::int64_t first, std::int64_t end);
 
   std::unordered_map<std::string, Publishers, TextHash, std::equal_to<>> received_;  // by channel

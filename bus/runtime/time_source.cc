@@ -53,7 +53,8 @@ bool ConductorTime::agree(const Heard& before, const sim_clock_t& clock, SimTime
   const double utime_s =
       (SimTime::from_utime(clock.utime) - SimTime::from_utime(before.clock.utime)).seconds();
   const double leap_s = utime_s - (received - before.received).seconds() * rate;
-  return std::abs(leap_s) <= kLeap.seconds() * std::max(1.0, rate);
+  const SimDuration ahead = rate > 0 ? kLeapAhead : kLeap;  // in lockstep it goes by CLOCKs alone
+  return leap_s >= -kLeap.seconds() * std::max(1.0, rate) && leap_s <= ahead.seconds() * std::max(1.0, rate);
 }
 
 // Whether an earlier CLOCK of its session agrees with it; otherwise it waits for one that does.
@@ -62,7 +63,9 @@ bool ConductorTime::is_witnessed(const sim_clock_t& clock, SimTime received) {
   const auto earlier = std::find_if(witnesses_.begin(), witnesses_.end(),
                                     [&](const Heard& one) { return one.clock.session == clock.session; });
   if (earlier != witnesses_.end()) {
-    if (earlier->clock.utime != clock.utime && agree(*earlier, clock, received)) return true;
+    const bool is_another = clock.clock_rate > 0 ? earlier->clock.utime != clock.utime
+                                                 : earlier->clock.sequence != clock.sequence;
+    if (is_another && agree(*earlier, clock, received)) return true;
     witnesses_.erase(earlier);
   }
   witnesses_.push_back({clock, received});
@@ -77,14 +80,14 @@ void ConductorTime::refuse_unexpected() {
     bus_.counters().rivals += count;
     if (count > 0) bus_.refuse(channels::kClock, reason);
   };
-  refuse(std::exchange(num_leaps_, 0), "utime is far from what is expected of its session");
+  refuse(std::exchange(num_leaps_, 0), "utime or rate is not what is expected of its session");
   refuse(std::exchange(num_others_, 0),
          "session is of a second conductor; the first is followed until it is silent for 3 s");
 }
 
 void ConductorTime::on_clock(const sim_clock_t& clock, SimTime received) {
   const bool is_followed = last_ && clock.session == last_->clock.session;
-  if (is_followed && agree(*last_, clock, received)) {
+  if (is_followed && clock.clock_rate == rate_ && agree(*last_, clock, received)) {
     refuse_unexpected();
   } else if (last_ && received - last_->received < kSilence) {
     ++(is_followed ? num_leaps_ : num_others_);

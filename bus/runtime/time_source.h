@@ -68,13 +68,15 @@ class TimeSource {
 // (steady - utime / rate) of the last second is the best estimate of the offset between the clocks.
 //
 // Anybody may publish CLOCK. A session is taken up when two of its CLOCKs agree: the second tells the time that the first lets
-// expect, within kLeap (of simulated or of steady time, whichever is longer). It stays until nothing as expected has come of it for
-// kSilence. CLOCKs of other sessions, and of its own that leap, are refused until then, and count as refused once it is heard
-// again. A restarted conductor goes on from the time of the others, who coast until they take it up.
+// expect, to kLeap behind and kLeapAhead ahead (of simulated or of steady time, whichever is longer). It stays until nothing as expected
+// has come of it for kSilence. CLOCKs of other sessions, and of its own that leap or have another rate, are refused until then, and count
+// as refused once it is heard again. A restarted conductor goes on from the time of the others, who coast until they take it up.
 class ConductorTime : public TimeSource {
  public:
   static constexpr SimDuration kSilence = SimDuration::from_milliseconds(3000);
-  static constexpr SimDuration kLeap = SimDuration::from_milliseconds(60'000);
+  // Time that has gone ahead cannot be taken back, so little is believed.
+  static constexpr SimDuration kLeap = SimDuration::from_milliseconds(60'000),
+                               kLeapAhead = SimDuration::from_milliseconds(5'000);
 
   ConductorTime(lcm::LCM& lcm, const std::string& process_name);
   std::optional<SimTime> now(SimTime steady) override;

@@ -87,8 +87,8 @@ class AttackedProcesses : public ::testing::Test {
 
   BusMonitor monitor_;
   std::map<std::string, std::unique_ptr<Process>> processes_;
-  std::int64_t clock_session_ = 0;                       // of the last CLOCK
-  std::int64_t state_session_ = 0, state_sequence_ = 0;  // of the last STATE.alpha
+  std::int64_t clock_session_ = 0;  // of the last CLOCK
+  vehicle_state_t last_state_{};    // STATE.alpha
 
  private:
   void on_any(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
@@ -98,12 +98,50 @@ class AttackedProcesses : public ::testing::Test {
       if (bus::decode(bytes, clock).empty()) clock_session_ = clock.session;
     } else if (channel == "STATE.alpha") {
       vehicle_state_t state;
-      if (!bus::decode(bytes, state).empty()) return;
-      state_session_ = state.session;
-      state_sequence_ = state.sequence;
+      if (bus::decode(bytes, state).empty()) last_state_ = state;
     }
   }
 };
+
+// One datagram each: the time as expected, at another rate.
+TEST_F(AttackedProcesses, AClockOfTheRightSessionWithAnotherRateChangesNothing) {
+  ASSERT_TRUE(outcomes_come(4));
+  for (const double rate : {1e4, 1e6, 0.0}) {
+    sim_clock_t clock = clock_at(monitor_.last_clock_utime + 50'000, clock_session_);
+    clock.clock_rate = rate;
+    publish("CLOCK", clock);
+    ASSERT_TRUE(outcomes_come(4)) << rate;
+  }
+  for (const char* node : {"vehicle-sim", "channel-server"})
+    EXPECT_LT(monitor_.last_status[node].utime, 600'000'000);
+  expect_all_running();
+}
+
+// One copy of the last STATE of a vehicle with the number 2^62; then heartbeats of a stranger, of its own name and session, that list the flow of
+// another far ahead.
+TEST_F(AttackedProcesses, NumbersFarAheadSilenceNobody) {
+  ASSERT_TRUE(outcomes_come(4));
+  vehicle_state_t state = last_state_;
+  state.sequence = std::int64_t{1} << 62;
+  publish("STATE.alpha", state);
+  ASSERT_TRUE(outcomes_come(6));
+  for (const std::int64_t ahead : {std::int64_t{1500}, std::int64_t{100'000}, std::int64_t{1} << 61}) {
+    for (int i = 0; i < 3; ++i) {
+      flow_heartbeat_t heartbeat{};
+      heartbeat.utime = monitor_.last_clock_utime;
+      heartbeat.session = 987'654'321;
+      heartbeat.sequence = i;
+      heartbeat.num_flows = heartbeat.num_flows_kept = 1;
+      heartbeat.flow_channel = {"STATE.alpha"};
+      heartbeat.flow_session = {last_state_.session};
+      heartbeat.flow_last_sequence = {last_state_.sequence + ahead};
+      publish("HEARTBEAT.stranger", heartbeat);
+      std::this_thread::sleep_for(300ms);
+    }
+    ASSERT_TRUE(outcomes_come(6)) << ahead;
+  }
+  expect_all_running();
+}
 
 TEST_F(AttackedProcesses, AStrayClockChangesNothing) {
   ASSERT_TRUE(outcomes_come(4));
@@ -187,12 +225,12 @@ TEST_F(AttackedProcesses, ABusThatIsAwayFor343MillisecondsEndsNothing) {
 // 50 requests a second for 200 messages each, for 5 s.
 TEST_F(AttackedProcesses, RepairRequestsAreNotTurnedAgainstTheBus) {
   ASSERT_TRUE(outcomes_come(1));
-  ASSERT_TRUE(monitor_.wait_until(kLongest_s, [&] { return state_sequence_ >= 100; }));
+  ASSERT_TRUE(monitor_.wait_until(kLongest_s, [&] { return last_state_.sequence >= 100; }));
   repair_request_t request{};
   request.client_name = "evil";
   request.missing_channel = "STATE.alpha";
-  request.publisher_session = state_session_;
-  for (std::int64_t i = 0; i < 200; ++i) request.missing_sequence.push_back(i % (state_sequence_ + 1));
+  request.publisher_session = last_state_.session;
+  for (std::int64_t i = 0; i < 200; ++i) request.missing_sequence.push_back(i % (last_state_.sequence + 1));
   request.num_missing = 200;
   monitor_.clear();
   const auto begin = std::chrono::steady_clock::now();

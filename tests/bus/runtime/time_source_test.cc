@@ -126,19 +126,35 @@ TEST_F(ConductorTimeTest, FiltersJitterAndNeverGoesBack) {
   }
 }
 
-TEST_F(ConductorTimeTest, ANewRateTakesHoldAtOnce) {
+TEST_F(ConductorTimeTest, ANewRateIsFollowedAfterThreeSecondsWithoutTheOldOne) {
   follow(1, 1, 1);
-  receive(2, 2, 10);
-  EXPECT_NEAR(now(3), 12, 1e-9);
+  for (int tick = 1; tick <= 29; ++tick) receive(1 + 0.1 * tick, 1 + tick, 10);
+  EXPECT_NEAR(now(3.95), 3.95, 1e-9);
+  follow(4.2, 33, 10);
+  EXPECT_NEAR(now(5.2), 43, 1e-9);
+}
+
+// One datagram, its time as expected.
+TEST_F(ConductorTimeTest, AnotherRateIsRefusedWhileTheRightOneIsHeard) {
+  follow(1, 100);
+  double steady_s = 1;
+  for (const double rate : {1e4, 1e6, 0.0}) {
+    receive(steady_s + 0.05, steady_s + 99.05, rate);
+    steady_s += 0.1;
+    receive(steady_s, steady_s + 99);
+    EXPECT_NEAR(now(steady_s), steady_s + 99, 1e-6) << rate;
+  }
+  EXPECT_EQ(time_.num_refused(), 3);
 }
 
 TEST_F(ConductorTimeTest, StandsStillWhilePaused) {
   follow(1, 1, 1);
-  receive(2, 2, 0);
-  EXPECT_NEAR(now(5), 2, 1e-9);
-  EXPECT_EQ(time_.steady_at(at(3)), SimTime::never());
-  receive(9, 2, 1);
-  EXPECT_NEAR(now(10), 3, 1e-9);
+  follow(5, 10, 0);
+  EXPECT_NEAR(now(5), 10, 1e-9);
+  EXPECT_NEAR(now(6), 10, 1e-9);
+  EXPECT_EQ(time_.steady_at(at(11)), SimTime::never());
+  follow(9, 10.1, 1);
+  EXPECT_NEAR(now(10), 11.1, 1e-9);
 }
 
 TEST_F(ConductorTimeTest, ARestartedConductorThatContinuesTheTimeIsNoNewRun) {
@@ -178,7 +194,7 @@ TEST_F(ConductorTimeTest, LeapsOfTheSameSessionAreRefusedWhileItIsHeardAsExpecte
   follow(1, 100);
   int forged = 0;
   for (int tick = 1; tick <= 600; ++tick) {
-    for (const double leap_s : {3600.0, 10 * kYear_s, -99.0}) {
+    for (const double leap_s : {6.0, 59.0, 3600.0, 10 * kYear_s, -99.0}) {
       for (const double later_s : {0.02, 0.03, 0.04}) {
         receive(0.9 + 0.1 * tick + later_s, 100 + 0.1 * tick + leap_s + later_s);
         ++forged;
