@@ -45,6 +45,7 @@ Vec3 start_of(VehicleId id) { return {150.0 * id, 70.0 * (id % 5), 20.0 + 7 * id
 // States ten times a second over the last ten seconds before `end`.
 void add_states(VehicleRegistry& fleet, int vehicles, SimTime end, double speed_mps = kSpeedMps) {
   for (VehicleId id = 1; id <= vehicles; ++id) {
+    fleet.reserve("v" + std::to_string(id), id);
     for (int tick = -100; tick <= 0; ++tick) {
       const SimTime time = end + SimDuration::from_milliseconds(100) * tick;
       const Vec3 velocity(speed_mps, 0, 0);

@@ -14,7 +14,10 @@ const VehicleModem& ConfiguredModems::of(std::string_view vehicle) const {
 }
 
 VehicleRegistry::VehicleRegistry(PositionRule rule, ConfiguredModems modems, VehicleEquipment equipment)
-    : rule_(rule), modems_(std::move(modems)), equipment_(std::move(equipment)) {
+    : rule_(rule),
+      modems_(std::move(modems)),
+      equipment_(std::move(equipment)),
+      strangers_(rule.state_timeout) {
   require(rule.state_lag >= SimDuration(), "state_lag must not be negative");
   require(rule.state_timeout > SimDuration(), "state_timeout must be positive");
 }
@@ -29,12 +32,8 @@ std::string VehicleRegistry::add_state(std::string_view name, VehicleId id, cons
   if (is_known && vehicles_[place]->name != name) {
     return "vehicle_id " + std::to_string(id) + " belongs to " + vehicles_[place]->name;
   }
-  if (const auto reserved = reserved_.find(name); reserved != reserved_.end()) {
-    if (reserved->second != id)
-      return "vehicle_id " + std::to_string(id) + "; in the scenario this vehicle has the id " +
-             std::to_string(reserved->second);
-  } else if (const std::string problem = is_known ? "" : problem_of_stranger(id); !problem.empty()) {
-    return problem;
+  if (!is_known) {
+    if (std::string problem = find_place_for(name, id, state.time); !problem.empty()) return problem;
   }
   Vehicle& vehicle = is_known ? *vehicles_[place] : add_vehicle(name, id);
   vehicle.states.insert(state);
@@ -46,12 +45,15 @@ void VehicleRegistry::reserve(std::string_view name, VehicleId id) {
   reserved_ids_.insert(id);
 }
 
-std::string VehicleRegistry::problem_of_stranger(VehicleId id) const {
+std::string VehicleRegistry::find_place_for(std::string_view name, VehicleId id, SimTime time) {
+  if (const auto reserved = reserved_.find(name); reserved != reserved_.end()) {
+    if (reserved->second == id) return {};
+    return "vehicle_id " + std::to_string(id) + "; in the scenario this vehicle has the id " +
+           std::to_string(reserved->second);
+  }
   if (reserved_ids_.contains(id))
     return "vehicle_id " + std::to_string(id) + " is that of another vehicle in the scenario";
-  if (num_strangers_ < kMaxStrangers) return {};
-  return "too many vehicles; at most " + std::to_string(kMaxStrangers) +
-         " that are not of the scenario are followed";
+  return strangers_.admit(name, id, time);
 }
 
 // Where the vehicle is among all, or belongs. Ids that follow one another, as those of most fleets, need no search.
@@ -64,7 +66,6 @@ std::size_t VehicleRegistry::searched_place_of(VehicleId id) const {
 
 VehicleRegistry::Vehicle& VehicleRegistry::add_vehicle(std::string_view name, VehicleId id) {
   ids_.emplace(name, id);
-  num_strangers_ += reserved_.contains(name) ? 0 : 1;
   Schedules schedules = configured(name);
   if (const auto announced = announced_.find(name); announced != announced_.end()) {
     schedules = std::move(announced->second.schedules);
@@ -172,7 +173,7 @@ void VehicleRegistry::forget_before(SimTime time) {
   for (const auto& vehicle : vehicles_) {
     if (has_gone(vehicle)) {
       ids_.erase(vehicle->name);
-      num_strangers_ -= reserved_.contains(vehicle->name) ? 0 : 1;
+      if (!reserved_.contains(vehicle->name)) strangers_.leave();
     } else {
       vehicle->states.forget_before(time);
       vehicle->announced.modems.forget_before(time);
@@ -190,7 +191,7 @@ void VehicleRegistry::forget_before(SimTime time) {
 void VehicleRegistry::clear() {
   equipment_.clear();
   vehicles_.clear();
-  num_strangers_ = 0;
+  strangers_.clear();
   ids_.clear();
   announced_.clear();
   announced_by_turn_.clear();

@@ -6,7 +6,7 @@
 // is forgotten. All answers are functions of the messages received and of the instants given, whatever the
 // order of the messages.
 //
-// Bounded: beyond kMaxStrangers a new vehicle is refused; those of reserve() always have their places. The modem of a vehicle without a state is forgotten when no
+// Bounded: those of reserve() always have their places, others as strangers.h says. The modem of a vehicle without a state is forgotten when no
 // state follows in time, and when kMaxAnnounced others were announced after it, so names made up without end keep
 // nobody's modem out.
 //
@@ -26,6 +26,7 @@
 
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
+#include "channel_server/vehicles/strangers.h"
 #include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/limits.h"
@@ -43,7 +44,6 @@ struct ConfiguredModems {
 
 class VehicleRegistry {
  public:
-  static constexpr std::size_t kMaxStrangers = 4096;          // vehicles that were not reserved
   static constexpr std::size_t kMaxAnnounced = kMaxVehicles;  // modems of vehicles without a state
 
   VehicleRegistry(PositionRule rule, ConfiguredModems modems, VehicleEquipment equipment = {});
@@ -132,8 +132,8 @@ class VehicleRegistry {
     SimTime received_at;
     std::uint64_t turn = 0;  // of the latest announcement, among all
   };
-  // Empty, or why the scenario's vehicles leave no place for another.
-  std::string problem_of_stranger(VehicleId id) const;
+  // Empty when it has a place from now on; else why the vehicle, which has none yet, does not get one.
+  std::string find_place_for(std::string_view name, VehicleId id, SimTime time);
   // Where the vehicle is among vehicles_, or would be. Ids mostly rise by one.
   std::size_t place_of(VehicleId id) const {
     const std::size_t guess =
@@ -157,7 +157,7 @@ class VehicleRegistry {
   VehicleEquipment equipment_;
   std::map<std::string, VehicleId, std::less<>> reserved_;
   std::set<VehicleId> reserved_ids_;
-  std::size_t num_strangers_ = 0;                   // vehicles without a reserved place
+  Strangers strangers_;                             // vehicles without a reserved place
   std::vector<std::unique_ptr<Vehicle>> vehicles_;  // by id
   std::map<std::string, VehicleId, std::less<>> ids_;
   std::map<std::string, Announced, std::less<>> announced_;

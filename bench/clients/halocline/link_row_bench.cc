@@ -11,6 +11,7 @@
 
 #include "bus/logs/log_reader.h"
 #include "bus/messages.h"
+#include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
@@ -37,6 +38,8 @@ using channel_server::VehicleRegistry;
 VehicleRegistry vehicles_of(const ScenarioConfig& config) {
   LogReader log(recorded(config));
   VehicleRegistry vehicles(config.channel_server.rules.position, make_modems(config.channel_server));
+  for (const bus::VehicleEntry& vehicle : config.scenario.vehicles)
+    vehicles.reserve(vehicle.name, vehicle.id);
   for (const Recording::Event& event : read_recording(log, config.scenario).events) {
     const auto* state = std::get_if<vehicle_state_t>(&event.message);
     if (state == nullptr) continue;

@@ -129,6 +129,7 @@ Mission mission_of(const ReachSea& sea, bool by_level, int shards = 1) {
       const auto which = static_cast<std::uint64_t>(id);
       const Vec3 start(sea.box_m() * (draw(0, which) - 0.5), sea.box_m() * (draw(1, which) - 0.5),
                        sea.deepest_m() * draw(2, which));
+      fleet.reserve(name_of(id), id);
       EXPECT_EQ(
           fleet.add_state(name_of(id), id,
                           testing::state_at(0, start, {4 * draw(3, which) - 2, 4 * draw(4, which) - 2, 0})),

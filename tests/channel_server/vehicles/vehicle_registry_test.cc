@@ -82,10 +82,13 @@ TEST(VehicleRegistry, AVehicleWithoutAnnouncementCarriesTheModemOfItsScenario) {
 
 TEST(VehicleRegistry, TooManyVehiclesAreRefused) {
   VehicleRegistry fleet = make_fleet();
-  for (VehicleId id = 1; id <= static_cast<VehicleId>(VehicleRegistry::kMaxStrangers); ++id) {
-    ASSERT_EQ(fleet.add_state(testing::name_of(id), id, state_at(0, {0, 0, 0})), "");
+  for (const double time_s : {0.0, 0.1}) {
+    for (VehicleId id = 1; id <= static_cast<VehicleId>(Strangers::kMaxFollowed); ++id) {
+      const std::string problem = fleet.add_state(testing::name_of(id), id, state_at(time_s, {0, 0, 0}));
+      EXPECT_TRUE(problem.empty() || time_s == 0) << problem;
+    }
   }
-  EXPECT_GE(fleet.size(), 4096u);
+  EXPECT_EQ(fleet.size(), Strangers::kMaxFollowed);
   EXPECT_THAT(fleet.add_state("one-more", 5000, state_at(0, {0, 0, 0})), HasSubstr("too many"));
 }
 
@@ -95,7 +98,7 @@ TEST(VehicleRegistry, AFloodOfNamesLeavesTheVehiclesOfTheScenarioTheirPlaces) {
   std::size_t taken = 0;
   for (VehicleId id = 1; id <= 50'000; ++id)
     taken += fleet.add_state("flood" + std::to_string(id), id, state_at(0, {0, 0, 0})).empty() ? 1 : 0;
-  EXPECT_EQ(taken, VehicleRegistry::kMaxStrangers);
+  EXPECT_EQ(taken, Strangers::kMaxAtOnce);
   EXPECT_THAT(fleet.add_state(testing::name_of(7), 70'000, state_at(0, {0, 0, 0})),
               HasSubstr("in the scenario"));
   for (VehicleId id = 1; id <= 20; ++id)
@@ -103,6 +106,15 @@ TEST(VehicleRegistry, AFloodOfNamesLeavesTheVehiclesOfTheScenarioTheirPlaces) {
   fleet.forget_before(at_s(100));
   EXPECT_EQ(fleet.size(), 0u);
   EXPECT_EQ(fleet.add_state("stranger", 60'000, state_at(100, {0, 0, 0})), "");
+}
+
+TEST(VehicleRegistry, AVehicleThatPublishesSteadilyFindsAPlaceInAFloodOfNames) {
+  VehicleRegistry fleet = make_fleet();
+  for (VehicleId id = 1; id <= 1000; ++id)
+    (void)fleet.add_state("flood" + std::to_string(id), id, state_at(0, {0, 0, 0}));
+  EXPECT_THAT(fleet.add_state("steady", 2000, state_at(0, {0, 0, 0})), HasSubstr("second STATE"));
+  EXPECT_EQ(fleet.add_state("steady", 2000, state_at(1, {0, 0, 0})), "");
+  EXPECT_EQ(fleet.name_of(2000), "steady");
 }
 
 TEST(VehicleRegistry, ModemsAnnouncedUnderForgedNamesKeepNobodyOutAndStayBounded) {

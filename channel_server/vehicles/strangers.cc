@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "channel_server/vehicles/strangers.h"
+
+#include "core/check.h"
+
+namespace halocline::channel_server {
+
+std::string Strangers::admit(std::string_view name, VehicleId id, SimTime time) {
+  if (followed_ >= kMaxFollowed) {
+    return "too many vehicles; at most " + std::to_string(kMaxFollowed) +
+           " that are not of the scenario are followed";
+  }
+  if (followed_ >= kMaxAtOnce && !is_steady(name, {id, time})) {
+    return "first STATE of a vehicle; beyond " + std::to_string(kMaxAtOnce) +
+           " that are not of the scenario, one is followed from its second STATE on";
+  }
+  ++followed_;
+  return {};
+}
+
+bool Strangers::is_steady(std::string_view name, const Candidate& now) {
+  const std::string key(name);
+  const Candidate* before = candidates_.find(key);
+  const bool steady = before != nullptr && before->id == now.id && before->time != now.time &&
+                      now.time - before->time <= timeout_ && before->time - now.time <= timeout_;
+  if (!steady) candidates_.insert(key, now);
+  return steady;
+}
+
+void Strangers::leave() {
+  ensure(followed_ > 0, "a stranger leaves that is not followed");
+  --followed_;
+}
+
+void Strangers::clear() {
+  followed_ = 0;
+  candidates_.clear();
+}
+
+}  // namespace halocline::channel_server
