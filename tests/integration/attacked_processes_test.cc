@@ -279,5 +279,35 @@ TEST_F(AttackedProcesses, HeartbeatsCostNoMemory) {
       status_shows("channel-server", [](const node_status_t& s) { return s.gaps >= 0 && s.lost >= 0; }));
 }
 
+// One STATE for each of 5000 names, in 1.5 s, all in one place.
+TEST_F(AttackedProcesses, AFloodOfNamesCostsNeitherTimeNorMemory) {
+  ASSERT_TRUE(outcomes_come(2));
+  const double before_mb = resident_mb(at("halocline-channel-server"));
+  vehicle_state_t forged = last_state_;
+  forged.session = 5;
+  forged.sequence = 0;
+  for (int i = 0; i < 5000; ++i) {
+    forged.utime = monitor_.last_clock_utime;
+    forged.vehicle_id = 1000 + i;
+    publish("STATE.w" + std::to_string(i), forged);
+    if (i % 50 == 0) monitor_.dispatch_for(0.005);
+  }
+  const std::int64_t flooded_at = monitor_.last_clock_utime;
+  const auto is_of_scenario = [&](const packet_outcome_t& outcome) {
+    return outcome.source_id <= 2 && outcome.receiver_id <= 2 && outcome.utime > flooded_at;
+  };
+  double most_mb = 0;
+  EXPECT_TRUE(monitor_.wait_until(kLongest_s, [&] {
+    most_mb = std::max(most_mb, resident_mb(at("halocline-channel-server")));
+    return std::ranges::count_if(monitor_.outcomes, is_of_scenario) >= 16;
+  }));
+  EXPECT_LT(monitor_.last_clock_utime, flooded_at + 20'000'000);  // the 16 are of 8 s
+  EXPECT_LT(most_mb, before_mb + 50);
+  EXPECT_TRUE(
+      status_shows("channel-server", [](const node_status_t& s) { return s.messages_refused > 4000; }));
+  expect_all_running();
+  expect_all_obey_sigterm();
+}
+
 }  // namespace
 }  // namespace halocline
