@@ -17,6 +17,7 @@
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_power.h"
 #include "core/check.h"
+#include "core/limits.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -102,6 +103,8 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
                {0, 10, "s", "how old a state must be to be used; longer than a message takes on the bus"});
   bus::seconds(v, "state_timeout_s", r.position.state_timeout,
                {0.01, 3600, "s", "a vehicle without a younger state leaves the tables"});
+  visit_count(v, "max_strangers", r.position.max_strangers,
+              {0, kMaxVehicles, "", "vehicles that are not of the scenario and are followed"});
   bus::seconds(v, "max_lateness_s", r.medium.max_lateness,
                {0, 600, "s", "how long after its start a SEND may be received"});
   bus::seconds(v, "max_earliness_s", r.medium.max_earliness,

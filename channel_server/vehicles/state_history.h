@@ -34,6 +34,7 @@ struct StampedState {
 struct PositionRule {
   SimDuration state_lag = SimDuration::from_milliseconds(50);        // 0 and up
   SimDuration state_timeout = SimDuration::from_milliseconds(5000);  // above 0; older states place nobody
+  int max_strangers = 256;  // vehicles that are not of the scenario (strangers.h), 0 and up
 };
 
 struct Placement {

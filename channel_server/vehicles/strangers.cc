@@ -6,9 +6,9 @@
 namespace halocline::channel_server {
 
 std::string Strangers::admit(std::string_view name, VehicleId id, SimTime time) {
-  if (followed_ >= kMaxFollowed) {
-    return "too many vehicles; at most " + std::to_string(kMaxFollowed) +
-           " that are not of the scenario are followed";
+  if (followed_ >= max_followed_) {
+    return "too many vehicles; at most " + std::to_string(max_followed_) +
+           " that are not of the scenario are followed (channel_server.max_strangers)";
   }
   if (followed_ >= kMaxAtOnce && !is_steady(name, {id, time})) {
     return "first STATE of a vehicle; beyond " + std::to_string(kMaxAtOnce) +

@@ -2,7 +2,7 @@
 // Which vehicles that are not of the scenario (strangers) are followed.
 //
 // Rule. kMaxAtOnce of them are followed from their first state on. While so many are followed, another is followed from its second
-// state on: one of the same id and of another time, the two no more than the time-out apart. Beyond kMaxFollowed nobody is.
+// state on: one of the same id and of another time, the two no more than the time-out apart. Beyond `max_followed` nobody is.
 //
 // Link tables grow with the square of the vehicles, and so do the searches for their paths: thousands of vehicles in one place
 // take gigabytes and stop a run in real time. One datagram for each of thousands of names is no fleet, so those that publish
@@ -27,11 +27,12 @@ namespace halocline::channel_server {
 class Strangers {
  public:
   static constexpr std::size_t kMaxAtOnce = 64;     // our choice
-  static constexpr std::size_t kMaxFollowed = 256;  // our choice, for real time in a core
+  static constexpr std::size_t kMaxFollowed = 256;  // by default; our choice, for real time in a core
   static constexpr std::size_t kMaxCandidates = 16'384;
 
-  // `timeout`: of states, above 0.
-  explicit Strangers(SimDuration timeout) : timeout_(timeout) {}
+  // `timeout`: of states, above 0. `max_followed`: 0 and up.
+  explicit Strangers(SimDuration timeout, std::size_t max_followed = kMaxFollowed)
+      : timeout_(timeout), max_followed_(max_followed) {}
 
   // A state that holds at `time`, of a stranger that is not followed. Empty when it is followed from now on; else why not.
   [[nodiscard]] std::string admit(std::string_view name, VehicleId id, SimTime time);
@@ -51,7 +52,7 @@ class Strangers {
   bool is_steady(std::string_view name, const Candidate& now);
 
   SimDuration timeout_;
-  std::size_t followed_ = 0;
+  std::size_t max_followed_, followed_ = 0;
   LruCache<std::string, Candidate> candidates_{kMaxCandidates};
 };
 

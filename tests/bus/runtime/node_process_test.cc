@@ -162,7 +162,8 @@ std::string output_of(const std::vector<std::string>& command, int expected_exit
 }
 
 TEST(NodeCommandLine, HelpShowsAnExample) {
-  EXPECT_THAT(output_of({kConductor, "--help"}, 0), AllOf(HasSubstr("Examples:\n  halocline-conductor scenarios/"), HasSubstr("69 the network")));
+  EXPECT_THAT(output_of({kConductor, "--help"}, 0),
+              AllOf(HasSubstr("Examples:\n  halocline-conductor scenarios/"), HasSubstr("69 the network")));
 }
 
 TEST(NodeCommandLine, InterfaceAndVersionArePrinted) {

@@ -74,6 +74,15 @@ TEST(Strangers, BeyondTheMostNobodyIsFollowedUntilOneLeaves) {
   EXPECT_EQ(strangers.admit("more", 1000, at_s(3)), "");
 }
 
+TEST(Strangers, AsManyAsTheScenarioSaysAreFollowed) {
+  Strangers strangers(for_s(kTimeout_s), 1000);
+  for (VehicleId id = 1; id <= 1000; ++id) {
+    const bool at_once = strangers.admit(name_of(id), id, at_s(0)).empty();
+    EXPECT_TRUE(at_once || strangers.admit(name_of(id), id, at_s(0.1)).empty()) << id;
+  }
+  EXPECT_THAT(strangers.admit("more", 2000, at_s(0)), HasSubstr("at most 1000"));
+}
+
 TEST(Strangers, AnotherRunKnowsNobody) {
   Strangers strangers = crowd();
   EXPECT_NE(strangers.admit("more", 1000, at_s(0)), "");
