@@ -74,7 +74,7 @@ void write_coverage_picture(const Coverage& coverage, const CoverageFile& file, 
                   480 * panels, gnuplot_text(path)) +
       kPalette + fmt::format("set multiplot layout 1,{} title {}\n", panels, gnuplot_text(file.title));
   for (const CoverageQuantity quantity : file.quantities) script += map_of(coverage, quantity, *best);
-  run_gnuplot(script + depth_chart(coverage) + "unset multiplot\nunset output\n");
+  run_gnuplot(script + depth_chart(coverage) + "unset multiplot\nunset output\n", path);
 }
 
 }  // namespace halocline::clients

@@ -52,6 +52,8 @@ struct NoGnuplot : std::runtime_error {
 // Runs commands, with data between them as gnuplot takes it from its standard input; returns what they write to the
 // standard output. Throws NoGnuplot; std::runtime_error when gnuplot fails, with its output.
 std::string run_gnuplot(const std::string& commands);
+// Runs commands that draw `file`, a .png or .svg. Throws as well when it is not there as a whole.
+void run_gnuplot(const std::string& commands, const std::string& file);
 
 // A text for gnuplot commands: quoted, nothing in it is special.
 std::string gnuplot_text(const std::string& text);

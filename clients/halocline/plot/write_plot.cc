@@ -80,9 +80,8 @@ std::string run_gnuplot(const std::string& commands) {
   return text_of(out.get());
 }
 
-void write_plot(const Plot& plot, const std::string& file) {
-  const std::string script = gnuplot_script(plot, file);
-  const std::string output = run_gnuplot(script);
+void run_gnuplot(const std::string& commands, const std::string& file) {
+  const std::string output = run_gnuplot(commands);
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
   if (error || size == 0)
@@ -90,5 +89,7 @@ void write_plot(const Plot& plot, const std::string& file) {
   if (!has_end(file))
     throw std::runtime_error("cannot write " + file + ": it is cut off; the disk may be full");
 }
+
+void write_plot(const Plot& plot, const std::string& file) { run_gnuplot(gnuplot_script(plot, file), file); }
 
 }  // namespace halocline::clients
