@@ -8,9 +8,6 @@
 // take gigabytes and stop a run in real time. One datagram for each of thousands of names is no fleet, so those that publish
 // steadily find places. Many vehicles of another program belong in the scenario (`model = "external"`), where each has its place.
 //
-//   if (const std::string problem = strangers.admit(name, id, time); problem.empty()) follow(name);
-//   strangers.leave();  // when it is forgotten
-//
 // Bounded: of kMaxCandidates names the first state is remembered, the longest unused make room. Not thread-safe.
 #pragma once
 
