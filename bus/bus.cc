@@ -248,8 +248,11 @@ void Bus::enable_repair() {
 }
 
 void Bus::on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat) {
-  if (!sessions_.on_heartbeat(steady_, node, heartbeat.session))
+  if (!sessions_.on_heartbeat(steady_, node, heartbeat.session)) {
+    // Flows that begin meanwhile are requested from their start when it is believed.
+    repair_->on_heartbeat(steady_, heartbeat, [](std::string_view) { return false; });
     return refuse_rival(channels::kHeartbeat.of(node), heartbeat.session);
+  }
   const auto decodes = [this](std::string_view channel) {
     const auto matching = subscribed_to(channel);
     return std::any_of(matching.begin(), matching.end(),

@@ -84,7 +84,8 @@ std::int64_t FlowRepair::on_heartbeat(SimTime steady, const flow_heartbeat_t& he
     missing += watch_.on_last(steady, heartbeat.flow_channel[i], heartbeat.flow_session[i],
                               heartbeat.flow_last_sequence[i], {heartbeat.session, is_younger, known});
   }
-  if (known && heartbeat.num_flows == heartbeat.num_flows_kept) watch_.on_all_listed(heartbeat.session);
+  if ((known || heartbeat.sequence == 0) && heartbeat.num_flows == heartbeat.num_flows_kept)
+    watch_.on_all_listed(heartbeat.session);
   return missing;
 }
 

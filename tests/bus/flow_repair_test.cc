@@ -248,6 +248,7 @@ std::int64_t missing_of_unlisted_flow(int flows_kept) {
   FlowRepair repair("receiver", 1, watch);
   flow_heartbeat_t heartbeat{};
   heartbeat.session = 9;
+  heartbeat.sequence = 4000;
   heartbeat.age_us = 1'000'000'000;
   heartbeat.num_flows_kept = flows_kept;
   heartbeat.num_flows = 1;
@@ -263,7 +264,6 @@ std::int64_t missing_of_unlisted_flow(int flows_kept) {
 TEST(FlowRepair, AFlowThatAWholeHeartbeatDidNotListBeganAfterIt) {
   EXPECT_EQ(missing_of_unlisted_flow(1), 1000);
 }
-
 TEST(FlowRepair, AFlowThatAHeartbeatLeftOutMayHaveBegunBefore) { EXPECT_EQ(missing_of_unlisted_flow(2), 0); }
 
 TEST(FlowRepair, AReceiverThatIsBehindRequestsNothing) {
