@@ -44,10 +44,10 @@ std::vector<FlowRepair::Answer> FlowRepair::take_answers(SimTime steady) {
 // Whether a heartbeat of this session came before, of another moment.
 bool FlowRepair::is_known(SimTime steady, std::int64_t session) {
   constexpr std::size_t kMaxSessions = 4096;
-  constexpr SimDuration kForgottenAfter = SimDuration::from_milliseconds(30'000);
   if (!heartbeats_of_others_.contains(session)) {
-    std::erase_if(heartbeats_of_others_,
-                  [&](const auto& entry) { return steady - entry.second.last >= kForgottenAfter; });
+    std::erase_if(heartbeats_of_others_, [&](const auto& entry) {
+      return steady - entry.second.last >= FlowWatch::kForgottenAfter;
+    });
     if (heartbeats_of_others_.size() >= kMaxSessions) heartbeats_of_others_.clear();
   }
   Heard& heard = heartbeats_of_others_.try_emplace(session, Heard{steady, steady}).first->second;

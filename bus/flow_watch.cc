@@ -100,13 +100,13 @@ bool FlowWatch::leaps(Publisher& publisher, std::int64_t sequence) {
   return publisher.leap.has_value();
 }
 
-// `last` is the last number of the flow, and what was taken for later ones never was.
-void FlowWatch::go_back(Publisher& publisher, std::int64_t last) {
+// The number is the first that was received; what was claimed of later ones is wrong.
+void FlowWatch::begin_at(Publisher& publisher, std::int64_t sequence) {
   num_missing_ -= publisher.missing.size();
-  publisher.missing.erase(publisher.missing.upper_bound(last), publisher.missing.end());
+  publisher.missing.erase(publisher.missing.lower_bound(sequence), publisher.missing.end());
   num_missing_ += publisher.missing.size();
-  publisher.last = last;
-  publisher.first = std::min(publisher.first, last + 1);
+  publisher.first = sequence;
+  publisher.last = before(sequence);
 }
 
 void FlowWatch::lose(std::int64_t count) { lost_ = saturating_sum(lost_, count); }
@@ -158,10 +158,7 @@ FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view
   if (publisher == nullptr) publisher = &add(steady, channel, session, sequence);
   publisher->is_heard = true;
   Classification result;
-  if (is_first && distance(sequence, publisher->last) > kReach) {
-    go_back(*publisher, before(sequence));  // what heartbeats claimed of it was wrong
-    publisher->first = sequence;
-  }
+  if (is_first && distance(sequence, publisher->last) > kReach) begin_at(*publisher, sequence);
   if (sequence == publisher->leap) return {.is_repeated = true};
   if (sequence > publisher->last) {
     const std::optional<std::int64_t> leapt = publisher->leap;

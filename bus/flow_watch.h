@@ -48,6 +48,8 @@ class FlowWatch {
   static constexpr SimDuration kLongestRetry = SimDuration::from_milliseconds(640);
   // After this a missing message is lost.
   static constexpr SimDuration kGivenUpAfter = SimDuration::from_milliseconds(10'000);
+  // What is silent for this, a session of a channel or a lister, is forgotten when another comes.
+  static constexpr SimDuration kForgottenAfter = SimDuration::from_milliseconds(30'000);
   // Missing messages of one flow, beyond which the oldest count as lost; of all, and of flows of which nothing was received yet, beyond
   // which the newest do.
   static constexpr std::size_t kMaxMissing = 2000, kMaxMissingOfAll = 20'000, kMaxMissingUnheard = 5000;
@@ -121,7 +123,6 @@ class FlowWatch {
   // Sessions kept per channel: of more than kSessionsKept those that are silent for kForgottenAfter make room, so that memory stays
   // flat while programs start anew; of kMaxSessions, or while kMaxFlows are known, the one silent for longest.
   static constexpr std::size_t kSessionsKept = 4, kMaxSessions = 128, kMaxFlows = 2 * kMaxChannels;
-  static constexpr SimDuration kForgottenAfter = SimDuration::from_milliseconds(30'000);
   bool has_no_room_for(std::string_view channel) const {
     return received_.size() >= kMaxChannels && !received_.contains(channel);
   }
@@ -131,7 +132,7 @@ class FlowWatch {
   Publisher& add(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t first);
   void make_room(SimTime steady, Publishers& publishers);
   static bool leaps(Publisher& publisher, std::int64_t sequence);
-  void go_back(Publisher& publisher, std::int64_t last);
+  void begin_at(Publisher& publisher, std::int64_t sequence);
   void lose(std::int64_t count);
   void lose(Publisher& publisher, std::int64_t first, std::int64_t end);
   static bool take_lost(Publisher& publisher, std::int64_t sequence);

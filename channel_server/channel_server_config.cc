@@ -103,7 +103,7 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
                {0, 10, "s", "how old a state must be to be used; longer than a message takes on the bus"});
   bus::seconds(v, "state_timeout_s", r.position.state_timeout,
                {0.01, 3600, "s", "a vehicle without a younger state leaves the tables"});
-  visit_count(v, "max_strangers", r.position.max_strangers,
+  visit_count(v, "max_unlisted_vehicles", r.position.max_unlisted_vehicles,
               {0, kMaxVehicles, "", "vehicles that are not of the scenario and are followed"});
   bus::seconds(v, "max_lateness_s", r.medium.max_lateness,
                {0, 600, "s", "how long after its start a SEND may be received"});

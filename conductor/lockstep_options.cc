@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "conductor/lockstep_options.h"
 
+#include <cstddef>
 #include <set>
 #include <sstream>
 
@@ -52,23 +53,21 @@ std::vector<bus::ProgramOption> LockstepOptions::options() {
   };
 }
 
-void LockstepOptions::require_no_other() const {
-  const LockstepOptions none;
-  const auto refuse_if = [](bool is_given, const std::string& option) {
-    require(!is_given, option + " needs --lockstep");
-  };
-  require(rate_ == none.rate_, "--rate needs --lockstep; in real time it is --set time.rate=" + rate_);
-  refuse_if(expect_ != none.expect_, "--expect");
-  refuse_if(log_ != none.log_, "--log");
-  refuse_if(journal_ != none.journal_, "--journal");
-  refuse_if(drop_after_ != none.drop_after_, "--drop-after");
-  refuse_if(no_lookahead_, "--no-lookahead");
-  refuse_if(bridge_bus_, "--bridge-bus");
+void LockstepOptions::require_none() const {
+  LockstepOptions given = *this, none;
+  const auto options = given.options(), defaults = none.options();
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const bool is_given =
+        options[i].flag != nullptr ? *options[i].flag : *options[i].value != *defaults[i].value;
+    require(!is_given,
+            options[i].name + " needs --lockstep" +
+                (options[i].value == &given.rate_ ? "; in real time it is --set time.rate=" + rate_ : ""));
+  }
 }
 
 bool LockstepOptions::run_if_requested(const bus::NodeProgram::Context& context) const {
   if (!lockstep_) {
-    require_no_other();
+    require_none();
     return false;
   }
   LockstepRun run;

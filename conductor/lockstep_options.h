@@ -18,7 +18,7 @@ class LockstepOptions {
   [[nodiscard]] bool run_if_requested(const bus::NodeProgram::Context& context) const;
 
  private:
-  void require_no_other() const;
+  void require_none() const;
 
   bool lockstep_ = false, no_lookahead_ = false, bridge_bus_ = false;
   std::string expect_ = "bathymetry,vehicle-sim,autopilot,traffic,localiser,channel-server";

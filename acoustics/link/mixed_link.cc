@@ -36,6 +36,12 @@ struct Place {
   double depth_m, speed_mps;
 };
 
+struct MixedLink {
+  Place source, receiver, bottom;
+  double range_m;
+  std::vector<BottomRay> turned;  // the rays that slopes turn; empty without slopes
+};
+
 // From a place to where the ray of `xi` turns, or to `limit_m`; layers upwards or downwards.
 double add_leg(const RayWater& water, double xi, const Place& from, double limit_m, HalfCycle& half) {
   const double depth_m = from.depth_m;
@@ -100,20 +106,20 @@ double density_at(double xi, const Place& place, const HalfCycle& half) {
 }
 
 // What rays of each angle at the bottom bring, times the range and for a launch angle: slopes turn them on their way.
-std::vector<BottomRay> rays_after_slopes(const MixedSea& sea, const RayLink& link) {
-  const Place bottom(sea.water, sea.depth_m), receiver(sea.water, link.receiver_depth_m);
-  const double speed = bottom.speed_mps;
+std::vector<BottomRay> rays_after_slopes(const MixedSea& sea, const MixedLink& link) {
+  const double speed = link.bottom.speed_mps;
   std::vector<BottomRay> rays;
   for (std::size_t i = 0; i < kBottomRays; ++i) {
     const double angle = (static_cast<double>(i) + 0.5) * kRayWidth, xi = elementary::cos(angle) / speed;
     HalfCycle half;
     half.lower_m = sea.depth_m;
-    half.upper_m = add_leg(sea.water, xi, bottom, 0, half);
+    half.upper_m = add_leg(sea.water, xi, link.bottom, 0, half);
     double loss_db =
         -20 * elementary::log10(bottom_magnitude_at_sine(sea.bottom, elementary::sin(angle), speed));
     if (half.upper_m == 0) loss_db += surface_loss_of(sea, xi);
     const double cycle_m = 2 * half.range_m;
-    rays.push_back({cycle_m, std::numbers::ln10 / 10 * loss_db / cycle_m, density_at(xi, receiver, half)});
+    rays.push_back(
+        {cycle_m, std::numbers::ln10 / 10 * loss_db / cycle_m, density_at(xi, link.receiver, half)});
   }
   diffuse_by_slopes(rays, kRayWidth, sea.mean_square_slope, link.range_m);
   return rays;
@@ -126,12 +132,6 @@ double power_at(const std::vector<BottomRay>& rays, double angle) {
   const double share = place - static_cast<double>(i);
   return (1 - share) * rays[i].power + share * rays[i + 1].power;
 }
-
-struct MixedLink {
-  Place source, receiver, bottom;
-  double range_m;
-  std::vector<BottomRay> turned;  // the rays that slopes turn; empty without slopes
-};
 
 // Rays launched between `low` and `high`.
 std::optional<Arrival> window_of(const MixedSea& sea, const MixedLink& link, double low, double high) {
@@ -182,7 +182,7 @@ std::vector<Arrival> all_windows(const MixedSea& sea, const RayLink& link) {
                   {sea.water, sea.depth_m},
                   link.range_m,
                   {}};
-  if (sea.mean_square_slope > 0) mixed.turned = rays_after_slopes(sea, link);
+  if (sea.mean_square_slope > 0) mixed.turned = rays_after_slopes(sea, mixed);
   std::vector<Arrival> windows;
   for (std::size_t i = 1; i < edges.size(); ++i) {
     auto window = window_of(sea, mixed, edges[i - 1], edges[i]);

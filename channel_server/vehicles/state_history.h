@@ -20,6 +20,7 @@
 #include <optional>
 #include <vector>
 
+#include "channel_server/vehicles/unlisted_vehicles.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 
@@ -34,7 +35,8 @@ struct StampedState {
 struct PositionRule {
   SimDuration state_lag = SimDuration::from_milliseconds(50);        // 0 and up
   SimDuration state_timeout = SimDuration::from_milliseconds(5000);  // above 0; older states place nobody
-  int max_strangers = 256;  // vehicles that are not of the scenario (strangers.h), 0 and up
+  // That are not of the scenario and are followed, 0 and up.
+  int max_unlisted_vehicles = UnlistedVehicles::kMaxFollowed;
 };
 
 struct Placement {

@@ -17,7 +17,7 @@ VehicleRegistry::VehicleRegistry(PositionRule rule, ConfiguredModems modems, Veh
     : rule_(rule),
       modems_(std::move(modems)),
       equipment_(std::move(equipment)),
-      strangers_(rule.state_timeout, static_cast<std::size_t>(rule.max_strangers)) {
+      unlisted_(rule.state_timeout, static_cast<std::size_t>(rule.max_unlisted_vehicles)) {
   require(rule.state_lag >= SimDuration(), "state_lag must not be negative");
   require(rule.state_timeout > SimDuration(), "state_timeout must be positive");
 }
@@ -53,7 +53,7 @@ std::string VehicleRegistry::find_place_for(std::string_view name, VehicleId id,
   }
   if (reserved_ids_.contains(id))
     return "vehicle_id " + std::to_string(id) + " is that of another vehicle in the scenario";
-  return strangers_.admit(name, id, time);
+  return unlisted_.admit(name, id, time);
 }
 
 // Where the vehicle is among all, or belongs. Ids that follow one another, as those of most fleets, need no search.
@@ -173,7 +173,7 @@ void VehicleRegistry::forget_before(SimTime time) {
   for (const auto& vehicle : vehicles_) {
     if (has_gone(vehicle)) {
       ids_.erase(vehicle->name);
-      if (!reserved_.contains(vehicle->name)) strangers_.leave();
+      if (!reserved_.contains(vehicle->name)) unlisted_.leave();
     } else {
       vehicle->states.forget_before(time);
       vehicle->announced.modems.forget_before(time);
@@ -191,7 +191,7 @@ void VehicleRegistry::forget_before(SimTime time) {
 void VehicleRegistry::clear() {
   equipment_.clear();
   vehicles_.clear();
-  strangers_.clear();
+  unlisted_.clear();
   ids_.clear();
   announced_.clear();
   announced_by_turn_.clear();

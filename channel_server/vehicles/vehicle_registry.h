@@ -6,7 +6,7 @@
 // is forgotten. All answers are functions of the messages received and of the instants given, whatever the
 // order of the messages.
 //
-// Bounded: those of reserve() always have their places, others as strangers.h says. The modem of a vehicle without a state is forgotten when no
+// Bounded: those of reserve() always have their places, others as unlisted_vehicles.h says. The modem of a vehicle without a state is forgotten when no
 // state follows in time, and when kMaxAnnounced others were announced after it, so names made up without end keep
 // nobody's modem out.
 //
@@ -26,7 +26,7 @@
 
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
-#include "channel_server/vehicles/strangers.h"
+#include "channel_server/vehicles/unlisted_vehicles.h"
 #include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/limits.h"
@@ -157,7 +157,7 @@ class VehicleRegistry {
   VehicleEquipment equipment_;
   std::map<std::string, VehicleId, std::less<>> reserved_;
   std::set<VehicleId> reserved_ids_;
-  Strangers strangers_;                             // vehicles without a reserved place
+  UnlistedVehicles unlisted_;                       // vehicles without a reserved place
   std::vector<std::unique_ptr<Vehicle>> vehicles_;  // by id
   std::map<std::string, VehicleId, std::less<>> ids_;
   std::map<std::string, Announced, std::less<>> announced_;

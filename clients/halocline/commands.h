@@ -14,9 +14,8 @@ namespace halocline::clients {
 inline constexpr int kDone = 0, kFailed = 1, kUserError = 2;
 inline constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells have it
 inline constexpr const char* kExitCodes =
-    "Exit codes: 0 done, 1 failed, 2 wrong command line or configuration, 69 the network cannot be used, 130 "
-    "interrupted "
-    "by Ctrl-C.";
+    "Exit codes: 0 done, 1 failed, 2 wrong command line or configuration, 69 the network cannot be used, "
+    "130 interrupted by Ctrl-C.";
 
 // The end of a subcommand's --help.
 std::string footer(const std::string& examples);

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/runtime/message_journal.h"
 
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/check.h"
+#include "tests/support/file_size_limit.h"
 
 namespace halocline::bus {
 namespace {
@@ -163,16 +162,12 @@ TEST_F(MessageJournalTest, TwoProcessesDoNotShareAJournal) {
 
 // As on a full disk: the kernel refuses what makes the file longer.
 TEST_F(MessageJournalTest, WhenTheDiskIsFullTheJournalIsGivenUpAndNothingElse) {
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-  const auto handler = signal(SIGXFSZ, SIG_IGN);
   const auto journal = open();
   receive(*journal, 1, "STATE.a", 5);
-  const rlimit full{std::filesystem::file_size(path_) + 10, before.rlim_max};
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &full), 0);
-  receive(*journal, 2, "STATE.a", 6);
-  setrlimit(RLIMIT_FSIZE, &before);
-  signal(SIGXFSZ, handler);
+  {
+    const halocline::testing::FileSizeLimit full_disk(std::filesystem::file_size(path_) + 10);
+    receive(*journal, 2, "STATE.a", 6);
+  }
   EXPECT_TRUE(journal->is_given_up());
   receive(*journal, 3, "STATE.a", 7);
   journal->write_output(SimTime::from_seconds(4), "OUTCOME", {8});

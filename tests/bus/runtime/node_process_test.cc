@@ -200,6 +200,20 @@ TEST(NodeCommandLine, TwentyThousandVehiclesAreRefusedWithTheLineOfTheFirstTooMa
   std::filesystem::remove(path);
 }
 
+TEST(NodeCommandLine, OptionsOfLockstepNeedLockstep) {
+  for (const std::vector<std::string>& given : {std::vector<std::string>{"--rate", "0.3"},
+                                                {"--expect", "nobody"},
+                                                {"--log", "a.lcm"},
+                                                {"--journal", "a"},
+                                                {"--drop-after", "x"},
+                                                {"--no-lookahead"},
+                                                {"--bridge-bus"}}) {
+    std::vector<std::string> command{kConductor};
+    command.insert(command.end(), given.begin(), given.end());
+    EXPECT_THAT(output_of(command, 2), HasSubstr(given[0] + " needs --lockstep"));
+  }
+}
+
 TEST(NodeCommandLine, AFullStandardOutputIsAFailure) {
   EXPECT_EQ(Process({"/bin/sh", "-c", HALOCLINE_ECHO_PROGRAM " --example >/dev/full"}).wait(), 1);
 }

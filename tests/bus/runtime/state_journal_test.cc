@@ -2,7 +2,6 @@
 #include "bus/runtime/state_journal.h"
 
 #include <algorithm>
-#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -15,10 +14,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include "core/check.h"
 #include "tests/bus/runtime/journal_files.h"
+#include "tests/support/file_size_limit.h"
 
 namespace halocline::bus {
 namespace {
@@ -170,15 +169,11 @@ TEST_F(StateJournalTest, AnotherFileIsRefusedAndStaysAsItIs) {
 
 // As on a full disk: the kernel refuses what makes the file longer.
 TEST_F(StateJournalTest, WhatAFullDiskRefusedIsNotInheritedAndTheNextRecordIsWhole) {
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-  const auto handler = signal(SIGXFSZ, SIG_IGN);
   EXPECT_TRUE(write(0, "a"));
-  const rlimit full{size_of(0) + 10, before.rlim_max};
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &full), 0);
-  EXPECT_FALSE(write(1, std::string(1000, 'b')));
-  setrlimit(RLIMIT_FSIZE, &before);
-  signal(SIGXFSZ, handler);
+  {
+    const halocline::testing::FileSizeLimit full_disk(size_of(0) + 10);
+    EXPECT_FALSE(write(1, std::string(1000, 'b')));
+  }
   EXPECT_FALSE(inherited().has_value());
   EXPECT_TRUE(journal_->wants_whole());
   EXPECT_TRUE(write(2, "c"));

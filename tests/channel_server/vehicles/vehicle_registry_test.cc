@@ -83,12 +83,12 @@ TEST(VehicleRegistry, AVehicleWithoutAnnouncementCarriesTheModemOfItsScenario) {
 TEST(VehicleRegistry, TooManyVehiclesAreRefused) {
   VehicleRegistry fleet = make_fleet();
   for (const double time_s : {0.0, 0.1}) {
-    for (VehicleId id = 1; id <= static_cast<VehicleId>(Strangers::kMaxFollowed); ++id) {
+    for (VehicleId id = 1; id <= static_cast<VehicleId>(UnlistedVehicles::kMaxFollowed); ++id) {
       const std::string problem = fleet.add_state(testing::name_of(id), id, state_at(time_s, {0, 0, 0}));
       EXPECT_TRUE(problem.empty() || time_s == 0) << problem;
     }
   }
-  EXPECT_EQ(fleet.size(), Strangers::kMaxFollowed);
+  EXPECT_EQ(fleet.size(), UnlistedVehicles::kMaxFollowed);
   EXPECT_THAT(fleet.add_state("one-more", 5000, state_at(0, {0, 0, 0})), HasSubstr("too many"));
 }
 
@@ -98,7 +98,7 @@ TEST(VehicleRegistry, AFloodOfNamesLeavesTheVehiclesOfTheScenarioTheirPlaces) {
   std::size_t taken = 0;
   for (VehicleId id = 1; id <= 50'000; ++id)
     taken += fleet.add_state("flood" + std::to_string(id), id, state_at(0, {0, 0, 0})).empty() ? 1 : 0;
-  EXPECT_EQ(taken, Strangers::kMaxAtOnce);
+  EXPECT_EQ(taken, UnlistedVehicles::kMaxAtOnce);
   EXPECT_THAT(fleet.add_state(testing::name_of(7), 70'000, state_at(0, {0, 0, 0})),
               HasSubstr("in the scenario"));
   for (VehicleId id = 1; id <= 20; ++id)

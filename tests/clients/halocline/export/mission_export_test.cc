@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/export/mission_export.h"
 
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -16,13 +15,13 @@
 #include <gtest/gtest.h>
 #include <netcdf.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "clients/halocline/export/mcap_writer.h"
 #include "core/check.h"
 #include "tests/clients/mission/mission_fixtures.h"
+#include "tests/support/file_size_limit.h"
 
 namespace halocline::clients {
 namespace {
@@ -133,14 +132,8 @@ TEST_F(MissionExport, FileThatCannotBeWrittenIsAnError) {
 
 // As on a full disk, where HDF5 crashed.
 TEST_F(MissionExport, NetcdfThatIsCutOffIsAnError) {
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-  const rlimit small{4096, before.rlim_max};
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const halocline::testing::FileSizeLimit full_disk(4096);
   EXPECT_THROW(export_netcdf(mission_, path_), std::runtime_error);
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
   EXPECT_FALSE(std::filesystem::exists(path_));
 }
 

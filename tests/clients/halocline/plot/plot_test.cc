@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/plot/plot.h"
 
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -11,10 +10,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/check.h"
+#include "tests/support/file_size_limit.h"
 
 namespace halocline::clients {
 namespace {
@@ -139,15 +138,9 @@ TEST_F(PlotFile, IsReportedWhenItCannotBeWritten) {
 
 // As on a full disk, of which gnuplot says nothing.
 TEST_F(PlotFile, IsReportedWhenItIsCutOff) {
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-  const rlimit small{4096, before.rlim_max};
-  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const halocline::testing::FileSizeLimit full_disk(4096);
   EXPECT_THROW(write_plot(stems(), path("a.svg")), std::runtime_error);
   EXPECT_THROW(write_plot(stems(), path("a.png")), std::runtime_error);
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
 }
 
 TEST_F(PlotFile, IsReportedWhenGnuplotIsMissing) {

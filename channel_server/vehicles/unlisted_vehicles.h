@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which vehicles that are not of the scenario (strangers) are followed.
+// Which vehicles that are not of the scenario (unlisted) are followed.
 //
 // Rule. kMaxAtOnce of them are followed from their first state on. While so many are followed, another is followed from its second
 // state on: one of the same id and of another time, the two no more than the time-out apart. Beyond `max_followed` nobody is.
@@ -21,17 +21,17 @@
 
 namespace halocline::channel_server {
 
-class Strangers {
+class UnlistedVehicles {
  public:
   static constexpr std::size_t kMaxAtOnce = 64;     // our choice
   static constexpr std::size_t kMaxFollowed = 256;  // by default; our choice, for real time in a core
   static constexpr std::size_t kMaxCandidates = 16'384;
 
   // `timeout`: of states, above 0. `max_followed`: 0 and up.
-  explicit Strangers(SimDuration timeout, std::size_t max_followed = kMaxFollowed)
+  explicit UnlistedVehicles(SimDuration timeout, std::size_t max_followed = kMaxFollowed)
       : timeout_(timeout), max_followed_(max_followed) {}
 
-  // A state that holds at `time`, of a stranger that is not followed. Empty when it is followed from now on; else why not.
+  // A state that holds at `time`, of one that is not followed. Empty when it is followed from now on; else why not.
   [[nodiscard]] std::string admit(std::string_view name, VehicleId id, SimTime time);
   // One of those followed is followed no more.
   void leave();

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "channel_server/vehicles/strangers.h"
+#include "channel_server/vehicles/unlisted_vehicles.h"
 
 #include "core/check.h"
 
 namespace halocline::channel_server {
 
-std::string Strangers::admit(std::string_view name, VehicleId id, SimTime time) {
+std::string UnlistedVehicles::admit(std::string_view name, VehicleId id, SimTime time) {
   if (followed_ >= max_followed_) {
     return "too many vehicles; at most " + std::to_string(max_followed_) +
-           " that are not of the scenario are followed (channel_server.max_strangers)";
+           " that are not of the scenario are followed (channel_server.max_unlisted_vehicles)";
   }
   if (followed_ >= kMaxAtOnce && !is_steady(name, {id, time})) {
     return "first STATE of a vehicle; beyond " + std::to_string(kMaxAtOnce) +
@@ -18,7 +18,7 @@ std::string Strangers::admit(std::string_view name, VehicleId id, SimTime time) 
   return {};
 }
 
-bool Strangers::is_steady(std::string_view name, const Candidate& now) {
+bool UnlistedVehicles::is_steady(std::string_view name, const Candidate& now) {
   const std::string key(name);
   const Candidate* before = candidates_.find(key);
   const bool steady = before != nullptr && before->id == now.id && before->time != now.time &&
@@ -27,12 +27,12 @@ bool Strangers::is_steady(std::string_view name, const Candidate& now) {
   return steady;
 }
 
-void Strangers::leave() {
-  ensure(followed_ > 0, "a stranger leaves that is not followed");
+void UnlistedVehicles::leave() {
+  ensure(followed_ > 0, "an unlisted vehicle leaves that is not followed");
   --followed_;
 }
 
-void Strangers::clear() {
+void UnlistedVehicles::clear() {
   followed_ = 0;
   candidates_.clear();
 }
