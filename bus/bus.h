@@ -82,8 +82,7 @@ class Bus {
   void subscribe_to_all(RawHandler handler);
   // When LCM received the message that is being handled, wall time (Unix); the kernel's stamp over udpm.
   SimTime received_at() const { return received_at_; }
-  // `tap` is called with each message that is accepted, before its handler.
-  void set_tap(RawHandler tap) { tap_ = std::move(tap); }
+  void set_tap(RawHandler tap) { tap_ = std::move(tap); }  // called with what is accepted, before its handler
   // Handles a message as if LCM had dispatched it: a runner in LCM's place, or an input of an earlier incarnation of this
   // node (message_journal.h), whose gaps are then known, and repaired. Throws what a handler throws.
   void deliver(std::string_view channel, std::span<const std::uint8_t> message);
@@ -99,6 +98,7 @@ class Bus {
   void repair(SimTime sim, SimTime steady, bool may_request = true);
   SimTime next_repair() const;
   void forget_flows() { flows_.forget(); }  // another run has begun: sequences may start anew
+  void continue_flows(FlowWatch::Knows knows) { flows_.go_on(std::move(knows)); }  // of earlier incarnations
   const NodeIdentity& identity() const { return identity_; }
   BusCounters& counters() { return counters_; }
   const BusCounters& counters() const { return counters_; }

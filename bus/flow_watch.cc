@@ -195,7 +195,7 @@ std::int64_t FlowWatch::on_last(SimTime steady, std::string_view channel, std::i
   publisher->listed_at = steady;
   if (publisher->is_heard && distance(publisher->last, last) > kReach) return 0;
   std::int64_t newly_missing = 0;
-  if (lister.from_its_start && publisher->first > 0) {
+  if (publisher->first > 0 && (lister.from_its_start || knows_(channel))) {
     newly_missing += note_missing(*publisher, steady, 0, publisher->first);
     publisher->first = 0;
   }
@@ -242,9 +242,17 @@ std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {
   return requests;
 }
 
+void FlowWatch::go_on(Knows knows) {
+  knows_ = std::move(knows);
+  for (auto& [channel, publishers] : received_) {
+    for (Publisher& publisher : publishers) publisher.first = std::min<std::int64_t>(publisher.first, 0);
+  }
+}
+
 void FlowWatch::forget() {
   received_.clear();
   listed_.clear();
+  knows_ = knows_none;
   num_missing_ = num_flows_ = 0;
   next_due_ = SimTime::never();
 }

@@ -96,6 +96,10 @@ class FlowWatch {
   // Sessions of channels that are remembered.
   std::size_t num_flows() const { return num_flows_; }
 
+  // Goes on where an earlier incarnation of the receiver ended: whatever precedes the first number of a flow known now is not missing, and on the
+  // channels that `knows` selects all flows are known of which it received anything, so that any other is missing from its start.
+  using Knows = std::function<bool(std::string_view channel)>;
+  void go_on(Knows knows);
   // Another run has begun: its publishers may start their sequences anew.
   void forget();
 
@@ -131,6 +135,7 @@ class FlowWatch {
   Publisher* find(std::string_view channel, std::int64_t session);
   Publisher& add(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t first);
   void make_room(SimTime steady, Publishers& publishers);
+  static bool knows_none(std::string_view) { return false; }
   static bool leaps(Publisher& publisher, std::int64_t sequence);
   void begin_at(Publisher& publisher, std::int64_t sequence);
   void lose(std::int64_t count);
@@ -139,6 +144,7 @@ class FlowWatch {
   std::int64_t note_missing(Publisher& publisher, SimTime steady, std::int64_t first, std::int64_t end);
 
   std::unordered_map<std::string, Publishers, TextHash, std::equal_to<>> received_;  // by channel
+  Knows knows_ = knows_none;
   std::deque<std::int64_t> listed_;  // sessions whose flows a heartbeat has listed, the latest last
   SimTime next_due_ = SimTime::never();
   std::int64_t lost_ = 0;

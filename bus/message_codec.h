@@ -64,6 +64,13 @@ inline std::uint32_t uint32_at(std::span<const std::uint8_t> bytes, std::size_t 
   const auto part = [&](std::size_t i, int shift) { return std::uint32_t{bytes[at + i]} << shift; };
   return part(0, 24) | part(1, 16) | part(2, 8) | part(3, 0);
 }
+inline void append_int64(std::int64_t value, Bytes& to) {
+  append_uint32(static_cast<std::uint32_t>(static_cast<std::uint64_t>(value) >> 32), to);
+  append_uint32(static_cast<std::uint32_t>(value), to);
+}
+inline std::int64_t int64_at(std::span<const std::uint8_t> bytes, std::size_t at) {
+  return static_cast<std::int64_t>(std::uint64_t{uint32_at(bytes, at)} << 32 | uint32_at(bytes, at + 4));
+}
 
 // Messages one after another, each after its length.
 template <class Message>

@@ -2,6 +2,7 @@
 // The sequence number of a message in its flow (channel, session), for message types that carry one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <type_traits>
@@ -27,6 +28,9 @@ concept IsOfFlow =
       m.session;
       m.sequence;
     });
+
+// Behind LCM's fingerprint every message of a flow begins with utime, session and sequence: where these lie in its bytes.
+inline constexpr std::size_t kUtimeAt = 8, kSessionAt = 16, kSequenceAt = 24, kFlowHeadBytes = 32;
 
 template <class Message>
 std::int64_t sequence_of(const Message& message) {

@@ -14,14 +14,6 @@ namespace halocline::clients {
 namespace {
 
 constexpr std::size_t kMostMissing = 10'000;  // of one flow; beyond these the oldest are only counted
-// Behind LCM's fingerprint every message of a flow begins with utime, session and sequence.
-constexpr std::size_t kUtimeAt = 8, kSessionAt = 16, kSequenceAt = 24, kHeadBytes = 32;
-
-std::int64_t int64_at(std::span<const std::uint8_t> data, std::size_t at) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < 8; ++i) value = value << 8 | data[at + i];
-  return static_cast<std::int64_t>(value);
-}
 
 // Packets are numbered by their senders as they like.
 std::int64_t flow_type_of(std::string_view channel) {
@@ -75,9 +67,11 @@ void LogFlows::count(std::string_view channel, std::span<const std::uint8_t> dat
   const std::string_view repair = bus::channels::kRepair.prefix;
   while (channel.starts_with(repair)) channel.remove_prefix(repair.size());
   Channel& counted = channel_of(channel);
-  if (counted.type == 0 || data.size() < kHeadBytes || int64_at(data, 0) != counted.type) return;
-  const std::int64_t utime = int64_at(data, kUtimeAt), sequence = int64_at(data, kSequenceAt);
-  const std::int64_t session = int64_at(data, kSessionAt);
+  if (counted.type == 0 || data.size() < bus::kFlowHeadBytes || bus::int64_at(data, 0) != counted.type)
+    return;
+  const std::int64_t utime = bus::int64_at(data, bus::kUtimeAt);
+  const std::int64_t session = bus::int64_at(data, bus::kSessionAt);
+  const std::int64_t sequence = bus::int64_at(data, bus::kSequenceAt);
   if (session == 0 && sequence == 0) return;
   ++counted.messages;
   const auto [found, is_new] = counted.flows.try_emplace(session, Flow{sequence, sequence, utime, {}, 0});

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/runtime/crash_journal.h"
 
+#include <algorithm>
+
 namespace halocline::bus {
 namespace {
 
 using Kind = JournalledMessage::Kind;
 
 constexpr std::size_t kOutputHeadBytes = 20;  // of an output: session, sequence, length of the identity
-
-void append_int64(std::int64_t value, Bytes& to) {
-  const auto bits = static_cast<std::uint64_t>(value);
-  append_uint32(static_cast<std::uint32_t>(bits >> 32), to);
-  append_uint32(static_cast<std::uint32_t>(bits), to);
-}
-
-std::int64_t int64_at(const Bytes& bytes, std::size_t at) {
-  return static_cast<std::int64_t>(std::uint64_t{uint32_at(bytes, at)} << 32 | uint32_at(bytes, at + 4));
-}
 
 }  // namespace
 
@@ -41,6 +33,7 @@ std::optional<CrashJournal::Output> CrashJournal::to_output(const JournalledMess
 
 void CrashJournal::open(Rule rule) {
   kept_ = rule.kept;
+  keep_last_ = rule.keep_last;
   journal_ = std::make_unique<MessageJournal>(
       MessageJournal::Rule{rule.path, rule.kept, rule.keep_last, rule.keep_all});
   const std::size_t bytes = journal_->bytes_damaged(), bits = journal_->bits_mended();
@@ -69,6 +62,11 @@ void CrashJournal::replay_inputs(const std::function<void(SimTime at)>& end_step
     end_step(entry.at);
   }
   replays_ = false;
+  if (!last_step_) return;
+  bus_.continue_flows([this](std::string_view channel) {
+    return std::any_of(keep_last_.begin(), keep_last_.end(),
+                       [&](const Family& family) { return channel.starts_with(family.prefix); });
+  });
 }
 
 bool CrashJournal::resume(SimTime now) {
@@ -78,6 +76,7 @@ bool CrashJournal::resume(SimTime now) {
   if (now < *last_step_ - kSameRun || now > *last_step_ + kept_) {
     bus_.log().info("journal-of-another-run", last);
     journal_->clear();
+    bus_.forget_flows();
     return false;
   }
   bus_.log().info("resuming", last);

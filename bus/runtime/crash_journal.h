@@ -58,12 +58,13 @@ class CrashJournal {
     // How far back inputs and outputs reach; above 0. After a longer absence nothing is resumed.
     SimDuration kept;
     std::function<bool(std::string_view channel)> is_input;  // selects what is kept of what is received
-    std::vector<Family> keep_last;      // inputs of which the last on each channel is kept for ever
+    // Inputs of which the last of each flow is kept for ever: what begins while the node is away is then known to be missing.
+    std::vector<Family> keep_last;
     std::vector<std::string> keep_all;  // channels whose inputs are all kept (the latest 1000)
   };
   // Steady time, from the first step, within which repair brings what was published while the node was away:
-  // heartbeats come four times a second, the messages within two requests.
-  static constexpr SimDuration kRepairTime = SimDuration::from_milliseconds(500);
+  // heartbeats come four times a second, the second tells of flows that began meanwhile, the messages come within two requests.
+  static constexpr SimDuration kRepairTime = SimDuration::from_milliseconds(600);
 
   CrashJournal(Bus& bus, NumberedPublisher& publisher) : bus_(bus), publisher_(publisher) {}
 
@@ -129,6 +130,7 @@ class CrashJournal {
   Bus& bus_;
   NumberedPublisher& publisher_;
   SimDuration kept_;
+  std::vector<Family> keep_last_;
   std::unique_ptr<MessageJournal> journal_;
   std::vector<JournalledMessage> history_;  // inherited: inputs, and outputs without their bytes
   std::vector<JournalledMessage> outputs_;  // inherited

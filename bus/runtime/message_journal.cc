@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "bus/message_codec.h"
+#include "bus/sequence_number.h"
+#include "core/limits.h"
 
 namespace halocline::bus {
 namespace {
@@ -16,16 +18,15 @@ namespace {
 using Kind = JournalledMessage::Kind;
 
 constexpr std::string_view kHeader = "HALOCLINE INPUT2";
-constexpr std::size_t kMaxKept = 1000;        // of keep_all
-constexpr std::size_t kMaxKeptLast = 16'384;  // channels of keep_last
-constexpr std::size_t kHeadBytes = 9;         // of a body: stamp, length of the channel
+constexpr std::size_t kMaxKept = 1000;                  // of keep_all
+constexpr std::size_t kMaxKeptLast = 4 * kMaxVehicles;  // channels of keep_last
+constexpr std::size_t kMaxSessions = 8;                 // of each
+constexpr std::size_t kHeadBytes = 9;                   // of a body: stamp, length of the channel
 
 // Body: stamp, length of the channel, channel, message.
 JournalFile::Record to_record(const JournalledMessage& entry) {
   Bytes body;
-  const auto stamp = static_cast<std::uint64_t>(entry.at.nanoseconds());
-  append_uint32(static_cast<std::uint32_t>(stamp >> 32), body);
-  append_uint32(static_cast<std::uint32_t>(stamp), body);
+  append_int64(entry.at.nanoseconds(), body);
   body.push_back(static_cast<std::uint8_t>(entry.channel.size()));  // 63 at most in LCM
   body.insert(body.end(), entry.channel.begin(), entry.channel.end());
   body.insert(body.end(), entry.bytes.begin(), entry.bytes.end());
@@ -35,17 +36,21 @@ JournalFile::Record to_record(const JournalledMessage& entry) {
 std::optional<JournalledMessage> to_entry(const JournalFile::Record& record) {
   const Bytes& body = record.body;
   if (record.kind > static_cast<std::uint8_t>(Kind::kStep) || body.size() < kHeadBytes) return std::nullopt;
-  const std::size_t channel_bytes = body[8];
+  const std::size_t channel_bytes = body[kHeadBytes - 1];
   if (channel_bytes > body.size() - kHeadBytes) return std::nullopt;
   JournalledMessage entry;
   entry.kind = static_cast<Kind>(record.kind);
-  const std::uint64_t stamp = std::uint64_t{uint32_at(body, 0)} << 32 | uint32_at(body, 4);
-  entry.at = SimTime::from_nanoseconds(static_cast<std::int64_t>(stamp));
+  entry.at = SimTime::from_nanoseconds(int64_at(body, 0));
   const auto channel = body.begin() + kHeadBytes,
              message = channel + static_cast<std::ptrdiff_t>(channel_bytes);
   entry.channel.assign(channel, message);
   entry.bytes.assign(message, body.end());
   return entry;
+}
+
+// Of the publisher; 0 where none is stated.
+std::int64_t session_of(const JournalledMessage& input) {
+  return input.bytes.size() < kFlowHeadBytes ? 0 : int64_at(input.bytes, kSessionAt);
 }
 
 }  // namespace
@@ -144,7 +149,11 @@ void MessageJournal::give_up() {
 void MessageJournal::carry(const JournalledMessage& entry) {
   if (entry.kind != Kind::kInput) return;
   for (const Family& family : rule_.keep_last) {
-    if (entry.channel.starts_with(family.prefix)) kept_last_[entry.channel] = entry;
+    if (!entry.channel.starts_with(family.prefix)) continue;
+    std::vector<JournalledMessage>& of_channel = kept_last_[entry.channel];
+    std::erase_if(of_channel, [&](const auto& other) { return session_of(other) == session_of(entry); });
+    if (of_channel.size() == kMaxSessions) of_channel.erase(of_channel.begin());
+    of_channel.push_back(entry);
   }
   if (kept_last_.size() > kMaxKeptLast) forget_older_half();
   // Each file begins with them, so those of the earlier incarnation are read more than once.
@@ -161,18 +170,19 @@ void MessageJournal::carry(const JournalledMessage& entry) {
 // By halves, so that names made up without end cost no more than a constant for each.
 void MessageJournal::forget_older_half() {
   std::vector<SimTime> times;
-  for (const auto& [channel, entry] : kept_last_) times.push_back(entry.at);
+  for (const auto& [channel, entries] : kept_last_) times.push_back(entries.back().at);
   const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
   std::nth_element(times.begin(), middle, times.end());
   // Not all, where all are of one instant.
   std::size_t left = times.size() / 2;
   std::erase_if(kept_last_,
-                [&](const auto& kept) { return kept.second.at <= *middle && left > 0 && left-- > 0; });
+                [&](const auto& kept) { return kept.second.back().at <= *middle && left > 0 && left-- > 0; });
 }
 
 std::vector<JournalledMessage> MessageJournal::carried() const {
   std::vector<JournalledMessage> entries(kept_all_.begin(), kept_all_.end());
-  for (const auto& [channel, entry] : kept_last_) entries.push_back(entry);
+  for (const auto& [channel, of_channel] : kept_last_)
+    entries.insert(entries.end(), of_channel.begin(), of_channel.end());
   return entries;
 }
 

@@ -9,8 +9,9 @@
 // given up and removed, and the node goes on without one.
 //
 // Bounded: once a file spans `kept` of simulation time, it becomes `path`.1 (in the place of the one before)
-// and another begins with what is carried over: the last input of each channel of `keep_last` (of 16 384 channels at
-// most), and the inputs on `keep_all` (the latest 1000). So at least `kept` is there, and twice that at most.
+// and another begins with what is carried over: the last input of each flow of `keep_last` (of the latest
+// eight sessions of a channel, and of four channels for each of kMaxVehicles), and the inputs on `keep_all` (the latest 1000). So at least
+// `kept` is there, and twice that at most.
 #pragma once
 
 #include <cstddef>
@@ -89,7 +90,8 @@ class MessageJournal {
   SimTime file_begins_ = SimTime::never();
   std::optional<SimTime> idle_step_;
   std::vector<JournalledMessage> inherited_, inputs_;
-  std::map<std::string, JournalledMessage> kept_last_;  // by channel
+  std::map<std::string, std::vector<JournalledMessage>>
+      kept_last_;  // by channel: of each session, the latest last
   std::deque<JournalledMessage> kept_all_;
 };
 

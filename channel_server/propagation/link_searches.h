@@ -43,7 +43,7 @@ class LinkSearches {
   using Paths = std::shared_ptr<const FoundPaths>;
   // Simulation time, twice that at most: vehicles that lie still or pass a cell again soon find it, and what is kept is that of ten
   // minutes, however long the run.
-  static constexpr SimDuration kKept = SimDuration::from_milliseconds(300'000);
+  static constexpr SimDuration kKept = SimDuration::from_milliseconds(120'000);
   // A link, ready to be searched without touching what is kept.
   struct Task {
     EndPair ends;

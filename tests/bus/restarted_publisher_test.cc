@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A process that was killed and started again is a rival of the one before for a second, and its messages are refused (session_watch.h):
-// what it published meanwhile is repaired.
+// A process that was killed and started again. As a publisher it is a rival of the one before for a second, and its messages are refused
+// (session_watch.h): what it published meanwhile is repaired. As a receiver it goes on with the flows that the one before knew.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -46,6 +46,54 @@ TEST(RestartedPublisher, AFlowThatBeganWhileItWasARivalIsRequestedWhole) {
     ASSERT_EQ(requests.size(), 1u);
     EXPECT_EQ(requests[0].missing_sequence, (std::vector<std::int64_t>{0, 1, 2}));
   }
+}
+
+// A heartbeat of a publisher older than all receivers, whose flow has published 0, 1, 2.
+flow_heartbeat_t listing(const std::string& channel) {
+  flow_heartbeat_t heartbeat = heartbeat_of(40);
+  heartbeat.num_flows = heartbeat.num_flows_kept = 1;
+  heartbeat.flow_channel = {channel};
+  heartbeat.flow_session = {kRestarted};
+  heartbeat.flow_last_sequence = {2};
+  return heartbeat;
+}
+
+// A receiver, in its third second, that knows the flows of SENDs of its earlier incarnation.
+class ResumedReceiver : public ::testing::Test {
+ protected:
+  ResumedReceiver() { receiver_.take_heartbeat(SimTime(), at_ms(0)); }
+  // After the inputs of the earlier one.
+  void go_on() {
+    watch_.go_on([](std::string_view channel) { return channel.starts_with("SEND."); });
+  }
+  // Of two heartbeats, because one makes no flow.
+  std::int64_t missing_of(const std::string& channel) {
+    const auto all = [](std::string_view) { return true; };
+    std::int64_t missing = 0;
+    for (const int ms : {2000, 2250}) missing += receiver_.on_heartbeat(at_ms(ms), listing(channel), all);
+    return missing;
+  }
+  FlowWatch watch_;
+  FlowRepair receiver_{"receiver", 1, watch_};
+};
+
+TEST_F(ResumedReceiver, AFlowThatTheEarlierOneNeverHeardIsMissingFromItsStart) {
+  go_on();
+  EXPECT_EQ(missing_of("SEND.auv-1"), 3);
+}
+
+TEST_F(ResumedReceiver, AFlowOfAChannelThatTheEarlierOneDidNotRememberIsNot) {
+  go_on();
+  EXPECT_EQ(missing_of("STATE.auv-1"), 0);
+}
+
+TEST_F(ResumedReceiver, OfAFlowThatItKnewWhatFollowsIsMissing) {
+  watch_.on_message(at_ms(0), "SEND.auv-1", kRestarted, 1);
+  go_on();
+  EXPECT_EQ(missing_of("SEND.auv-1"), 1);
+  const auto requests = receiver_.take_requests(SimTime(), at_ms(2300));
+  ASSERT_EQ(requests.size(), 1u);
+  EXPECT_EQ(requests[0].missing_sequence, (std::vector<std::int64_t>{2}));
 }
 
 }  // namespace

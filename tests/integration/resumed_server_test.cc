@@ -24,6 +24,8 @@
 #include "bus/node_identity.h"
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
+#include "clients/modem/blocking_modem.h"
+#include "clients/modem/modem_client.h"
 #include "core/sim_time.h"
 #include "tests/integration/bus_listener.h"
 #include "tests/support/process.h"
@@ -61,6 +63,16 @@ class Auditor : public testing::BusListener {
     bus_.subscribe<node_status_t>(bus::channels::kStatus, [this](std::string_view node, const auto& m) {
       late[{std::string(node), m.session}] = m.late;
     });
+  }
+
+  // Pairs of an accepted packet and another vehicle that have no outcome.
+  std::size_t missing_outcomes() const {
+    std::size_t missing = 0;
+    for (const auto& [source, session, sequence] : accepted) {
+      for (std::int32_t receiver = 1; receiver <= kVehicles; ++receiver)
+        missing += receiver != source && !outcomes.contains({source, session, sequence, receiver});
+    }
+    return missing;
   }
 
   std::set<std::tuple<std::int32_t, std::int64_t, std::int64_t>> accepted;
@@ -130,12 +142,7 @@ TEST_P(ResumedServer, PublishesOneOutcomeOfEveryPacketAtEachReceiver) {
     output += processes_.at("server" + std::to_string(shard))->output();
 
   EXPECT_GT(auditor.accepted.size(), 60u) << output;
-  std::size_t missing = 0;
-  for (const auto& [source, session, sequence] : auditor.accepted) {
-    for (std::int32_t receiver = 1; receiver <= kVehicles; ++receiver)
-      missing += receiver != source && !auditor.outcomes.contains({source, session, sequence, receiver});
-  }
-  EXPECT_EQ(missing, 0u) << "of " << auditor.accepted.size() * (kVehicles - 1) << output;
+  EXPECT_EQ(auditor.missing_outcomes(), 0u) << "of " << auditor.accepted.size() * (kVehicles - 1) << output;
   EXPECT_EQ(auditor.outcomes.size(), auditor.accepted.size() * (kVehicles - 1))
       << "outcomes without a receipt";
   for (const auto& [packet, times] : auditor.outcomes) EXPECT_EQ(times, 1);
@@ -149,6 +156,46 @@ TEST_P(ResumedServer, PublishesOneOutcomeOfEveryPacketAtEachReceiver) {
   EXPECT_GT(late, 0) << "nothing was due while a server was away: not much of a test";
   std::printf("%zu packets, %zu outcomes, %zu receptions, %lld of them late\n", auditor.accepted.size(),
               auditor.outcomes.size(), auditor.received.size(), static_cast<long long>(late));
+}
+
+// Another server answers the packet, so its sender does not repeat it.
+TEST_P(ResumedServer, HasTheOutcomesOfVehiclesThatFirstSentWhileItWasAway) {
+  const int shards = std::get<0>(GetParam());
+  Auditor auditor;
+  for (const char* program : {"halocline-conductor", "halocline-bathymetry", "halocline-vehicle-sim"})
+    start(program);
+  for (int shard = 0; shard < shards; ++shard) start_server(shard);
+  const auto lcm = bus::open_transport(bus::effective_url(""));
+  std::vector<std::unique_ptr<clients::BlockingModem>> modems;
+  for (std::int32_t id = 1; id <= kVehicles; ++id) {
+    modems.push_back(std::make_unique<clients::BlockingModem>(
+        *lcm, clients::ModemAddress{
+                  .vehicle = "v" + std::to_string(id - 1), .vehicle_id = id, .session = 100 + id}));
+  }
+  const auto listen_for = [&](double seconds) {
+    auditor.listen_until(seconds, [&] {
+      for (const auto& modem : modems) (void)modem->wait_receive(SimDuration());
+      return false;
+    });
+  };
+  listen_for(3);
+  std::string output;
+  for (int i = 0; i < kVehicles; ++i) {
+    const std::string name = "server" + std::to_string(i % shards);
+    processes_.at(name)->signal(SIGKILL);
+    processes_.at(name)->wait();
+    output += processes_.at(name)->output();
+    ASSERT_TRUE(modems[static_cast<std::size_t>(i)]->send(kBroadcastId, std::vector<std::uint8_t>{1, 2, 3}));
+    listen_for(0.5);
+    start_server(i % shards);
+    listen_for(2.5);
+  }
+  listen_for(10);  // the sound under way arrives
+  for (int shard = 0; shard < shards; ++shard)
+    output += processes_.at("server" + std::to_string(shard))->output();
+  EXPECT_EQ(auditor.accepted.size(), std::size_t{kVehicles}) << output;
+  EXPECT_EQ(auditor.missing_outcomes(), 0u) << output;
+  for (const auto& [packet, times] : auditor.outcomes) EXPECT_EQ(times, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Servers, ResumedServer,

@@ -5,11 +5,15 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "bus/message_codec.h"
+#include "bus/sequence_number.h"
 #include "core/check.h"
 #include "tests/support/file_size_limit.h"
 
@@ -201,6 +205,39 @@ TEST_F(MessageJournalTest, AnotherRunForgetsAll) {
     receive(*journal, 0, "STATE.a", 6);
   }
   EXPECT_EQ(inherited(*open()), (Lines{"i0 STATE.a 6"}));
+}
+
+TEST_F(MessageJournalTest, TheLastInputOfEachFlowIsKeptOfTheLatestEightSessions) {
+  const auto of_session = [](std::uint8_t session, std::uint8_t first_byte) {
+    std::vector<std::uint8_t> message(kSessionAt, 0);
+    append_int64(session, message);
+    append_int64(0, message);
+    message[0] = first_byte;
+    return message;
+  };
+  const auto carried = [this] {
+    Lines lines = inherited(*open());
+    std::erase_if(lines, [](const std::string& line) { return line.find("MODEM") == std::string::npos; });
+    return lines;
+  };
+  const auto receive_all = [&](double from_s,
+                               const std::vector<std::pair<std::uint8_t, std::uint8_t>>& messages) {
+    const auto journal = open();
+    double t = from_s;
+    for (const auto& [session, byte] : messages) {
+      const auto message = of_session(session, byte);
+      journal->add_input("MODEM.a", message.data(), message.size());
+      journal->write_inputs(SimTime::from_seconds(t++));
+    }
+    for (int i = 0; i <= 50; ++i) receive(*journal, t++, "STATE.a", 0);
+  };
+  receive_all(1, {{7, 1}, {8, 2}, {7, 3}});
+  EXPECT_EQ(carried(), (Lines{"i2 MODEM.a 2", "i3 MODEM.a 3"}));
+  receive_all(100, {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}, {6, 6}, {9, 7}});
+  const Lines lines = carried();
+  ASSERT_EQ(lines.size(), 8u);
+  EXPECT_EQ(lines.front(), "i3 MODEM.a 3") << "the one heard longest ago made room";
+  EXPECT_EQ(lines.back(), "i106 MODEM.a 7");
 }
 
 TEST_F(MessageJournalTest, APathThatCannotBeWrittenIsRefused) {
