@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include <malloc.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -83,6 +84,20 @@ void sleep_for(SimDuration duration) {
   const timespec time{0, duration.nanoseconds()};
   nanosleep(&time, nullptr);
 }
+
+// Gives what bursts left free back to the system now and then, so that memory is what the node needs.
+class FreeMemory {
+ public:
+  void give_back_if_due(SimTime steady) {
+    constexpr SimDuration kPeriod = SimDuration::from_milliseconds(60'000);
+    if (steady < due_) return;
+    due_ = steady + kPeriod;
+    malloc_trim(0);
+  }
+
+ private:
+  SimTime due_ = SimTime::at_once();
+};
 
 // The steady time of the next step; at_once() for a node that is due at once.
 SimTime wake_time(const Node& node, const TimeSource& time) {
@@ -270,6 +285,7 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
   NodeTime node_time(node, time);
   sleep_precisely();
   MessageBatches batches;
+  FreeMemory free_memory;
   bool is_behind = false;
   while (!should_stop()) {
     if (filter != nullptr) filter->follow(&node.receives(), time.receives());
@@ -287,6 +303,7 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
     batches.note_handled(handled);
     node_time.update();
     node_time.step_if_due();
+    free_memory.give_back_if_due(node_time.now().steady);
   }
   time.set_steady(steady_now(), wall_now());
   dispatch_until_silent(lcm);

@@ -41,7 +41,7 @@ namespace halocline::channel_server {
 class LinkSearches {
  public:
   using Paths = std::shared_ptr<const FoundPaths>;
-  // Simulation time, twice that at most: vehicles that lie still or pass a cell again soon find it, and what is kept is that of ten
+  // Simulation time, twice that at most: vehicles that lie still or pass a cell again soon find it, and what is kept is that of four
   // minutes, however long the run.
   static constexpr SimDuration kKept = SimDuration::from_milliseconds(120'000);
   // A link, ready to be searched without touching what is kept.

@@ -86,7 +86,8 @@ bool is_lcm(std::string_view path) { return path.starts_with("lcm/"); }
 bool is_message_type(std::string_view path) { return starts_with_any(path, {"halocline/", "lcmtypes/"}); }
 bool is_of_the_system(std::string_view path) {  // POSIX and Linux
   return starts_with_any(path, {"sys/", "linux/", "arpa/", "net/", "netinet/"}) ||
-         is_one_of(path, {"unistd.h", "fcntl.h", "poll.h", "spawn.h", "signal.h", "dirent.h", "sched.h"});
+         is_one_of(path, {"unistd.h", "fcntl.h", "poll.h", "spawn.h", "signal.h", "dirent.h", "sched.h",
+                          "malloc.h"});
 }
 
 std::string_view first_element(std::string_view path) { return path.substr(0, path.find('/')); }
