@@ -156,6 +156,7 @@ Bus::Subscription& Bus::add_subscription(const std::string& regular_expression, 
   subscribed_.push_back({regular_expression, wakeup});
   patterns_.add(regular_expression);
   subscriptions_to_.clear();
+  if (repair_) repair_->on_subscribed(steady_);
   return *subscriptions_.emplace_back(
       std::make_unique<Subscription>(Subscription{this, std::move(handler), wakeup}));
 }
@@ -250,7 +251,7 @@ void Bus::enable_repair() {
 void Bus::on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat) {
   if (!sessions_.on_heartbeat(steady_, node, heartbeat.session)) {
     // Flows that begin meanwhile are requested from their start when it is believed.
-    repair_->on_heartbeat(steady_, heartbeat, [](std::string_view) { return false; });
+    repair_->on_heartbeat(steady_, node, heartbeat, [](std::string_view) { return false; });
     return refuse_rival(channels::kHeartbeat.of(node), heartbeat.session);
   }
   const auto decodes = [this](std::string_view channel) {
@@ -258,7 +259,7 @@ void Bus::on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat)
     return std::any_of(matching.begin(), matching.end(),
                        [this](std::size_t i) { return subscribed_[i].expression != kAllChannels; });
   };
-  counters_.gaps = saturating_sum(counters_.gaps, repair_->on_heartbeat(steady_, heartbeat, decodes));
+  counters_.gaps = saturating_sum(counters_.gaps, repair_->on_heartbeat(steady_, node, heartbeat, decodes));
 }
 
 SimTime Bus::next_repair() const {

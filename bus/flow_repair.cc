@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/hash.h"
+
 namespace halocline::bus {
 namespace {
 
@@ -74,17 +76,22 @@ flow_heartbeat_t FlowRepair::take_heartbeat(SimTime sim, SimTime steady) {
   return heartbeat;
 }
 
-std::int64_t FlowRepair::on_heartbeat(SimTime steady, const flow_heartbeat_t& heartbeat,
+std::int64_t FlowRepair::on_heartbeat(SimTime steady, std::string_view node,
+                                      const flow_heartbeat_t& heartbeat,
                                       const std::function<bool(std::string_view)>& is_subscribed_to) {
   const bool known = is_known(steady, heartbeat.session);
-  const bool is_younger = SimDuration::from_microseconds(heartbeat.age_us) <= steady - began_;
+  const SimTime since = std::max(began_, subscribed_);
+  const bool is_younger = SimDuration::from_microseconds(heartbeat.age_us) <= steady - since;
   std::int64_t missing = 0;
   for (std::size_t i = 0; i < heartbeat.flow_channel.size(); ++i) {
     if (!is_subscribed_to(heartbeat.flow_channel[i])) continue;
-    missing += watch_.on_last(steady, heartbeat.flow_channel[i], heartbeat.flow_session[i],
-                              heartbeat.flow_last_sequence[i], {heartbeat.session, is_younger, known});
+    missing +=
+        watch_.on_last(steady, heartbeat.flow_channel[i], heartbeat.flow_session[i],
+                       heartbeat.flow_last_sequence[i], {xxh3(node), heartbeat.session, is_younger, known});
   }
-  if ((known || heartbeat.sequence == 0) && heartbeat.num_flows == heartbeat.num_flows_kept)
+  // Its first heartbeat makes no flow (known), so that those which it lists, if they are older than it, would seem to begin after it.
+  const bool began_now = heartbeat.sequence == 0 && (heartbeat.num_flows == 0 || heartbeat.age_us == 0);
+  if ((known || began_now) && heartbeat.num_flows == heartbeat.num_flows_kept)
     watch_.on_all_listed(heartbeat.session);
   return missing;
 }

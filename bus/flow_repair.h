@@ -71,11 +71,16 @@ class FlowRepair {
   flow_heartbeat_t take_heartbeat(SimTime sim, SimTime steady);
 
   // ---- as a receiver
-  // Returns how many messages of the flows that `is_subscribed_to` selects are newly missing. Flows of which nothing was received are
+  // HEARTBEAT.<node>. Returns how many messages of the flows that `is_subscribed_to` selects are newly missing. Flows of which nothing was received are
   // followed from the second heartbeat of a session on: a datagram by itself makes no flow.
-  std::int64_t on_heartbeat(SimTime steady, const flow_heartbeat_t& heartbeat,
+  std::int64_t on_heartbeat(SimTime steady, std::string_view node, const flow_heartbeat_t& heartbeat,
                             const std::function<bool(std::string_view channel)>& is_subscribed_to);
   std::vector<repair_request_t> take_requests(SimTime sim, SimTime steady);
+  // From now on more channels are received: what was published on them before is not missing.
+  void on_subscribed(SimTime steady) {
+    subscribed_ = steady;
+    watch_.forget_listed();
+  }
 
   // When a heartbeat, an answer or a request is due.
   SimTime next_due() const {
@@ -97,7 +102,7 @@ class FlowRepair {
   FlowHistory history_;
   FlowWatch& watch_;
   SimTime next_heartbeat_ = SimTime::at_once();
-  SimTime began_;
+  SimTime began_, subscribed_;
   std::int64_t heartbeats_ = 0;
   bool resumes_ = false;
   std::deque<Wanted> wanted_;

@@ -58,7 +58,7 @@ FlowWatch::Publisher& FlowWatch::add(SimTime steady, std::string_view channel, s
   if (found == received_.end()) found = received_.emplace(std::string(channel), Publishers()).first;
   make_room(steady, found->second);
   // A flow that was not yet in its publisher's heartbeat is expected from sequence number 0.
-  const bool began_after = std::find(listed_.begin(), listed_.end(), session) != listed_.end();
+  const bool began_after = listed_.contains(session);
   const std::int64_t expected = began_after ? std::min<std::int64_t>(first, 0) : first;
   Publisher publisher;
   publisher.session = session;
@@ -189,13 +189,14 @@ std::int64_t FlowWatch::on_last(SimTime steady, std::string_view channel, std::i
   if (publisher == nullptr && !lister.makes_flow) return 0;
   if (publisher == nullptr) publisher = &add(steady, channel, session, last + 1);
   publisher->heard_at = steady;
-  const bool is_of_another = publisher->lister != 0 && publisher->lister != lister.session;
+  const bool is_of_another = publisher->lister != 0 && publisher->lister != lister.node;
   if (is_of_another && steady - publisher->listed_at < kForgottenAfter) return 0;
-  publisher->lister = lister.session;
+  const bool began_after = publisher->lister == 0 && listed_.contains(lister.session);
+  publisher->lister = lister.node;
   publisher->listed_at = steady;
   if (publisher->is_heard && distance(publisher->last, last) > kReach) return 0;
   std::int64_t newly_missing = 0;
-  if (publisher->first > 0 && (lister.from_its_start || knows_(channel))) {
+  if (publisher->first > 0 && (lister.from_its_start || began_after || knows_(channel))) {
     newly_missing += note_missing(*publisher, steady, 0, publisher->first);
     publisher->first = 0;
   }
@@ -208,10 +209,8 @@ std::int64_t FlowWatch::on_last(SimTime steady, std::string_view channel, std::i
 }
 
 void FlowWatch::on_all_listed(std::int64_t session) {
-  constexpr std::size_t kMaxListed = 200;
-  if (std::find(listed_.begin(), listed_.end(), session) != listed_.end()) return;
-  listed_.push_back(session);
-  if (listed_.size() > kMaxListed) listed_.pop_front();
+  if (listed_.size() >= kMaxListed && !listed_.contains(session)) listed_.erase(listed_.begin());
+  listed_.insert(session);
 }
 
 std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {

@@ -9,15 +9,14 @@
 //
 // Anybody may publish, so no single number is believed that leaps: one more than kMaxMissing ahead of the flow changes nothing until
 // the next message goes on from there. What was given up is received when it comes after all, so whatever numbers are claimed, a flow
-// that goes on is received. It is listed by the heartbeats of one session, until these are silent for kForgottenAfter; they do not leap
-// where messages were received.
+// that goes on is received. It is listed by the heartbeats of one node, of all its incarnations, until these are silent for kForgottenAfter; they do not
+// leap where messages were received.
 //
 // Pure: values in, values out; `steady` is the caller's steady time, never set back.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <limits>
 #include <map>
@@ -25,6 +24,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "core/hash.h"
@@ -48,7 +48,7 @@ class FlowWatch {
   static constexpr SimDuration kLongestRetry = SimDuration::from_milliseconds(640);
   // After this a missing message is lost.
   static constexpr SimDuration kGivenUpAfter = SimDuration::from_milliseconds(10'000);
-  // What is silent for this, a session of a channel or a lister, is forgotten when another comes.
+  // What is silent for this, a session of a channel or who lists it, is forgotten when another comes.
   static constexpr SimDuration kForgottenAfter = SimDuration::from_milliseconds(30'000);
   // Missing messages of one flow, beyond which the oldest count as lost; of all, and of flows of which nothing was received yet, beyond
   // which the newest do.
@@ -70,14 +70,16 @@ class FlowWatch {
   // Who lists a flow. `from_its_start`: the receiver is older than the publisher, so it should have all from 0. `makes_flow`: the
   // flow is followed although nothing of it was received yet.
   struct Lister {
-    std::int64_t session = 1;  // of the heartbeat, not 0
+    std::uint64_t node = 1;    // whose heartbeat it is: a hash of its name, not 0
+    std::int64_t session = 0;  // of the heartbeat; its flows may have others
     bool from_its_start = false, makes_flow = true;
   };
   // A heartbeat announced `last` as the last sequence number of the flow. Returns how many are newly missing.
   std::int64_t on_last(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t last,
                        const Lister& lister);
-  // A heartbeat listed all flows of a publisher (each in on_last): any other flow of it begins after now.
+  // A heartbeat of this session listed all flows of its node (each in on_last): any other of the session, or that it lists later, begins after now.
   void on_all_listed(std::int64_t session);
+  void forget_listed() { listed_.clear(); }
 
   // A repair request for missing messages of one flow.
   struct Request {
@@ -116,8 +118,8 @@ class FlowWatch {
     std::int64_t first = 0, last = -1;  // nothing before first is expected; last was received, or announced
     SimTime heard_at;
     bool is_heard = false;  // by more than a heartbeat
-    // Of the heartbeats that list it, 0: none. Its numbers go on for as long as its session then, and what is far behind is a duplicate.
-    std::int64_t lister = 0;
+    // The node whose heartbeats list it, 0: none. Its numbers go on for as long as its session then, and what is far behind is a duplicate.
+    std::uint64_t lister = 0;
     SimTime listed_at;
     std::optional<std::int64_t> leap;  // the number ahead that nothing has confirmed yet
     std::map<std::int64_t, Missing> missing;
@@ -145,7 +147,8 @@ class FlowWatch {
 
   std::unordered_map<std::string, Publishers, TextHash, std::equal_to<>> received_;  // by channel
   Knows knows_ = knows_none;
-  std::deque<std::int64_t> listed_;  // sessions whose flows a heartbeat has listed, the latest last
+  static constexpr std::size_t kMaxListed = 4096;
+  std::unordered_set<std::int64_t> listed_;  // sessions whose flows a heartbeat has listed
   SimTime next_due_ = SimTime::never();
   std::int64_t lost_ = 0;
   std::size_t num_missing_ = 0, num_flows_ = 0;  // of all channels

@@ -32,7 +32,7 @@ TEST(FlowRepair, AHeartbeatByItselfMakesNoFlow) {
   FlowWatch watch;
   FlowRepair repair("receiver", 1, watch);
   for (std::int64_t session = 1; session <= 11; ++session)
-    EXPECT_EQ(repair.on_heartbeat(SimTime(), heartbeat_of_flows(500, session), any), 0);
+    EXPECT_EQ(repair.on_heartbeat(SimTime(), "publisher", heartbeat_of_flows(500, session), any), 0);
   EXPECT_EQ(watch.num_missing(), 0u);
   EXPECT_EQ(watch.next_due(), SimTime::never());
 }

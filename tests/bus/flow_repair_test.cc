@@ -257,7 +257,7 @@ std::int64_t missing_of_unlisted_flow(int flows_kept) {
   heartbeat.flow_last_sequence = {5};
   const auto any = [](std::string_view) { return true; };
   for (const double steady_s : {1.0, 1.25})
-    EXPECT_EQ(repair.on_heartbeat(SimTime::from_seconds(steady_s), heartbeat, any), 0);
+    EXPECT_EQ(repair.on_heartbeat(SimTime::from_seconds(steady_s), "publisher", heartbeat, any), 0);
   return watch.on_message(SimTime::from_seconds(2), "STATE.b", 9, 1000).newly_missing;
 }
 

@@ -52,15 +52,15 @@ TEST(FlowWatchForgery, ALeapThatTheNextMessageConfirmsIsFollowed) {
     EXPECT_EQ(std::count(request.sequences.begin(), request.sequences.end(), 50'000), 0);
 }
 
-// Three heartbeats of a stranger, under its own session, list the flow of another.
+// Three heartbeats of a stranger, under its own name, list the flow of another.
 TEST(FlowWatchForgery, HeartbeatsOfAStrangerDoNotEndAFlow) {
-  constexpr std::int64_t kStranger = 987'654'321;
+  constexpr std::uint64_t kStranger = 987'654'321;
   for (const std::int64_t ahead : {1500LL, 100'000LL, 1LL << 62}) {
     FlowWatch watch;
     for (int i = 0; i < 100; ++i) {
       const SimTime now = at_ms(100 * i);
-      if (i > 0) watch.on_last(now, "A", 1, i - 1, {.session = 1});
-      if (i > 10 && i < 14) watch.on_last(now, "A", 1, i + ahead, {.session = kStranger});
+      if (i > 0) watch.on_last(now, "A", 1, i - 1, {.node = 1});
+      if (i > 10 && i < 14) watch.on_last(now, "A", 1, i + ahead, {.node = kStranger});
       EXPECT_FALSE(watch.on_message(now, "A", 1, i).is_repeated) << ahead << ' ' << i;
     }
     EXPECT_EQ(watch.num_missing(), 0u);
@@ -73,7 +73,7 @@ TEST(FlowWatchForgery, AFlowThatAStrangerListedFirstIsReceived) {
     FlowWatch watch;
     if (is_heard) watch.on_message(SimTime(), "A", 1, 0);
     for (int i = 0; i < 3; ++i)
-      watch.on_last(at_ms(300 * i), "A", 1, std::int64_t{1} << 62, {.session = 9, .from_its_start = true});
+      watch.on_last(at_ms(300 * i), "A", 1, std::int64_t{1} << 62, {.node = 9, .from_its_start = true});
     for (int i = 1; i < 100; ++i)
       EXPECT_FALSE(watch.on_message(at_ms(1000 + 100 * i), "A", 1, i).is_repeated) << is_heard << ' ' << i;
   }

@@ -259,6 +259,26 @@ TEST_F(FlowWatchTest, AFlowNewerThanAHeartbeatIsExpectedFromItsStart) {
   EXPECT_THAT(requested_at(at_ms(5)), ElementsAre(0, 1));
 }
 
+// A node publishes for others, under their sessions.
+TEST_F(FlowWatchTest, AFlowOfAnotherSessionThatAHeartbeatListsForTheFirstTimeIsExpectedFromItsStart) {
+  for (const bool was_received : {false, true}) {
+    FlowWatch watch;
+    watch.on_all_listed(50);
+    if (was_received) watch.on_message(SimTime(), "A", 1, 2);
+    EXPECT_EQ(watch.on_last(SimTime(), "A", 1, 2, {.session = 50}), was_received ? 2 : 3);
+    EXPECT_EQ(watch.on_last(SimTime(), "A", 1, 2, {.session = 50}), 0) << "once";
+  }
+  FlowWatch watch;
+  EXPECT_EQ(watch.on_last(SimTime(), "A", 1, 2, {.session = 50}), 0);
+  watch.on_all_listed(50);
+  EXPECT_EQ(watch.on_last(SimTime(), "A", 1, 2, {.session = 50}), 0) << "it had listed it before";
+}
+
+TEST_F(FlowWatchTest, SoItIsAmongTheHeartbeatsOfThreeThousandNodes) {
+  for (std::int64_t session = 1; session <= 3000; ++session) watch_.on_all_listed(session);
+  EXPECT_EQ(missing_before("A", 1, 2), 2);
+}
+
 TEST_F(FlowWatchTest, AReceiverOlderThanThePublisherMissesMessagesBeforeTheFirstReceived) {
   receive({3});
   EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 3, {.from_its_start = true}), 3);

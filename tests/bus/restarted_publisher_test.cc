@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A process that was killed and started again. As a publisher it is a rival of the one before for a second, and its messages are refused
-// (session_watch.h): what it published meanwhile is repaired. As a receiver it goes on with the flows that the one before knew.
+// Who publishes, or receives, from later on. A process that was killed and started again is, as a publisher, a rival of the one before for a
+// second, and its messages are refused (session_watch.h): what it published meanwhile is repaired. As a receiver it goes on with the flows that
+// the one before knew. What was published before a subscription is not missing.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -27,6 +28,16 @@ flow_heartbeat_t heartbeat_of(std::int64_t sequence) {
   return heartbeat;
 }
 
+// One that lists a flow.
+flow_heartbeat_t listing(const std::string& channel, std::int64_t last) {
+  flow_heartbeat_t heartbeat = heartbeat_of(40);
+  heartbeat.num_flows = heartbeat.num_flows_kept = 1;
+  heartbeat.flow_channel = {channel};
+  heartbeat.flow_session = {kRestarted};
+  heartbeat.flow_last_sequence = {last};
+  return heartbeat;
+}
+
 TEST(RestartedPublisher, AFlowThatBeganWhileItWasARivalIsRequestedWhole) {
   for (const int rival_heartbeats : {1, 2, 3}) {
     FlowWatch watch;
@@ -35,27 +46,43 @@ TEST(RestartedPublisher, AFlowThatBeganWhileItWasARivalIsRequestedWhole) {
     const auto none = [](std::string_view) { return false; };
     const auto all = [](std::string_view) { return true; };
     for (int i = 0; i < rival_heartbeats; ++i)
-      EXPECT_EQ(receiver.on_heartbeat(at_ms(10'000 + 250 * i), heartbeat_of(i), none), 0);
-    flow_heartbeat_t believed = heartbeat_of(4);
-    believed.num_flows = believed.num_flows_kept = 1;
-    believed.flow_channel = {"RECEIVE.auv-7"};
-    believed.flow_session = {kRestarted};
-    believed.flow_last_sequence = {2};
-    EXPECT_EQ(receiver.on_heartbeat(at_ms(11'000), believed, all), 3) << rival_heartbeats;
+      EXPECT_EQ(receiver.on_heartbeat(at_ms(10'000 + 250 * i), "publisher", heartbeat_of(i), none), 0);
+    const flow_heartbeat_t believed = listing("RECEIVE.auv-7", 2);
+    EXPECT_EQ(receiver.on_heartbeat(at_ms(11'000), "publisher", believed, all), 3) << rival_heartbeats;
     const auto requests = receiver.take_requests(SimTime(), at_ms(11'010));
     ASSERT_EQ(requests.size(), 1u);
     EXPECT_EQ(requests[0].missing_sequence, (std::vector<std::int64_t>{0, 1, 2}));
   }
 }
 
-// A heartbeat of a publisher older than all receivers, whose flow has published 0, 1, 2.
-flow_heartbeat_t listing(const std::string& channel) {
-  flow_heartbeat_t heartbeat = heartbeat_of(40);
-  heartbeat.num_flows = heartbeat.num_flows_kept = 1;
-  heartbeat.flow_channel = {channel};
-  heartbeat.flow_session = {kRestarted};
-  heartbeat.flow_last_sequence = {2};
-  return heartbeat;
+// Its heartbeats have another session than the flow, which goes on.
+TEST(RestartedPublisher, WhatFollowsInItsFlowsIsRequestedAtOnce) {
+  FlowWatch watch;
+  FlowRepair receiver("receiver", 1, watch);
+  receiver.take_heartbeat(SimTime(), at_ms(0));
+  const auto all = [](std::string_view) { return true; };
+  watch.on_message(at_ms(10'000), "RECEIVE.auv-7", kRestarted, 0);
+  flow_heartbeat_t heartbeat = listing("RECEIVE.auv-7", 0);
+  EXPECT_EQ(receiver.on_heartbeat(at_ms(10'010), "channel-server-0", heartbeat, all), 0);
+  heartbeat.session = 8;
+  heartbeat.flow_last_sequence = {1};
+  EXPECT_EQ(receiver.on_heartbeat(at_ms(11'010), "channel-server-0", heartbeat, all), 1);
+}
+
+// A receiver that has been there for longer than the publisher, and heard its heartbeats.
+TEST(LaterSubscription, MissesNothingOfWhatWasPublishedBefore) {
+  for (const bool is_subscribed_later : {false, true}) {
+    FlowWatch watch;
+    FlowRepair receiver("receiver", 1, watch);
+    receiver.take_heartbeat(SimTime(), at_ms(0));
+    flow_heartbeat_t heartbeat = listing("RECEIVE.auv-7", 2);
+    heartbeat.age_us = 5'000'000;
+    const auto none = [](std::string_view) { return false; };
+    const auto all = [](std::string_view) { return true; };
+    for (const int ms : {10'000, 10'250}) receiver.on_heartbeat(at_ms(ms), "publisher", heartbeat, none);
+    if (is_subscribed_later) receiver.on_subscribed(at_ms(10'300));
+    EXPECT_EQ(receiver.on_heartbeat(at_ms(10'500), "publisher", heartbeat, all), is_subscribed_later ? 0 : 3);
+  }
 }
 
 // A receiver, in its third second, that knows the flows of SENDs of its earlier incarnation.
@@ -70,7 +97,8 @@ class ResumedReceiver : public ::testing::Test {
   std::int64_t missing_of(const std::string& channel) {
     const auto all = [](std::string_view) { return true; };
     std::int64_t missing = 0;
-    for (const int ms : {2000, 2250}) missing += receiver_.on_heartbeat(at_ms(ms), listing(channel), all);
+    for (const int ms : {2000, 2250})
+      missing += receiver_.on_heartbeat(at_ms(ms), "publisher", listing(channel, 2), all);
     return missing;
   }
   FlowWatch watch_;
