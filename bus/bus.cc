@@ -24,13 +24,6 @@ constexpr std::string_view kAllChannels = ".*";
 // burst.
 constexpr int kQueueCapacity = 20'000;
 
-// Reports of refused messages: the first of a kind, then the 10th, the 100th, ...: a flood cannot fill a
-// disk.
-bool worth_a_report(std::int64_t count) {
-  while (count % 10 == 0) count /= 10;
-  return count == 1;
-}
-
 // What kind of refusal this is: the channel and the field, whatever value it held.
 std::string kind_of(std::string_view channel, std::string_view reason) {
   return std::string(channel) + " " + std::string(reason.substr(0, reason.find(" is ")));

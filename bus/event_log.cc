@@ -58,6 +58,11 @@ void write(LogLevel level, SimTime now, const std::string& node, std::string_vie
 
 void set_log_level(LogLevel level) { logger().set_level(to_spdlog(level)); }
 
+bool worth_a_report(std::int64_t count) {
+  while (count % 10 == 0) count /= 10;
+  return count == 1;
+}
+
 LogLevel log_level_from_name(std::string_view name) {
   for (const auto& [known, level] : kLevels) {
     if (known == name) return level;

@@ -6,6 +6,7 @@
 // STATUS.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,9 @@ enum class LogLevel { kDebug, kInfo, kWarning, kError, kSilent };
 void set_log_level(LogLevel level);
 // "debug", "info", "warning", "error" or "silent"; throws InvalidArgument that lists them otherwise.
 LogLevel log_level_from_name(std::string_view name);
+
+// Whether an event that came `count` times, 1 and up, is to be reported: the 1st, the 10th, the 100th, ...: a flood cannot fill a disk.
+bool worth_a_report(std::int64_t count);
 
 // Event log of one node. Not to be shared between threads.
 class EventLog {

@@ -95,8 +95,8 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
   shares_searches_ = !rules.medium.shard.is_alone() && water_.propagation->share_searches(exchange_);
 }
 
-void ChannelServerNode::open_journal(const std::string& path) {
-  recovery_ = std::make_unique<ServerRecovery>(journal_, inbox_, path);
+void ChannelServerNode::open_journal(const std::string& path, std::uint64_t digest) {
+  recovery_ = std::make_unique<ServerRecovery>(journal_, inbox_, path, digest);
   if (!recovery_->has_history()) recovery_.reset();
   note_due_changed();
 }

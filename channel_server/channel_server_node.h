@@ -9,6 +9,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,9 +56,9 @@ class ChannelServerNode : public bus::Node {
                     const ConfiguredModems& modems, const ServerRules& rules,
                     std::vector<scenario_info_t> scenario = {}, VehicleEquipment equipment = {});
 
-  // Keeps a journal at `path`, and resumes what an earlier incarnation left there. Once, before anything is
+  // Keeps a journal at `path`, and resumes what an earlier incarnation left there, of the same `digest` of the configuration. Once, before anything is
   // dispatched; not in lockstep, where the conductor replays. Throws InvalidArgument when it cannot be written.
-  void open_journal(const std::string& path);
+  void open_journal(const std::string& path, std::uint64_t digest = 0);
 
  protected:
   bus::Due on_due() const override;

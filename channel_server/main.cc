@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
     auto node = make_channel_server(context.lcm, context.identity, config, context.scenario, context.folder);
     require(journal.empty() || !context.in_lockstep,
             "--journal is " + journal + "; in lockstep the conductor has the journal of all");
-    if (!journal.empty()) node->open_journal(journal);
+    if (!journal.empty()) node->open_journal(journal, context.config_digest);
     return node;
   };
   return halocline::bus::run_node_program(argc, argv, program);

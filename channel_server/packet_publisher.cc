@@ -50,12 +50,15 @@ void PacketPublisher::publish(const Receipt& receipt, SimTime at) {
 }
 
 void PacketPublisher::publish(const PacketOutcome& outcome, SimTime at, bool late) {
-  if (outcome.deliver) {
-    const modem_receive_t message = to_receive(outcome, at);
-    journal_.publish_once(channels::kReceive.of(outcome.receiver), message, identity_of(message));
-  }
+  const std::string outcomes(channels::kOutcome);
   const packet_outcome_t message = to_outcome(outcome, at);
-  const bool is_new = journal_.publish_once(std::string(channels::kOutcome), message, identity_of(message));
+  const std::string identity = identity_of(message);
+  // Where an earlier incarnation published the outcome, what it delivered went before it, whatever is decided now.
+  if (outcome.deliver && !journal_.was_published(outcomes, identity)) {
+    const modem_receive_t delivered = to_receive(outcome, at);
+    journal_.publish_once(channels::kReceive.of(outcome.receiver), delivered, identity_of(delivered));
+  }
+  const bool is_new = journal_.publish_once(outcomes, message, identity);
   if (journal_.is_recovering()) {
     published_late_ += is_new ? 1 : 0;
     late = is_new;

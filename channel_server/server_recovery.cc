@@ -25,14 +25,16 @@ bool is_input(std::string_view channel) {
 
 }  // namespace
 
-ServerRecovery::ServerRecovery(bus::CrashJournal& journal, Inbox& inbox, const std::string& path)
+ServerRecovery::ServerRecovery(bus::CrashJournal& journal, Inbox& inbox, const std::string& path,
+                               std::uint64_t digest)
     : journal_(journal), inbox_(inbox) {
   journal_.open({path,
                  kJournalled,
                  is_input,
                  {channels::kModem, channels::kListen, channels::kSend, channels::kGps, channels::kBattery,
                   channels::kSensors, bus::Family{channels::kModemReply}},
-                 {std::string(channels::kSetEnvironment)}});
+                 {std::string(channels::kSetEnvironment)},
+                 digest});
   journal_.replay_inputs([this](SimTime at) {
     Step step{at, inbox_.take_inputs()};
     if (at < *journal_.last_step() - kJournalled) {  // kept for their flows alone: they came to an end

@@ -7,6 +7,7 @@
 // Two things take wall time: that, and the seabed under the links, which is queried anew.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
@@ -22,7 +23,7 @@ class ServerRecovery {
  public:
   // Opens the journal at `path` and takes the replayed inputs out of the inbox. Both must outlive it. Throws
   // InvalidArgument when the file cannot be written.
-  ServerRecovery(bus::CrashJournal& journal, Inbox& inbox, const std::string& path);
+  ServerRecovery(bus::CrashJournal& journal, Inbox& inbox, const std::string& path, std::uint64_t digest);
 
   // Whether an earlier incarnation left something.
   bool has_history() const { return !steps_.empty(); }

@@ -2,6 +2,7 @@
 #include "conductor/lockstep_options.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <set>
 #include <sstream>
 
@@ -70,6 +71,9 @@ bool LockstepOptions::run_if_requested(const bus::NodeProgram::Context& context)
     require_none();
     return false;
   }
+  require(
+      log_.empty() || std::filesystem::weakly_canonical(log_) != std::filesystem::weakly_canonical(journal_),
+      "--log and --journal are both " + log_ + "; allowed are two files");
   LockstepRun run;
   run.expected = names_of(expect_);
   run.log_path = log_;

@@ -198,9 +198,13 @@ ConfigFile ConfigFile::load(const std::string& path, const std::vector<std::stri
   if (const std::string reason = why_unreadable(path); !reason.empty())
     throw ConfigErrors({path + ": cannot be read: " + reason + "; a file in TOML is needed"});
   std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return ConfigFile(parsed(text.str(), path, overrides));
+  constexpr std::size_t kMostBytes = 64u << 20;  // 16 384 vehicles take 15 MB
+  std::string text(kMostBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kMostBytes)
+    throw ConfigErrors({path + ": is longer than 64 MB; a file in TOML is needed"});
+  return ConfigFile(parsed(text, path, overrides));
 }
 
 ConfigFile ConfigFile::parse(const std::string& text, const std::string& name_for_errors,

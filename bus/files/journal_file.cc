@@ -84,17 +84,32 @@ bool lock(int file) {
   return fcntl(file, F_SETLK, &all) == 0;
 }
 
+// Whether a file whose first bytes were zeroed, as by who truncates it under its writer, holds records all the same, or nothing.
+bool is_zeroed_journal(int file) {
+  const std::vector<std::uint8_t> bytes = content_of(file);
+  const View all(bytes);
+  const View header = all.first(std::min(all.size(), kJournalHeaderBytes));
+  if (std::any_of(header.begin(), header.end(), [](std::uint8_t byte) { return byte != 0; })) return false;
+  const View behind = all.subspan(header.size());
+  return behind.empty() || next_whole(behind) < behind.size();
+}
+
 // Empty where the file may be used.
 std::string problem_with(int file, std::string_view header) {
   if (file < 0) return std::strerror(errno);
+  struct stat status {};
+  if (fstat(file, &status) != 0) return std::strerror(errno);
+  if (!S_ISREG(status.st_mode)) return "it is a device, a pipe or a folder; allowed is an ordinary file";
   if (!lock(file)) return "another process has it open";
   std::array<std::uint8_t, kJournalHeaderBytes> found{};
   const ssize_t size = pread(file, found.data(), found.size(), 0);
   if (size < 0) return std::strerror(errno);
-  if (!std::equal(found.begin(), found.begin() + size, header.begin()))
+  const bool is_other = !std::equal(found.begin(), found.begin() + size, header.begin());
+  if (is_other && !is_zeroed_journal(file))
     return "it is another file, or a journal of another version; it stays as it is";
-  const View bytes(reinterpret_cast<const std::uint8_t*>(header.data()), header.size());
-  if (static_cast<std::size_t>(size) < header.size() && !write_whole(file, 0, std::array{bytes}))
+  const auto bytes = std::span(reinterpret_cast<const std::uint8_t*>(header.data()), header.size());
+  const bool is_whole = static_cast<std::size_t>(size) == header.size() && !is_other;
+  if (!is_whole && pwrite(file, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
     return std::strerror(errno);
   return "";
 }
@@ -178,7 +193,9 @@ bool JournalFile::append(std::span<const Record> records) {
     bytes.insert(bytes.end(), head.begin(), head.end());
     bytes.insert(bytes.end(), record.body.begin(), record.body.end());
   }
-  if (!write_whole(file_, end_, std::array{View(bytes)})) return false;
+  struct stat status {};
+  const bool is_deleted = fstat(file_, &status) != 0 || status.st_nlink == 0;
+  if (is_deleted || !write_whole(file_, end_, std::array{View(bytes)})) return false;
   end_ += bytes.size();
   return true;
 }

@@ -22,7 +22,8 @@ namespace halocline::bus {
 inline constexpr std::size_t kJournalHeaderBytes = 16;
 
 // Opens or makes a file for reading and writing, locks it, and writes `header` (of 16 bytes) into a new one. The caller closes the
-// descriptor. Throws InvalidArgument when that cannot be, when another process has it, and for a file with another header.
+// descriptor. Throws InvalidArgument when that cannot be, when another process has it, for what is no ordinary file, and for a file with another
+// header; one of zeros before whole records is damage.
 int open_journal(const std::string& path, std::string_view header);
 // The bytes of an open file.
 std::vector<std::uint8_t> content_of(int file);
@@ -52,7 +53,7 @@ class JournalFile {
 
   // All whole records, oldest first. What is behind the last one is cut off the file.
   Contents read();
-  // False, and nothing is appended, when the disk refuses it.
+  // False, and nothing is appended, when the disk refuses it or the file was deleted.
   [[nodiscard]] bool append(std::span<const Record> records);
 
  private:

@@ -35,11 +35,14 @@ void CrashJournal::open(Rule rule) {
   kept_ = rule.kept;
   keep_last_ = rule.keep_last;
   journal_ = std::make_unique<MessageJournal>(
-      MessageJournal::Rule{rule.path, rule.kept, rule.keep_last, rule.keep_all});
+      MessageJournal::Rule{rule.path, rule.kept, rule.keep_last, rule.keep_all, rule.digest});
   const std::size_t bytes = journal_->bytes_damaged(), bits = journal_->bits_mended();
   if (bytes > 0 || bits > 0)
     bus_.log().warning("journal-damaged", "file=" + rule.path + " bytes_left_out=" + std::to_string(bytes) +
                                               " bits_mended=" + std::to_string(bits));
+  if (journal_->is_of_another_run())
+    bus_.log().warning("journal-of-another-run",
+                       "file=" + rule.path + " reason=\"another scenario, share or version\"");
   for (JournalledMessage& entry : journal_->take_inherited()) {
     last_step_ = entry.at;
     const bool is_output = entry.kind == Kind::kOutput;
@@ -99,12 +102,13 @@ void CrashJournal::write_inputs(SimTime now) {
   if (!is_open()) return;
   journal_->write_inputs(now);
   if (journal_->is_given_up() && !std::exchange(given_up_, true))
-    bus_.log().error("journal-given-up", "reason=\"the disk refused it; after a kill the node begins anew\"");
+    bus_.log().error("journal-given-up",
+                     "reason=\"the disk refused it, or it was deleted; after a kill the node begins anew\"");
   if (now > published_forgotten_at_) published_.clear();
 }
 
 bool CrashJournal::claim(const std::string& channel, const std::string& identity) {
-  if (published_.contains({channel, identity})) return false;
+  if (was_published(channel, identity)) return false;
   if (recovers_) published_.emplace(channel, identity);
   return true;
 }

@@ -61,6 +61,7 @@ class CrashJournal {
     // Inputs of which the last of each flow is kept for ever: what begins while the node is away is then known to be missing.
     std::vector<Family> keep_last;
     std::vector<std::string> keep_all;  // channels whose inputs are all kept (the latest 1000)
+    std::uint64_t digest = 0;           // of all that the steps depend on, beside their inputs
   };
   // Steady time, from the first step, within which repair brings what was published while the node was away:
   // heartbeats come four times a second, the second tells of flows that began meanwhile, the messages come within two requests.
@@ -89,6 +90,10 @@ class CrashJournal {
   // ---- each step
   // Writes what was received since the last one.
   void write_inputs(SimTime now);
+  // Whether an earlier incarnation published it, or this one while it recovers.
+  bool was_published(const std::string& channel, const std::string& identity) const {
+    return published_.contains({channel, identity});
+  }
   // Publishes with the channel's next number, unless an earlier incarnation has published it, or this one between
   // resume() and end_recovery(). `identity` tells the output from all others on its channel, whichever incarnation
   // computes it. Returns whether it was published.

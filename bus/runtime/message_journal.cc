@@ -35,7 +35,7 @@ JournalFile::Record to_record(const JournalledMessage& entry) {
 
 std::optional<JournalledMessage> to_entry(const JournalFile::Record& record) {
   const Bytes& body = record.body;
-  if (record.kind > static_cast<std::uint8_t>(Kind::kStep) || body.size() < kHeadBytes) return std::nullopt;
+  if (record.kind > static_cast<std::uint8_t>(Kind::kDigest) || body.size() < kHeadBytes) return std::nullopt;
   const std::size_t channel_bytes = body[kHeadBytes - 1];
   if (channel_bytes > body.size() - kHeadBytes) return std::nullopt;
   JournalledMessage entry;
@@ -59,13 +59,23 @@ void MessageJournal::read(JournalFile& file) {
   const JournalFile::Contents contents = file.read();
   bytes_damaged_ += contents.bytes_damaged + contents.bytes_cut;
   bits_mended_ += contents.bits_mended;
+  std::uint64_t digest = 0;
   for (const JournalFile::Record& record : contents.records) {
-    if (auto entry = to_entry(record)) inherited_.push_back(std::move(*entry));
+    auto entry = to_entry(record);
+    if (!entry) continue;
+    if (entry->kind == Kind::kDigest) {
+      digest = static_cast<std::uint64_t>(entry->at.nanoseconds());
+    } else if (digest == rule_.digest) {
+      inherited_.push_back(std::move(*entry));
+    } else {
+      is_of_another_run_ = true;
+    }
   }
 }
 
 MessageJournal::MessageJournal(Rule rule) : rule_(std::move(rule)) {
   file_ = std::make_unique<JournalFile>(rule_.path, kHeader);
+  rule_.path = std::filesystem::canonical(rule_.path);  // a link stays one
   if (std::filesystem::exists(rule_.path + ".1")) {
     JournalFile before(rule_.path + ".1", kHeader);
     read(before);
@@ -119,6 +129,9 @@ void MessageJournal::begin_file(const std::vector<JournalledMessage>& entries) {
   std::remove(unfinished.c_str());
   file_ = std::make_unique<JournalFile>(unfinished, kHeader);
   file_begins_ = SimTime::never();
+  const auto digest = SimTime::from_nanoseconds(static_cast<std::int64_t>(rule_.digest));
+  const JournalFile::Record head = to_record({Kind::kDigest, digest, {}, {}});
+  if (!file_->append({&head, 1})) return give_up();
   write(entries);
   if (file_ && std::rename(unfinished.c_str(), rule_.path.c_str()) != 0) give_up();
 }

@@ -35,7 +35,8 @@ struct JournalledMessage {
   enum class Kind : std::uint8_t {
     kInput,
     kOutput,
-    kStep,  // that took no input
+    kStep,    // that took no input
+    kDigest,  // first in a file: what the run is, as `at`
   };
   Kind kind = Kind::kInput;
   SimTime at;  // simulation time of the step that took it, or made it
@@ -50,6 +51,8 @@ class MessageJournal {
     SimDuration kept;  // above 0
     std::vector<Family> keep_last;
     std::vector<std::string> keep_all;  // channels
+    // Of all that the steps depend on: what was written with another one is not inherited.
+    std::uint64_t digest = 0;
   };
   // Reads what an earlier incarnation left at `rule.path`. Throws InvalidArgument when it cannot be written, is another file, or another
   // process has it.
@@ -60,6 +63,8 @@ class MessageJournal {
   // What the earlier incarnation left, by time; moved out, once.
   std::vector<JournalledMessage> take_inherited() { return std::move(inherited_); }
 
+  // Whether a journal was there that is not inherited.
+  bool is_of_another_run() const { return is_of_another_run_; }
   // Bytes of the earlier incarnation's files that were no whole entry; flipped bits that were set right (journal_file.h).
   std::size_t bytes_damaged() const { return bytes_damaged_; }
   std::size_t bits_mended() const { return bits_mended_; }
@@ -87,6 +92,7 @@ class MessageJournal {
   Rule rule_;
   std::unique_ptr<JournalFile> file_;
   std::size_t bytes_damaged_ = 0, bits_mended_ = 0;
+  bool is_of_another_run_ = false;
   SimTime file_begins_ = SimTime::never();
   std::optional<SimTime> idle_step_;
   std::vector<JournalledMessage> inherited_, inputs_;

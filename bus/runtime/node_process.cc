@@ -189,8 +189,8 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
     journal = std::make_unique<StateJournal>(run.journal, run.config_digest);
     if (journal->inherited()) identity.session = journal->inherited()->session;  // its flows go on
   }
-  const NodeProgram::Context context{*lcm,         identity, run.scenario,  run.folder,
-                                     run.sync_url, false,    run.file.get()};
+  const NodeProgram::Context context{*lcm,         identity, run.scenario,   run.folder,
+                                     run.sync_url, false,    run.file.get(), run.config_digest};
   if (program.run_otherwise && program.run_otherwise(context)) return;
   const auto time = program.make_time_source ? program.make_time_source(context)
                                              : make_time_source(run.time_source, *lcm, run.identity.name);

@@ -8,6 +8,7 @@
 // another conductor runs: 69. Any other error: 1.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -62,6 +63,7 @@ struct NodeProgram {
     const std::string& sync_url;
     bool in_lockstep = false;    // as a participant
     ConfigFile* file = nullptr;  // the scenario file, for checks that need more than it; null without one
+    std::uint64_t config_digest = 0;  // of the version and the effective configuration; 0 in lockstep
   };
   std::function<std::unique_ptr<Node>(const Context&)> make_node = nullptr;
   // Only for the program that makes the time itself; the others choose with --time-source.

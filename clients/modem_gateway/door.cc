@@ -193,6 +193,12 @@ void Door::write(ClientId client, std::string_view bytes) {
 
 std::int64_t Door::send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
                         clients::SendOptions options) {
+  // Twice what a modem's queue holds (docs/packets.md): a host that commands more waits for the receipts.
+  constexpr std::size_t kMostUnanswered = 32;
+  if (modem_.num_pending() >= kMostUnanswered) {
+    note("too-many-sends", "unanswered=" + std::to_string(modem_.num_pending()));
+    return kNotSent;
+  }
   try {
     return modem_.send(now_.steady, whole_microsecond_from(std::max(start, now_.sim)), destination, payload,
                        std::move(options));
@@ -203,7 +209,10 @@ std::int64_t Door::send(SimTime start, std::int32_t destination, std::span<const
 }
 
 void Door::note(std::string_view event, std::string_view details) {
-  bus_.log().info(event, "vehicle=" + vehicle() + " " + std::string(details));
+  const std::int64_t count = ++noted_.try_emplace(std::string(event)).first->second;
+  if (!bus::worth_a_report(count)) return;
+  bus_.log().info(event,
+                  "vehicle=" + vehicle() + " count=" + std::to_string(count) + " " + std::string(details));
 }
 
 }  // namespace halocline::modem_gateway

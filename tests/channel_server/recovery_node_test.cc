@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -208,6 +209,30 @@ TEST_P(RecoveringServer, AnswersNoPacketOfLongAgoAgain) {
   EXPECT_TRUE(second.bench.receipts.empty());
   EXPECT_TRUE(second.bench.outcomes.empty());
   ASSERT_FALSE(second.bench.links.empty()) << "it did not resume";
+}
+
+// As one whose bathymetry service is away decides by other paths.
+TEST_P(RecoveringServer, DeliversNothingThatItsOutcomeDoesNotName) {
+  Incarnation first(GetParam(), journal_);
+  first.run(0, 200);
+  Incarnation second(!GetParam(), journal_);
+  for (int tenth = 200; tenth < 206; ++tenth) second.publish(tenth);
+  second.bench.step(20.5999);
+  second.run(206, 300);
+  second.bench.run_to(50);
+  std::set<std::tuple<std::int32_t, std::int64_t, std::int32_t>> named;
+  std::size_t delivered = 0;
+  for (const NodeBench* bench : {&first.bench, &second.bench}) {
+    for (const packet_outcome_t& m : bench->outcomes)
+      if (m.outcome == packet_outcome_t::RECEIVED)
+        named.emplace(m.source_id, m.packet_sequence, m.receiver_id);
+  }
+  for (const NodeBench* bench : {&first.bench, &second.bench}) {
+    delivered += bench->receives.size();
+    for (const auto& m : bench->receives)
+      EXPECT_TRUE(named.contains({m.message.source_id, m.message.packet_sequence, m.message.receiver_id}));
+  }
+  EXPECT_GT(delivered, 10u);
 }
 
 TEST_P(RecoveringServer, PublishesNoTableOfATickThatPassedWhileItWasAway) {

@@ -40,6 +40,9 @@ RunFiles run_files(const std::string& out, const std::string& name, const std::s
   files.config = config_beside(files.log);
   files.report =
       log.empty() ? (fs::path(files.log).parent_path() / "report.html").string() : report_beside(files.log);
+  require(files.log != files.config && files.log != files.report && fs::path(files.log).extension() != ".csv",
+          "the log is to be " + files.log +
+              "; what lies beside a log is called so: allowed is another name, such as NAME.lcm");
   make_folder(fs::path(files.log).parent_path());
   return files;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,6 +31,10 @@ class MessageJournalTest : public ::testing::Test {
   std::unique_ptr<MessageJournal> open() {
     return std::make_unique<MessageJournal>(
         MessageJournal::Rule{path_, SimDuration::from_seconds(10), {channels::kModem}, {"SET_ENVIRONMENT"}});
+  }
+  std::unique_ptr<MessageJournal> open_with(std::uint64_t digest) {
+    return std::make_unique<MessageJournal>(
+        MessageJournal::Rule{path_, SimDuration::from_seconds(10), {}, {}, digest});
   }
   static void receive(MessageJournal& journal, double time_s, const std::string& channel, std::uint8_t byte) {
     journal.add_input(channel, &byte, 1);
@@ -238,6 +243,61 @@ TEST_F(MessageJournalTest, TheLastInputOfEachFlowIsKeptOfTheLatestEightSessions)
   ASSERT_EQ(lines.size(), 8u);
   EXPECT_EQ(lines.front(), "i3 MODEM.a 3") << "the one heard longest ago made room";
   EXPECT_EQ(lines.back(), "i106 MODEM.a 7");
+}
+
+TEST_F(MessageJournalTest, WhatWasWrittenWithAnotherDigestIsNotInherited) {
+  receive(*open_with(5), 1, "STATE.a", 5);
+  {
+    const auto same = open_with(5);
+    EXPECT_FALSE(same->is_of_another_run());
+    EXPECT_EQ(inherited(*same), (Lines{"i1 STATE.a 5"}));
+  }
+  {
+    const auto other = open_with(6);
+    EXPECT_TRUE(other->is_of_another_run());
+    EXPECT_TRUE(inherited(*other).empty());
+    receive(*other, 2, "STATE.a", 6);
+  }
+  EXPECT_EQ(inherited(*open_with(6)), (Lines{"i2 STATE.a 6"}));
+}
+
+TEST_F(MessageJournalTest, ALinkStaysALinkAndWhatIsNoFileIsRefused) {
+  const std::string link = path_ + ".link", pipe = path_ + ".pipe";
+  std::filesystem::create_symlink(path_, link);
+  receive(
+      *std::make_unique<MessageJournal>(MessageJournal::Rule{link, SimDuration::from_seconds(10), {}, {}}), 1,
+      "STATE.a", 5);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(inherited(*open()), (Lines{"i1 STATE.a 5"}));
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& path : {pipe, std::string("/dev/null")})
+    EXPECT_THROW(MessageJournal({path, SimDuration::from_seconds(1), {}, {}}), InvalidArgument) << path;
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  for (const std::string& made : {link, pipe}) std::filesystem::remove(made);
+}
+
+// As who truncates the file under its writer leaves it.
+TEST_F(MessageJournalTest, AHeaderOfZerosIsDamage) {
+  for (const auto zeros : {16, 40}) {
+    receive(*open_with(5), 1, "STATE.a", 5);
+    {
+      std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+      file << std::string(static_cast<std::size_t>(zeros), '\0');
+    }
+    const auto journal = open_with(5);
+    EXPECT_EQ(journal->is_of_another_run(), zeros > 16) << "what it is of was in the first record";
+    receive(*journal, 2, "STATE.a", 6);
+  }
+  EXPECT_EQ(inherited(*open_with(5)), (Lines{"i2 STATE.a 6"}));
+}
+
+TEST_F(MessageJournalTest, AFileThatIsDeletedMeanwhileIsGivenUp) {
+  const auto journal = open();
+  receive(*journal, 1, "STATE.a", 5);
+  EXPECT_FALSE(journal->is_given_up());
+  std::filesystem::remove(path_);
+  receive(*journal, 2, "STATE.a", 6);
+  EXPECT_TRUE(journal->is_given_up());
 }
 
 TEST_F(MessageJournalTest, APathThatCannotBeWrittenIsRefused) {

@@ -214,6 +214,16 @@ TEST(NodeCommandLine, OptionsOfLockstepNeedLockstep) {
   }
 }
 
+TEST(NodeCommandLine, LogAndJournalAreTwoFiles) {
+  EXPECT_THAT(output_of({kConductor, "--lockstep", "--log", "same", "--journal", "./same"}, 2),
+              HasSubstr("allowed are two files"));
+}
+
+TEST(NodeCommandLine, AScenarioWithoutEndIsRefused) {
+  EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "/dev/zero"}, 2),
+              HasSubstr("/dev/zero: is longer than 64 MB"));
+}
+
 TEST(NodeCommandLine, AFullStandardOutputIsAFailure) {
   EXPECT_EQ(Process({"/bin/sh", "-c", HALOCLINE_ECHO_PROGRAM " --example >/dev/full"}).wait(), 1);
 }

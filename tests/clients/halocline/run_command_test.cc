@@ -260,6 +260,14 @@ TEST_F(RunCommand, EveryExportAndTheReportSayThatALogIsCutOff) {
     EXPECT_THAT(run(arguments + " here/pond.lcm --force --out x").output, HasSubstr("ends within an event"));
 }
 
+TEST_F(RunCommand, ALogIsNotCalledAsWhatLiesBesideIt) {
+  for (const std::string log : {"a.html", "a.toml", "b/csv/packets.csv"}) {
+    const Ended refused = run("run pond.toml --duration 1 --log " + log);
+    EXPECT_EQ(refused.code, 2) << log;
+    EXPECT_THAT(refused.output, HasSubstr("allowed is another name"));
+  }
+}
+
 TEST_F(RunCommand, NanIsNoNumberOfAnyOption) {
   for (const std::string arguments :
        {"run pond.toml --duration nan", "run pond.toml --rate -NaN", "sweep pond.toml --out s --duration nan",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/modem_gateway/gateway_node.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -106,6 +107,19 @@ TEST_F(GatewayNodeTest, HostsThatMisbehaveDisturbNobodyElse) {
   half.close();
   good.write("$?");
   EXPECT_EQ(read(good, 13), "#A002V52429\r\n");
+}
+
+// Nobody answers its SENDs.
+TEST_F(GatewayNodeTest, AHostThatCommandsWithoutEndHasThirtyTwoPacketsWithoutReceipt) {
+  Host host(node_.place_of(0));
+  std::string commands;
+  for (int i = 0; i < 500; ++i) commands += "$B05hello";
+  host.write(commands);
+  EXPECT_EQ(read(host, 6 * 500).size(), 6u * 500);
+  work();
+  std::set<std::int64_t> packets;
+  for (const auto& send : server_.sends) packets.insert(send.packet_sequence);
+  EXPECT_EQ(packets.size(), 32u);
 }
 
 }  // namespace
