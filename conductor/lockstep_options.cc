@@ -20,6 +20,10 @@ double number_of(const std::string& option, const std::string& text) {
   return *value;
 }
 
+std::filesystem::path real_path(const std::string& file) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
+}
+
 std::set<std::string> names_of(const std::string& list) {
   std::set<std::string> names;
   std::istringstream in(list);
@@ -71,9 +75,8 @@ bool LockstepOptions::run_if_requested(const bus::NodeProgram::Context& context)
     require_none();
     return false;
   }
-  require(
-      log_.empty() || std::filesystem::weakly_canonical(log_) != std::filesystem::weakly_canonical(journal_),
-      "--log and --journal are both " + log_ + "; allowed are two files");
+  require(log_.empty() || journal_.empty() || real_path(log_) != real_path(journal_),
+          "--log and --journal are both " + log_ + "; allowed are two files");
   LockstepRun run;
   run.expected = names_of(expect_);
   run.log_path = log_;
