@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -199,9 +200,11 @@ ConfigFile ConfigFile::load(const std::string& path, const std::vector<std::stri
     throw ConfigErrors({path + ": cannot be read: " + reason + "; a file in TOML is needed"});
   std::ifstream file(path);
   constexpr std::size_t kMostBytes = 64u << 20;  // 16 384 vehicles take 15 MB
-  std::string text(kMostBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  std::string text;
+  for (std::array<char, 65'536> part; file && text.size() <= kMostBytes;) {
+    file.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(file.gcount()));
+  }
   if (text.size() > kMostBytes)
     throw ConfigErrors({path + ": is longer than 64 MB; a file in TOML is needed"});
   return ConfigFile(parsed(text, path, overrides));
