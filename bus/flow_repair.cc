@@ -82,12 +82,12 @@ std::int64_t FlowRepair::on_heartbeat(SimTime steady, std::string_view node,
   const bool known = is_known(steady, heartbeat.session);
   const SimTime since = std::max(began_, subscribed_);
   const bool is_younger = SimDuration::from_microseconds(heartbeat.age_us) <= steady - since;
+  const FlowWatch::Lister lister{xxh3(node), heartbeat.session, is_younger, known};
   std::int64_t missing = 0;
   for (std::size_t i = 0; i < heartbeat.flow_channel.size(); ++i) {
     if (!is_subscribed_to(heartbeat.flow_channel[i])) continue;
-    missing +=
-        watch_.on_last(steady, heartbeat.flow_channel[i], heartbeat.flow_session[i],
-                       heartbeat.flow_last_sequence[i], {xxh3(node), heartbeat.session, is_younger, known});
+    missing += watch_.on_last(steady, heartbeat.flow_channel[i], heartbeat.flow_session[i],
+                              heartbeat.flow_last_sequence[i], lister);
   }
   // Its first heartbeat makes no flow (known), so that those which it lists, if they are older than it, would seem to begin after it.
   const bool began_now = heartbeat.sequence == 0 && (heartbeat.num_flows == 0 || heartbeat.age_us == 0);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/runtime/crash_journal.h"
 
-#include <algorithm>
-
 namespace halocline::bus {
 namespace {
 
@@ -33,7 +31,6 @@ std::optional<CrashJournal::Output> CrashJournal::to_output(const JournalledMess
 
 void CrashJournal::open(Rule rule) {
   kept_ = rule.kept;
-  keep_last_ = rule.keep_last;
   journal_ = std::make_unique<MessageJournal>(
       MessageJournal::Rule{rule.path, rule.kept, rule.keep_last, rule.keep_all, rule.digest});
   const std::size_t bytes = journal_->bytes_damaged(), bits = journal_->bits_mended();
@@ -66,10 +63,7 @@ void CrashJournal::replay_inputs(const std::function<void(SimTime at)>& end_step
   }
   replays_ = false;
   if (!last_step_) return;
-  bus_.continue_flows([this](std::string_view channel) {
-    return std::any_of(keep_last_.begin(), keep_last_.end(),
-                       [&](const Family& family) { return channel.starts_with(family.prefix); });
-  });
+  bus_.continue_flows([this](std::string_view channel) { return journal_->keeps_last(channel); });
 }
 
 bool CrashJournal::resume(SimTime now) {

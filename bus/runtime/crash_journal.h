@@ -135,7 +135,6 @@ class CrashJournal {
   Bus& bus_;
   NumberedPublisher& publisher_;
   SimDuration kept_;
-  std::vector<Family> keep_last_;
   std::unique_ptr<MessageJournal> journal_;
   std::vector<JournalledMessage> history_;  // inherited: inputs, and outputs without their bytes
   std::vector<JournalledMessage> outputs_;  // inherited

@@ -159,10 +159,14 @@ void MessageJournal::give_up() {
   for (const char* part : {"", ".1", ".unfinished"}) std::remove((rule_.path + part).c_str());
 }
 
+bool MessageJournal::keeps_last(std::string_view channel) const {
+  return std::any_of(rule_.keep_last.begin(), rule_.keep_last.end(),
+                     [&](const Family& family) { return channel.starts_with(family.prefix); });
+}
+
 void MessageJournal::carry(const JournalledMessage& entry) {
   if (entry.kind != Kind::kInput) return;
-  for (const Family& family : rule_.keep_last) {
-    if (!entry.channel.starts_with(family.prefix)) continue;
+  if (keeps_last(entry.channel)) {
     std::vector<JournalledMessage>& of_channel = kept_last_[entry.channel];
     std::erase_if(of_channel, [&](const auto& other) { return session_of(other) == session_of(entry); });
     if (of_channel.size() == kMaxSessions) of_channel.erase(of_channel.begin());

@@ -65,6 +65,8 @@ class MessageJournal {
 
   // Whether a journal was there that is not inherited.
   bool is_of_another_run() const { return is_of_another_run_; }
+  // Whether the last input of each flow of the channel is kept.
+  bool keeps_last(std::string_view channel) const;
   // Bytes of the earlier incarnation's files that were no whole entry; flipped bits that were set right (journal_file.h).
   std::size_t bytes_damaged() const { return bytes_damaged_; }
   std::size_t bits_mended() const { return bits_mended_; }

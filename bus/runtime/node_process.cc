@@ -89,14 +89,14 @@ void sleep_for(SimDuration duration) {
 class FreeMemory {
  public:
   void give_back_if_due(SimTime steady) {
-    constexpr SimDuration kPeriod = SimDuration::from_milliseconds(60'000);
     if (steady < due_) return;
     due_ = steady + kPeriod;
     malloc_trim(0);
   }
 
  private:
-  SimTime due_ = SimTime::at_once();
+  static constexpr SimDuration kPeriod = SimDuration::from_milliseconds(60'000);
+  SimTime due_ = steady_now() + kPeriod;
 };
 
 // The steady time of the next step; at_once() for a node that is due at once.

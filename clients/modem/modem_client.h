@@ -129,8 +129,8 @@ class ModemClient {
   // The answer to a packet; empty while none has come.
   std::optional<modem_receipt_t> receipt_of(std::int64_t packet_sequence) const;
   // Whether SENDs of this packet still go out: neither answered nor given up.
-  std::size_t num_pending() const { return pending_.size(); }  // packets without a receipt
   bool is_pending(std::int64_t packet_sequence) const { return pending_.contains(packet_sequence); }
+  std::size_t num_pending() const { return pending_.size(); }  // packets of which SENDs still go out
   // The longest-waiting packet that arrived; empty when there is none.
   std::optional<modem_receive_t> take_received();
 

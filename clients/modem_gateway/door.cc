@@ -209,7 +209,7 @@ std::int64_t Door::send(SimTime start, std::int32_t destination, std::span<const
 }
 
 void Door::note(std::string_view event, std::string_view details) {
-  const std::int64_t count = ++noted_.try_emplace(std::string(event)).first->second;
+  const std::int64_t count = ++noted_[std::string(event)];
   if (!bus::worth_a_report(count)) return;
   bus_.log().info(event,
                   "vehicle=" + vehicle() + " count=" + std::to_string(count) + " " + std::string(details));

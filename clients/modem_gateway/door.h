@@ -112,7 +112,7 @@ class Door : private ProtocolPort {
   std::string client_name_;  // of queries
   std::int64_t queries_ = 0;
   std::int64_t losses_ = 0;
-  std::map<std::string, std::int64_t, std::less<>> noted_;  // events, by name
+  std::map<std::string, std::int64_t> noted_;  // events, by name
 };
 
 }  // namespace halocline::modem_gateway
