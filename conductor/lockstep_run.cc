@@ -120,9 +120,9 @@ class Run {
     };
     outputs.record = [this](const JournalEntry& entry) {
       if (!journal_ || journal_->append(entry)) return;
-      events_.error(
-          "journal-given-up",
-          "reason=\"the disk refused it, or it was deleted; the run cannot be continued after a kill\"");
+      events_.error("journal-given-up",
+                    "reason=\"the disk refused it, or it was deleted or truncated; the run cannot be "
+                    "continued after a kill\"");
       journal_.reset();
       std::remove(run_.journal_path.c_str());
     };

@@ -84,14 +84,10 @@ bool lock(int file) {
   return fcntl(file, F_SETLK, &all) == 0;
 }
 
-// Whether a file whose first bytes were zeroed, as by who truncates it under its writer, holds records all the same, or nothing.
-bool is_zeroed_journal(int file) {
-  const std::vector<std::uint8_t> bytes = content_of(file);
-  const View all(bytes);
-  const View header = all.first(std::min(all.size(), kJournalHeaderBytes));
-  if (std::any_of(header.begin(), header.end(), [](std::uint8_t byte) { return byte != 0; })) return false;
-  const View behind = all.subspan(header.size());
-  return behind.empty() || next_whole(behind) < behind.size();
+// Whether the file is as its only writer left it: others neither deleted nor truncated it.
+bool is_untouched(int file, std::size_t size) {
+  struct stat status {};
+  return fstat(file, &status) == 0 && status.st_nlink > 0 && static_cast<std::size_t>(status.st_size) >= size;
 }
 
 // Empty where the file may be used.
@@ -104,11 +100,10 @@ std::string problem_with(int file, std::string_view header) {
   std::array<std::uint8_t, kJournalHeaderBytes> found{};
   const ssize_t size = pread(file, found.data(), found.size(), 0);
   if (size < 0) return std::strerror(errno);
-  const bool is_other = !std::equal(found.begin(), found.begin() + size, header.begin());
-  if (is_other && !is_zeroed_journal(file))
+  if (!std::equal(found.begin(), found.begin() + size, header.begin()))
     return "it is another file, or a journal of another version; it stays as it is";
   const auto bytes = std::span(reinterpret_cast<const std::uint8_t*>(header.data()), header.size());
-  const bool is_whole = static_cast<std::size_t>(size) == header.size() && !is_other;
+  const bool is_whole = static_cast<std::size_t>(size) == header.size();
   if (!is_whole && pwrite(file, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
     return std::strerror(errno);
   return "";
@@ -139,6 +134,7 @@ std::vector<std::uint8_t> content_of(int file) {
 }
 
 bool write_whole(int file, std::size_t at, std::span<const View> pieces) {
+  if (!is_untouched(file, at)) return false;
   std::size_t to = at;
   for (View piece : pieces) {
     while (!piece.empty()) {
@@ -193,9 +189,7 @@ bool JournalFile::append(std::span<const Record> records) {
     bytes.insert(bytes.end(), head.begin(), head.end());
     bytes.insert(bytes.end(), record.body.begin(), record.body.end());
   }
-  struct stat status {};
-  const bool is_deleted = fstat(file_, &status) != 0 || status.st_nlink == 0;
-  if (is_deleted || !write_whole(file_, end_, std::array{View(bytes)})) return false;
+  if (!write_whole(file_, end_, std::array{View(bytes)})) return false;
   end_ += bytes.size();
   return true;
 }

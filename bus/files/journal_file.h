@@ -23,11 +23,12 @@ inline constexpr std::size_t kJournalHeaderBytes = 16;
 
 // Opens or makes a file for reading and writing, locks it, and writes `header` (of 16 bytes) into a new one. The caller closes the
 // descriptor. Throws InvalidArgument when that cannot be, when another process has it, for what is no ordinary file, and for a file with another
-// header; one of zeros before whole records is damage.
+// header.
 int open_journal(const std::string& path, std::string_view header);
 // The bytes of an open file.
 std::vector<std::uint8_t> content_of(int file);
-// Writes all of them at `at`, or nothing: returns false, and the file ends at `at`.
+// Writes all of them at `at`, or nothing: returns false when the disk refuses them (the file ends at `at` then), and when the file was
+// deleted, or truncated to less than `at`.
 [[nodiscard]] bool write_whole(int file, std::size_t at,
                                std::span<const std::span<const std::uint8_t>> pieces);
 
@@ -53,7 +54,7 @@ class JournalFile {
 
   // All whole records, oldest first. What is behind the last one is cut off the file.
   Contents read();
-  // False, and nothing is appended, when the disk refuses it or the file was deleted.
+  // False, and nothing is appended, where write_whole() refuses.
   [[nodiscard]] bool append(std::span<const Record> records);
 
  private:

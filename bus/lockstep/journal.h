@@ -37,7 +37,7 @@ class Journal {
   // Appends to the file, or creates it. Throws InvalidArgument when it cannot be written, is none of ours, or another process has it.
   explicit Journal(const std::string& path);
 
-  // False when the disk refuses it.
+  // False when the disk refuses it, or others deleted or truncated the file.
   [[nodiscard]] bool append(const JournalEntry& entry);
 
  private:

@@ -2,6 +2,8 @@
 #include "bus/logs/log_reader.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <ostream>
 
@@ -29,11 +31,13 @@ struct Mapping {
 Mapping map_file(const std::string& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat status {};
-  const bool readable = file >= 0 && fstat(file, &status) == 0 && S_ISREG(status.st_mode);
-  const auto size = readable ? static_cast<std::size_t>(status.st_size) : 0;
+  const bool is_open = file >= 0 && fstat(file, &status) == 0;
+  const bool is_file = is_open && S_ISREG(status.st_mode);
+  const auto size = is_file ? static_cast<std::size_t>(status.st_size) : 0;
   void* start = size > 0 ? mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0) : nullptr;
+  const std::string reason = is_open && !is_file ? "it is no ordinary file" : std::strerror(errno);
   if (file >= 0) close(file);
-  require(readable && start != MAP_FAILED, "cannot read the log " + path);
+  require(is_file && start != MAP_FAILED, "cannot read the log " + path + ": " + reason);
   if (size == 0) return {};
   madvise(start, size, MADV_SEQUENTIAL);
   const auto* bytes = static_cast<const std::uint8_t*>(start);

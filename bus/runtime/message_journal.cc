@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "bus/message_codec.h"
@@ -22,6 +23,8 @@ constexpr std::size_t kMaxKept = 1000;                  // of keep_all
 constexpr std::size_t kMaxKeptLast = 4 * kMaxVehicles;  // channels of keep_last
 constexpr std::size_t kMaxSessions = 8;                 // of each
 constexpr std::size_t kHeadBytes = 9;                   // of a body: stamp, length of the channel
+// A step's time is less than this, before or after the start (146 years), so that sums and differences of times fit.
+constexpr std::int64_t kStepNs = std::numeric_limits<std::int64_t>::max() / 2;
 
 // Body: stamp, length of the channel, channel, message.
 JournalFile::Record to_record(const JournalledMessage& entry) {
@@ -40,7 +43,9 @@ std::optional<JournalledMessage> to_entry(const JournalFile::Record& record) {
   if (channel_bytes > body.size() - kHeadBytes) return std::nullopt;
   JournalledMessage entry;
   entry.kind = static_cast<Kind>(record.kind);
-  entry.at = SimTime::from_nanoseconds(int64_at(body, 0));
+  const std::int64_t at_ns = int64_at(body, 0);
+  if (entry.kind != Kind::kDigest && (at_ns <= -kStepNs || at_ns >= kStepNs)) return std::nullopt;
+  entry.at = SimTime::from_nanoseconds(at_ns);
   const auto channel = body.begin() + kHeadBytes,
              message = channel + static_cast<std::ptrdiff_t>(channel_bytes);
   entry.channel.assign(channel, message);
@@ -62,8 +67,9 @@ void MessageJournal::read(JournalFile& file) {
   std::uint64_t digest = 0;
   for (const JournalFile::Record& record : contents.records) {
     auto entry = to_entry(record);
-    if (!entry) continue;
-    if (entry->kind == Kind::kDigest) {
+    if (!entry) {
+      bytes_damaged_ += record.body.size();
+    } else if (entry->kind == Kind::kDigest) {
       digest = static_cast<std::uint64_t>(entry->at.nanoseconds());
     } else if (digest == rule_.digest) {
       inherited_.push_back(std::move(*entry));

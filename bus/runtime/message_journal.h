@@ -5,7 +5,7 @@
 //
 // A file of records (bus/files/journal_file.h). What is written is handed to the kernel before anything that follows from it is published, so
 // a killed process loses nothing that anybody acted upon; a machine that loses power may (nothing is forced to the disk). What a kill
-// cut off at the end is no entry, nor is one of which a bit changed. When the disk refuses an entry the journal is
+// cut off at the end is no entry, nor is one of which a bit changed. When the disk refuses an entry, or others deleted or truncated the file, the journal is
 // given up and removed, and the node goes on without one.
 //
 // Bounded: once a file spans `kept` of simulation time, it becomes `path`.1 (in the place of the one before)

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "bus/files/journal_file.h"
+#include "core/check.h"
 #include "core/hash.h"
 
 namespace halocline::bus {
@@ -116,9 +117,9 @@ std::optional<Found> read(View file, std::uint64_t digest) {
 
 }  // namespace
 
-StateJournal::StateJournal(const std::string& path, std::uint64_t digest) : digest_(digest) {
+StateJournal::StateJournal(std::string path, std::uint64_t digest) : path_(std::move(path)), digest_(digest) {
   for (std::size_t i = 0; i < files_.size(); ++i) {
-    files_[i] = open_journal(path + "." + std::to_string(i), kHeader);
+    open(i);
     const Bytes bytes = content_of(files_[i]);
     auto found = read(bytes, digest);
     is_damaged_ = is_damaged_ || (!found && bytes.size() > kJournalHeaderBytes);
@@ -136,12 +137,20 @@ StateJournal::~StateJournal() {
   }
 }
 
+void StateJournal::open(std::size_t i) { files_[i] = open_journal(path_ + "." + std::to_string(i), kHeader); }
+
 bool StateJournal::write(std::int64_t session, SimTime at, const Archive& state,
                          std::span<const std::uint8_t> additions) {
   const bool is_whole = wants_whole();
   if (is_whole) {
     current_ = 1 - current_;
     end_ = kJournalHeaderBytes;
+    try {
+      if (files_[current_] < 0) open(current_);
+    } catch (const InvalidArgument&) {
+      end_ = 0;
+      return false;
+    }
   }
   const std::array<View, 4> body = {state.bytes(), bytes_of(std::span(state.parts())), state.bytes_of_parts(),
                                     additions};
@@ -163,10 +172,13 @@ bool StateJournal::write(std::int64_t session, SimTime at, const Archive& state,
   return true;
 }
 
-// What follows from the state that could not be written is published: no earlier one may be taken up.
+// What follows from the state that could not be written is published: no earlier one may be taken up. The files are opened anew, as
+// others may have deleted them.
 void StateJournal::forget() {
-  for (const int file : files_) {
-    [[maybe_unused]] const int cut = ftruncate(file, static_cast<off_t>(kJournalHeaderBytes));
+  for (int& file : files_) {
+    if (file < 0) continue;
+    [[maybe_unused]] const int cut = ftruncate(file, 0);
+    close(std::exchange(file, -1));
   }
   end_ = 0;
 }

@@ -33,7 +33,7 @@ class StateJournal {
 
   // `digest` of all that the state's meaning depends on: what was saved with another one is not inherited. Throws
   // InvalidArgument when the files cannot be written, are others, or another process has them.
-  StateJournal(const std::string& path, std::uint64_t digest);
+  StateJournal(std::string path, std::uint64_t digest);
   ~StateJournal();
   StateJournal(const StateJournal&) = delete;
   StateJournal& operator=(const StateJournal&) = delete;
@@ -45,14 +45,16 @@ class StateJournal {
 
   // Whether the next record has to hold all parts of the state, and all additions that are to be kept.
   bool wants_whole() const { return end_ == 0 || end_ >= max_bytes_; }
-  // `state` is saved with its parts apart (Archive::begin_with_parts). False when the disk refuses it: nothing is inherited then, until the
-  // next record, a whole one, is written.
+  // `state` is saved with its parts apart (Archive::begin_with_parts). False when the disk refuses it, or when others deleted or
+  // truncated a file: nothing is inherited then, until the next record, a whole one, is written; the files are made anew.
   [[nodiscard]] bool write(std::int64_t session, SimTime at, const Archive& state,
                            std::span<const std::uint8_t> additions);
 
  private:
+  void open(std::size_t i);
   void forget();
 
+  std::string path_;
   std::uint64_t digest_, number_ = 0;
   std::array<int, 2> files_ = {-1, -1};
   std::size_t current_ = 1;  // of the files

@@ -118,12 +118,14 @@ class BeastServer::Exchange : public std::enable_shared_from_this<Exchange> {
 
  private:
   void answer(const Request& request) {
+    if (request.count(http::field::host) > 1 || request.count(http::field::origin) > 1)
+      return write(request, {400, "Host and Origin are given once.\n"});
     const WebRequest parts = parts_of(request);
-    const Options& options = server_.options_;
+    const auto& [access, page] = server_.options_;
     const bool opens = websocket::is_upgrade(request) && path_of(parts.target) == "/ws" &&
-                       judge(options.access, parts) == WebVerdict::kAllowed;
+                       judge(access, parts) == WebVerdict::kAllowed;
     if (opens) return upgrade(request);
-    write(request, answer_to(options.access, options.page, view_of(request.method_string()), parts));
+    write(request, answer_to(access, page, view_of(request.method_string()), parts));
   }
 
   void upgrade(const Request& request) {
@@ -203,8 +205,7 @@ class BeastServer::Connection : public std::enable_shared_from_this<Connection> 
   void drop() {
     if (is_gone_) return;
     is_gone_ = true;
-    error_code ignored;
-    beast::get_lowest_layer(socket_).socket().close(ignored);
+    beast::get_lowest_layer(socket_).close();
     server_.remove(id_);
   }
 
@@ -301,9 +302,8 @@ void BeastServer::accept() {
 
 void BeastServer::open(beast::tcp_stream stream, const Request& request, WebProtocol protocol) {
   const ConnectionId id = ++last_id_;
-  auto connection = std::make_shared<Connection>(*this, id, protocol, std::move(stream));
-  connections_[id] = connection;
-  connection->accept(request);
+  connections_[id] = std::make_shared<Connection>(*this, id, protocol, std::move(stream));
+  connections_[id]->accept(request);
 }
 
 void BeastServer::remove(ConnectionId id) {

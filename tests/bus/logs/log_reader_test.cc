@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include "bus/logs/log_series.h"
 #include "core/check.h"
@@ -133,7 +135,17 @@ TEST(LogReader, EmptyLogHoldsNothing) {
   EXPECT_TRUE(all_of(log).empty());
 }
 
-TEST(LogReader, MissingFileIsRefused) { EXPECT_THROW(LogReader("/nonexistent/log.lcm"), InvalidArgument); }
+TEST(LogReader, WhatIsNoReadableFileIsRefusedWithTheReason) {
+  for (const auto& [path, reason] : {std::pair("/nonexistent/log.lcm", "No such file or directory"),
+                                     std::pair("/", "it is no ordinary file")}) {
+    try {
+      const LogReader log(path);
+      FAIL() << path;
+    } catch (const InvalidArgument& error) {
+      EXPECT_STREQ(error.what(), (std::string("cannot read the log ") + path + ": " + reason).c_str());
+    }
+  }
+}
 
 }  // namespace
 }  // namespace halocline::clients

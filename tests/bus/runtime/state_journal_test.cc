@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -178,6 +179,20 @@ TEST_F(StateJournalTest, WhatAFullDiskRefusedIsNotInheritedAndTheNextRecordIsWho
   EXPECT_TRUE(journal_->wants_whole());
   EXPECT_TRUE(write(2, "c"));
   EXPECT_EQ(inherited(), state_);
+}
+
+TEST_F(StateJournalTest, FilesThatOthersDeleteOrTruncateAreMadeAnew) {
+  const auto remove = [](const std::string& path) { std::filesystem::remove(path); };
+  const auto truncate = [](const std::string& path) { std::filesystem::resize_file(path, 0); };
+  for (const std::function<void(const std::string&)>& attack :
+       {std::function(+remove), std::function(+truncate)}) {
+    EXPECT_TRUE(write(0, "a"));
+    for (const int file : {0, 1}) attack(files_.file(file));
+    EXPECT_FALSE(write(1, "b"));
+    EXPECT_FALSE(inherited().has_value());
+    EXPECT_TRUE(write(2, "c"));
+    EXPECT_EQ(inherited(), state_);
+  }
 }
 
 TEST_F(StateJournalTest, APathThatCannotBeWrittenIsRefused) {

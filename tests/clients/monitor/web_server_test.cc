@@ -124,6 +124,8 @@ TEST(WebServer, AnotherHostIsForbidden) {
   WebClient client(server.port());
   EXPECT_EQ(client.open("/ws", host_of(server.port()) + kProtocol + "Origin: http://evil.example\r\n"),
             "HTTP/1.1 403 Forbidden");
+  EXPECT_THAT(WebClient(server.port()).request("GET /", host_of(server.port()) + "Host: evil.example\r\n"),
+              StartsWith("HTTP/1.1 400"));
 }
 
 TEST(WebServer, AddressThatOthersReachNeedsAToken) {
