@@ -5,6 +5,15 @@
 #include <cstddef>
 
 namespace halocline {
+namespace {
+
+// Whether `c` is a control character or, behind `before`, the second byte of one of eight bits.
+bool is_control(unsigned char before, char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte < ' ' || byte == 0x7f || (before == 0xc2 && byte >= 0x80 && byte < 0xa0);
+}
+
+}  // namespace
 
 bool is_valid_name(std::string_view name) {
   constexpr std::size_t kMaxLength = 24;
@@ -17,12 +26,21 @@ bool is_valid_name(std::string_view name) {
 bool is_one_line(std::string_view text) {
   unsigned char before = 0;
   for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool is_eight_bits = before == 0xc2 && byte >= 0x80 && byte < 0xa0;
-    if (byte < ' ' || byte == 0x7f || is_eight_bits) return false;
-    before = byte;
+    if (is_control(before, c)) return false;
+    before = static_cast<unsigned char>(c);
   }
   return true;
+}
+
+std::string without_controls(std::string_view text) {
+  std::string shown(text);
+  unsigned char before = 0;
+  for (char& c : shown) {
+    const bool stays = c == '\n' || !is_control(before, c);
+    before = static_cast<unsigned char>(c);
+    if (!stays) c = '?';
+  }
+  return shown;
 }
 
 std::string printable(std::string_view text) {

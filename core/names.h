@@ -17,6 +17,9 @@ inline constexpr std::int32_t kBroadcastId = 0;  // as a destination: every vehi
 // False where `text` holds control characters, those of eight bits in UTF-8 among them: line ends, and what commands a terminal.
 [[nodiscard]] bool is_one_line(std::string_view text);
 
+// `text` with '?' in the place of its control characters, but for line ends.
+[[nodiscard]] std::string without_controls(std::string_view text);
+
 // `text` as a terminal may show it: what is not a visible character of ASCII or a space becomes '?'.
 [[nodiscard]] std::string printable(std::string_view text);
 

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
-#include <cstdio>
 #include <ctime>
 #include <exception>
 #include <string_view>
@@ -316,16 +315,16 @@ int run_node_program(int argc, char** argv, const NodeProgram& program) {
   try {
     const int exit_code = run_checked(argc, argv, program);
     if (output_is_whole()) return exit_code;
-    std::fprintf(stderr, "%s: standard output could not be written\n", program.program.c_str());
+    print_failure(program.program, "standard output could not be written");
     return 1;
   } catch (const InvalidArgument& error) {
-    std::fprintf(stderr, "%s: %s\n", program.program.c_str(), error.what());
+    print_failure(program.program, error.what());
     return kExitConfiguration;
   } catch (const NetworkError& error) {
-    std::fprintf(stderr, "%s: %s\n", program.program.c_str(), error.what());
+    print_failure(program.program, error.what());
     return kExitNetwork;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", program.program.c_str(), error.what());
+    print_failure(program.program, error.what());
     return 1;
   }
 }

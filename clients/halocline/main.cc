@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
+#include <iostream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -11,6 +12,7 @@
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
 #include "clients/halocline/commands.h"
+#include "core/names.h"
 
 namespace hc = halocline::clients;
 
@@ -71,7 +73,7 @@ int main(int argc, char** argv) {
   describe(app, exit_code);
   const auto checked = [](int code) {
     if (code != hc::kDone || halocline::bus::output_is_whole()) return code;
-    std::fprintf(stderr, "halocline: standard output could not be written\n");
+    halocline::bus::print_failure("halocline", "standard output could not be written");
     return hc::kFailed;
   };
   try {
@@ -79,12 +81,15 @@ int main(int argc, char** argv) {
     return checked(exit_code);
   } catch (const CLI::ParseError& error) {
     if (const std::string wrong = wrong_subcommand(app, argc, argv); !wrong.empty()) {
-      std::fprintf(stderr, "halocline: %s\n", wrong.c_str());
+      halocline::bus::print_failure("halocline", wrong);
       return hc::kUserError;
     }
-    return checked(app.exit(error) == 0 ? hc::kDone : hc::kUserError);
+    std::ostringstream said;
+    const int code = app.exit(error, std::cout, said);
+    std::cerr << halocline::without_controls(said.str());
+    return checked(code == 0 ? hc::kDone : hc::kUserError);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "halocline: %s\n", error.what());
+    halocline::bus::print_failure("halocline", error.what());
     if (dynamic_cast<const halocline::bus::NetworkError*>(&error) != nullptr)
       return halocline::bus::kExitNetwork;
     return dynamic_cast<const std::invalid_argument*>(&error) != nullptr ? hc::kUserError : hc::kFailed;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
@@ -17,10 +16,10 @@ int main(int argc, char** argv) {
       halocline::monitor::run_monitor(*options, std::cout, halocline::bus::stop_requested);
     }
     if (halocline::bus::output_is_whole()) return 0;
-    std::fprintf(stderr, "halocline-monitor: standard output could not be written\n");
+    halocline::bus::print_failure("halocline-monitor", "standard output could not be written");
     return 1;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "halocline-monitor: %s\n", error.what());
+    halocline::bus::print_failure("halocline-monitor", error.what());
     return dynamic_cast<const std::invalid_argument*>(&error) != nullptr ? 2 : 1;
   }
 }

@@ -27,5 +27,12 @@ TEST(Names, ALineHasNoControlCharacters) {
     EXPECT_FALSE(is_one_line(bad)) << bad;
 }
 
+TEST(Names, ControlCharactersButLineEndsAreReplaced) {
+  EXPECT_EQ(without_controls("a\n\x1b[2J\t\xc3\xa9\x7f"), "a\n?[2J?\xc3\xa9?");
+  EXPECT_TRUE(
+      is_one_line(without_controls("\xc2\x9b"
+                                   "2J")));
+}
+
 }  // namespace
 }  // namespace halocline

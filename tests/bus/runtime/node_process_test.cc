@@ -241,5 +241,12 @@ TEST(NodeCommandLine, EveryMistakeIsReportedWithExitCodeTwo) {
   EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "--log-level", "loud"}, 2), HasSubstr("debug, info"));
 }
 
+TEST(NodeCommandLine, ControlCharactersOfArgumentsDoNotReachTheTerminal) {
+  for (const char* argument : {"/\x1b[2J.toml", "--\x1b[2J"}) {
+    EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, argument}, 2),
+                ::testing::AllOf(HasSubstr("?[2J"), ::testing::Not(HasSubstr("\x1b"))));
+  }
+}
+
 }  // namespace
 }  // namespace halocline::bus
