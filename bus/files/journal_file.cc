@@ -102,9 +102,8 @@ std::string problem_with(int file, std::string_view header) {
   if (size < 0) return std::strerror(errno);
   if (!std::equal(found.begin(), found.begin() + size, header.begin()))
     return "it is another file, or a journal of another version; it stays as it is";
-  const auto bytes = std::span(reinterpret_cast<const std::uint8_t*>(header.data()), header.size());
-  const bool is_whole = static_cast<std::size_t>(size) == header.size();
-  if (!is_whole && pwrite(file, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+  const View bytes(reinterpret_cast<const std::uint8_t*>(header.data()), header.size());
+  if (static_cast<std::size_t>(size) < header.size() && !write_whole(file, 0, std::array{bytes}))
     return std::strerror(errno);
   return "";
 }
