@@ -20,11 +20,6 @@ constexpr int kNodesPerPiece = 5;  // of gauss_legendre_5
 constexpr double kMetresPerKilometre = 1000;
 constexpr double kNepersPerDecibel = std::numbers::ln10 / 10;  // of power
 
-// Ends nearer to each other than where levels refer to count as that far apart.
-double held_distance_m(const Vec3& from_ned_m, const Vec3& to_ned_m) {
-  return std::max((to_ned_m - from_ned_m).norm(), kReferenceRange);
-}
-
 double within_water(double depth_m) { return std::clamp(depth_m, 0.0, kDeepestWater); }
 
 }  // namespace
@@ -197,7 +192,7 @@ LinkBudget LinkModel::budget(const Vec3& from_ned_m, const Vec3& to_ned_m) const
 
   LinkBudget link;
   link.range_m = (to_ned_m - from_ned_m).norm();
-  link.delay_s = held_distance_m(from_ned_m, to_ned_m) * slowness;
+  link.delay_s = link.range_m * slowness;
   link.mean_sound_speed_mps = 1 / slowness;
   link.absorption_db_per_km = mean_absorption(samples, 0);
   const Decibels beams = terms_.beam_loss(from_ned_m, to_ned_m);

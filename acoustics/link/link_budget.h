@@ -32,7 +32,7 @@ namespace halocline::acoustics {
 
 struct LinkBudget {
   double range_m = 0;               // straight distance
-  double delay_s = 0;               // one way; of 1 m where the ends are nearer to each other
+  double delay_s = 0;               // one way
   double mean_sound_speed_mps = 0;  // along the path, range / delay; at zero range the speed of the place
   double absorption_db_per_km = 0;  // mean along the path, at the centre frequency
   Decibels transmission_loss;       // at the centre frequency

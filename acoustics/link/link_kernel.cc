@@ -129,7 +129,7 @@ LinkBudget LinkKernel::budget_of_leg(const Leg& leg, const Vec3& from_ned_m, con
   LinkBudget link;
   const double slowness = slowness_s_per_m(leg);
   link.range_m = (to_ned_m - from_ned_m).norm();
-  link.delay_s = std::max(link.range_m, kReferenceRange) * slowness;
+  link.delay_s = link.range_m * slowness;
   link.mean_sound_speed_mps = 1 / slowness;
   link.absorption_db_per_km = absorption_db_per_km(leg);
   return link;
@@ -164,8 +164,7 @@ LinkBudget LinkKernel::budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned
 }
 
 double LinkKernel::delay_s(const Vec3& from_ned_m, const Vec3& to_ned_m) const {
-  const double range_m = std::max((to_ned_m - from_ned_m).norm(), kReferenceRange);
-  return range_m * slowness_s_per_m(leg_between(from_ned_m, to_ned_m));
+  return (to_ned_m - from_ned_m).norm() * slowness_s_per_m(leg_between(from_ned_m, to_ned_m));
 }
 
 PathLoss LinkKernel::path_loss(double from_depth_m, double to_depth_m, double path_length_m) const {

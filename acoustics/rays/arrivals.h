@@ -128,8 +128,8 @@ struct RayLink {
   double source_depth_m = 0, receiver_depth_m = 0, range_m = 0;
 };
 
-// Ends nearer to each other than this count as this far apart, m: where a source level is defined. Delay, level and
-// angles are those of a link of 1 m.
+// The distance at which source levels are defined, m: sound does not spread within it. Paths between ends nearer to
+// each other are those of ends so far apart, extrapolated: delay, length and angles are those of the true distance.
 inline constexpr double kMinDistance = 1;
 // The same link with its range so great that the ends are that far apart.
 RayLink held_apart(RayLink link);

@@ -8,6 +8,7 @@
 
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/channel_core.h"
+#include "acoustics/rays/extrapolate_arrivals.h"
 #include "acoustics/rays/image_rays.h"
 #include "acoustics/rays/layered_rays.h"
 #include "acoustics/rays/profile_rays.h"
@@ -225,6 +226,11 @@ Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolve
   const LinkSearch search(sea, held, chosen, shared);
   Arrivals found{chosen, search.paths()};
   if (found.silent()) found.lack = search.lack();
+  if (held.range_m != link.range_m) {
+    const EndSpeeds speeds{sea.water.speed_at(held.source_depth_m),
+                           sea.water.speed_at(held.receiver_depth_m)};
+    found.paths = extrapolate_arrivals(found.paths, held, speeds, link);
+  }
   return found;
 }
 

@@ -52,7 +52,8 @@ RaySolver choose_solver(const RaySea& sea, const RayLink& link);
 // All paths; none in a shadow zone, which is no error. Where no path is strong enough for the limits on bounces, they
 // are widened until there is one, to 250 dB of loss; why there is none in the end is found by one more search. Depths of
 // the link have to lie between surface and bottom, each at its range (InvalidArgument otherwise), and the solver named
-// has to be able to do it: images and Snell refuse what they would get wrong. Ends nearer than 1 m are held apart.
+// has to be able to do it: images and Snell refuse what they would get wrong. Between ends nearer than 1 m sound takes as long as the distance
+// asks for, at the level of 1 m.
 // Links from one end that share rays (acoustics/rays/column_rays.h, bearing_rays.h) do so where the solver is arcs; the sea has to outlive
 // them.
 Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver = std::nullopt,

@@ -11,10 +11,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "acoustics/link/extrapolate_arrivals.h"
 #include "acoustics/link/mixed_link.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/extrapolate_arrivals.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"

@@ -6,7 +6,7 @@
 // than kGreatestVelocityChange, and water, seabed and both modems are the same. Then range and Doppler are those of the ends now, and a
 // delay along a path that leaves the transmitter at the angle a below the horizontal and arrives at the angle b is
 //   tau = tau_then + (cos a dr - sin a dz_transmitter) / c_transmitter + sin b dz_receiver / c_receiver,
-// r the horizontal range and z depths (Fermat's principle; acoustics/link/extrapolate_arrivals.h takes whole paths on likewise).
+// r the horizontal range and z depths (Fermat's principle; acoustics/rays/extrapolate_arrivals.h takes whole paths on likewise).
 // Levels and what is delivered stay: spreading changes by 0.2 dB at most meanwhile. LinkRow::paths_age grows.
 //
 // A row that waits for a search or for the bottom is not kept. What is kept depends on the ticks since the start: threads and

@@ -80,8 +80,8 @@ LinkSearches::Task LinkSearches::task_of(SimTime at, const LinkEnd& from, const 
   const LinkEnd &first = reversed ? to : from, &last = reversed ? from : to;
   const Vec3 way = last.position_ned_m - first.position_ned_m;
   const double frequency_hz = from.modem->centre_frequency_hz;
-  const acoustics::RayLink link = acoustics::held_apart(
-      {depth_of(first, environment), depth_of(last, environment), elementary::hypot(way.x(), way.y())});
+  const acoustics::RayLink link{depth_of(first, environment), depth_of(last, environment),
+                                elementary::hypot(way.x(), way.y())};
   const ProfileEnds places{first.position_ned_m.x(), first.position_ned_m.y(), last.position_ned_m.x(),
                            last.position_ned_m.y()};
   const auto kernel = straight_.kernel_of(at, *from.modem, *to.modem);

@@ -14,10 +14,10 @@
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
-#include "acoustics/link/extrapolate_arrivals.h"
 #include "acoustics/link/field_section.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/extrapolate_arrivals.h"
 #include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
@@ -193,7 +193,7 @@ std::uint64_t number_of(const acoustics::PathIdentity& identity);
 // range and a tenth of that in depth (fronts of sound that travels nearly level bend most across depth), and
 // half as large as often as it takes for a link to be at least 20 cells long. Below 20 / 64 of `distance_m`
 // nothing is replaced. So the searched link is a function of the link alone, whatever was searched before, and
-// lies within 2.5 % of the range in range and 0.25 % of it in depth. acoustics/link/extrapolate_arrivals.h takes the paths
+// lies within 2.5 % of the range in range and 0.25 % of it in depth. acoustics/rays/extrapolate_arrivals.h takes the paths
 // from there to the link.
 std::optional<acoustics::RayLink> middle_of_cell(const acoustics::RayLink& link, double distance_m);
 

@@ -8,13 +8,13 @@
 
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/scattering_loss.h"
-#include "acoustics/link/extrapolate_arrivals.h"
 #include "acoustics/link/field_section.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/mixed_link.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/arc_tracer.h"
+#include "acoustics/rays/extrapolate_arrivals.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
@@ -246,7 +246,7 @@ void RayPropagation::set_open(const Task& task, const acoustics::Arrivals& arriv
   budget = task.kernel->budget_of_path(from, to, task.ends.from.modem->source_level - level,
                                        arrival->path_length_m, capacity, task.ends.to.above_ambient);
   budget.delay_s = reception.paths[best_window(reception.paths, *task.ends.to.modem).strongest].delay_s;
-  budget.mean_sound_speed_mps = std::max(budget.range_m, acoustics::kMinDistance) / first.delay_s;
+  if (first.delay_s > 0) budget.mean_sound_speed_mps = budget.range_m / first.delay_s;
   if (arrival->path_length_m > 0) {
     budget.absorption_db_per_km = 1000 * arrival->absorption_db / arrival->path_length_m;
   }

@@ -18,7 +18,7 @@
 // Paths are searched from the lower id to the higher; the other direction is the same paths backwards, so the two are reciprocal
 // to the last bit but for what the receiver's noise makes diffuse (RayModel::diffuse_below_noise). reception() searches every
 // link for itself. receptions(), for tables, may let links share searches, whose paths are extrapolated to each
-// (link_searches.h, acoustics/link/extrapolate_arrivals.h); so may packets. With a budget of searches a tick a link
+// (link_searches.h, acoustics/rays/extrapolate_arrivals.h); so may packets. With a budget of searches a tick a link
 // may keep the paths of an earlier tick, extrapolated likewise: Reception::paths_age. Ends above the surface are taken
 // at it. Left out: motion of the bottom's slope across the link (acoustics/rays/eigenray.h).
 #pragma once

@@ -36,13 +36,12 @@ void take_field(const acoustics::LinkKernel& kernel, const acoustics::Environmen
   const auto& [from, to] = ends;
   const acoustics::LineMeans means =
       acoustics::means_along(water, from.position_ned_m, to.position_ned_m, from.modem->band().centre_hz());
-  const double length_m = std::max(budget.range_m, acoustics::kMinDistance);
   const double absorbing_m = budget.range_m < acoustics::kMinDistance ? 0 : budget.range_m;
   const Decibels more{(means.absorption_db_per_km - budget.absorption_db_per_km) * absorbing_m / 1000};
   const Decibels loss = from.modem->source_level - budget.received_level + more;
   budget = kernel.budget_of_path(from.position_ned_m, to.position_ned_m, loss, absorbing_m, capacity,
                                  to.above_ambient);
-  budget.delay_s = length_m * means.slowness_s_per_m;
+  budget.delay_s = budget.range_m * means.slowness_s_per_m;
   budget.mean_sound_speed_mps = 1 / means.slowness_s_per_m;
   budget.absorption_db_per_km = means.absorption_db_per_km;
 }

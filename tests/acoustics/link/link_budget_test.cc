@@ -144,15 +144,23 @@ TEST(LinkBudget, IsTheSameBothWays) {
   EXPECT_DOUBLE_EQ(there.budget().capacity_bps, back.budget().capacity_bps);
 }
 
-TEST(LinkBudget, ZeroRangeLosesNothingAndIsHeldAtOneMetre) {
+TEST(LinkBudget, ZeroRangeTakesNoTimeAndLosesNothing) {
   Case c;
   c.to = c.from;
   const LinkBudget link = c.budget();
   EXPECT_EQ(link.range_m, 0);
-  EXPECT_NEAR(link.delay_s, 1 / c.sea.profile.sound_speed_mps(30), tolerance(1e-12));
+  EXPECT_EQ(link.delay_s, 0);
   EXPECT_EQ(link.transmission_loss.value, 0);
   EXPECT_NEAR(link.mean_sound_speed_mps, c.sea.profile.sound_speed_mps(30), tolerance(1e-9));
   EXPECT_TRUE(std::isfinite(link.capacity_bps));
+}
+
+TEST(LinkBudget, WithinOneMetreSoundTakesItsTimeAndLosesNothing) {
+  Case c;
+  c.to = c.from + Vec3(0.18, 0.24, 0);
+  const LinkBudget link = c.budget();
+  EXPECT_NEAR(link.delay_s, 0.3 / c.sea.profile.sound_speed_mps(c.from.z()), tolerance(1e-12));
+  EXPECT_EQ(link.transmission_loss.value, 0);
 }
 
 TEST(LinkBudget, EveryInputMovesWhatItShould) {

@@ -107,7 +107,7 @@ TEST(RayLimits, OnlyWhereNoRayArrivesIsAShadow) {
 
 // ---------------------------------------------------------------------------------------------- hardly any range
 
-TEST(RayLimits, EndsNearerThanAMetreAreHeldOneMetreApart) {
+TEST(RayLimits, WithinOneMetreTheDirectPathTakesItsTimeAtTheLevelOfOneMetre) {
   const BottomProfile slope({{0, 90}, {2000, 60}});
   for (const auto& knots : {kSummer, std::vector<SpeedRow>{{0, 1500}}}) {
     for (const BottomProfile& bottom : {BottomProfile::flat(90), slope}) {
@@ -118,8 +118,38 @@ TEST(RayLimits, EndsNearerThanAMetreAreHeldOneMetreApart) {
         ASSERT_TRUE(has_direct_path(found)) << link.range_m;
         const Arrival& direct = found.paths.front();
         EXPECT_NEAR(direct.amplitude, 1, 0.001) << link.range_m;
-        EXPECT_NEAR(direct.delay_s, 1 / sea.water.speed_at(40), 1e-6) << link.range_m;
+        const double distance_m = std::hypot(link.range_m, link.receiver_depth_m - link.source_depth_m);
+        EXPECT_NEAR(direct.delay_s, distance_m / sea.water.speed_at(40), 1e-6) << link.range_m;
+        EXPECT_NEAR(direct.path_length_m, distance_m, 1e-3) << link.range_m;
       }
+    }
+  }
+}
+
+TEST(RayLimits, WithinOneMetreEchoesAreThoseOfTheirImages) {
+  const RaySea sea = sea_of({{0, 1500}}, BottomProfile::flat(90));
+  const Arrivals found = arrivals(sea, {0.9, 0.9, 0.4});
+  ASSERT_GE(found.paths.size(), 2U);
+  const Arrival& surface = found.paths[1];
+  ASSERT_EQ(surface.surface_bounces, 1);
+  EXPECT_NEAR(surface.delay_s, std::hypot(1.8, 0.4) / 1500, tolerance(1e-12));
+  EXPECT_NEAR(surface.amplitude, 1 / std::hypot(1.8, 0.4), tolerance(1e-9));
+}
+
+// A surface echo of half a metre is no louder than the source level.
+TEST(RayLimits, NoPathIsLouderThanAtOneMetre) {
+  const RaySea sea = sea_of({{0, 1500}}, BottomProfile::flat(90));
+  for (const Arrival& path : arrivals(sea, {0.2, 0.2, 0.3}).paths) EXPECT_LE(path.amplitude, 1.0001);
+}
+
+TEST(RayLimits, NothingIsUndefinedBetweenEndsAtOnePlace) {
+  for (const auto& knots : {kSummer, std::vector<SpeedRow>{{0, 1500}}}) {
+    const Arrivals found = arrivals(sea_of(knots, BottomProfile::flat(90)), {40, 40, 0});
+    ASSERT_TRUE(has_direct_path(found));
+    EXPECT_NEAR(found.paths.front().delay_s, 0, 1e-7);  // a ray bends by 0.1 mm in a metre
+    for (const Arrival& path : found.paths) {
+      EXPECT_TRUE(std::isfinite(path.delay_s + path.amplitude + path.launch_angle_rad +
+                                path.arrival_angle_rad + path.absorption_db));
     }
   }
 }

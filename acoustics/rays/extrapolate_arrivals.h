@@ -6,7 +6,7 @@
 // the bottom legs along with it, by the mean of cos / c over the range. The wave front that comes in is taken
 // for a sphere about the source as the path unfolds it, of radius path length L: with a displacement of which w
 // lies across the ray, tau' = sqrt((tau + gradient)^2 + (w / c)^2), c = L / tau. Length and absorption grow as tau
-// does, pressure falls so; both angles turn as that sphere's rays do.
+// does, pressure falls so, but not within 1 m of the source; both angles turn as that sphere's rays do.
 //
 // Exact in water of one speed over a level bottom. Else delays err by the square of the displacement d: below
 // d^2 / (c L) away from caustics; levels and angles by the first power, d / L, as focusing and bounces stay those of
@@ -27,7 +27,7 @@ struct EndSpeeds {
   double source_mps = 0, receiver_mps = 0;
 };
 
-// `found` are the arrivals of `from`; the result is those of `to` in the order of their delays. Ranges above 0.
+// `found` are the arrivals of `from`; the result is those of `to` in the order of their delays.
 std::vector<Arrival> extrapolate_arrivals(const std::vector<Arrival>& found, const RayLink& from,
                                           const EndSpeeds& speeds, const RayLink& to);
 

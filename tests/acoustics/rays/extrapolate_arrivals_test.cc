@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Arrivals extrapolated from one link to another near by, against those that are searched for there.
-#include "acoustics/link/extrapolate_arrivals.h"
+#include "acoustics/rays/extrapolate_arrivals.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/link/extrapolate_arrivals.h"
+#include "acoustics/rays/extrapolate_arrivals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +20,19 @@ double turned(double angle_rad, double length_m, double apart_m, double down_m) 
                            length_m * elementary::cos(angle_rad) + apart_m);
 }
 
+// The path with another length, of which one is within the metre where sound does not spread.
+Arrival grown_near_source(Arrival path, double length_m) {
+  const double before_m = path.path_length_m;
+  path.amplitude *= std::max(before_m, kMinDistance) / std::max(length_m, kMinDistance);
+  path.absorption_db = before_m > 0 ? path.absorption_db * length_m / before_m : 0;
+  path.path_length_m = length_m;
+  return path;
+}
+
 Arrival extrapolated(Arrival path, const EndSpeeds& speeds, const Displacement& moved) {
   // Fermat: d tau = <cos / c> dr + sin(arrival) / c_r dz_r - sin(launch) / c_s dz_s.
-  const double delay_s = path.delay_s, speed_mps = path.path_length_m / delay_s;
+  const double delay_s = path.delay_s, length_m = path.path_length_m;
+  const double speed_mps = length_m > 0 ? length_m / delay_s : speeds.source_mps;
   const double gradient_s =
       path.range_slowness_spm * moved.apart +
       elementary::sin(path.arrival_angle_rad) / speeds.receiver_mps * moved.receiver_down -
@@ -36,9 +46,11 @@ Arrival extrapolated(Arrival path, const EndSpeeds& speeds, const Displacement& 
   const double across_squared = std::max(moved.apart * moved.apart + down * down - along * along, 0.0);
   path.delay_s =
       std::sqrt((delay_s + gradient_s) * (delay_s + gradient_s) + across_squared / (speed_mps * speed_mps));
+  path.launch_angle_rad = turned(path.launch_angle_rad, length_m, moved.apart, down);
+  path.arrival_angle_rad = turned(path.arrival_angle_rad, length_m, moved.apart, turn * down);
+  if (length_m < kMinDistance || speed_mps * path.delay_s < kMinDistance)
+    return grown_near_source(path, speed_mps * path.delay_s);
   const double grown = path.delay_s / delay_s;
-  path.launch_angle_rad = turned(path.launch_angle_rad, path.path_length_m, moved.apart, down);
-  path.arrival_angle_rad = turned(path.arrival_angle_rad, path.path_length_m, moved.apart, turn * down);
   path.path_length_m *= grown;
   path.absorption_db *= grown;
   path.amplitude /= grown;
