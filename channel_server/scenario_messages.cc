@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "channel_server/vehicles/modem_schedule.h"
+#include "core/utf8.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -31,14 +32,6 @@ scenario_vehicle_t to_message(const bus::VehicleEntry& vehicle, const VehicleMod
   message.bandwidth_hz = modem.modem.bandwidth_hz;
   message.bit_rate_bps = modem.modem.bit_rate_bps;
   return message;
-}
-
-// At most so many bytes of a text in UTF-8, without a broken character at the end.
-std::string beginning_of(const std::string& text, std::size_t bytes) {
-  if (text.size() <= bytes) return text;
-  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
-  while (bytes > 0 && continues(text[bytes])) --bytes;
-  return text.substr(0, bytes);
 }
 
 scenario_info_t common_part(const bus::Scenario& scenario) {

@@ -29,6 +29,13 @@ double readable_degrees(double radians) {
 
 }  // namespace
 
+void ConfigVisitor::when(bool counts, std::string_view choice, const std::function<void()>& body) {
+  const std::string outer = missing_choice_;
+  if (!counts && outer.empty()) missing_choice_ = choice;
+  body();
+  missing_choice_ = outer;
+}
+
 ConfigErrors::ConfigErrors(std::vector<std::string> lines)
     : InvalidArgument(joined(lines)), lines_(std::move(lines)) {}
 

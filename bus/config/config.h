@@ -10,9 +10,11 @@
 // hours and kilohertz only where its key says so; the struct is SI: convert in visit.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <string>
@@ -67,6 +69,16 @@ class ConfigVisitor {
   virtual void problem(std::string_view key, std::string_view what_is_allowed) = 0;
   // This table also holds keys that other programs read: unknown ones are not errors here.
   virtual void shared_with_others() = 0;
+
+  // Visits keys of the current table that count only with some other choice: `counts` says whether that is
+  // made, and `choice` names it as the file would make it, "kind = \"raster\"". A key that does not count is
+  // read and checked all the same, warned of where the file gives it, and left out where the effective
+  // configuration is written.
+  void when(bool counts, std::string_view choice, const std::function<void()>& body);
+
+ protected:
+  // The choice that the keys visited now lack; empty where they count. Visitors of tables within pass it on.
+  std::string missing_choice_;
 };
 
 // An integer of another width through ConfigVisitor::integer.
@@ -86,6 +98,18 @@ void choice(ConfigVisitor& v, std::string_view key, Enum& value, const std::vect
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == name) value = static_cast<Enum>(i);
   }
+}
+
+// Visits keys that count only where the enumeration `key`, visited before by choice() with the same names, is
+// one of `values`.
+template <class Enum>
+void when_one_of(ConfigVisitor& v, std::string_view key, Enum value, const std::vector<std::string>& names,
+                 std::initializer_list<Enum> values, const std::function<void()>& body) {
+  std::string choice;
+  for (const Enum one : values)
+    choice +=
+        (choice.empty() ? std::string(key) + " = \"" : "\" or \"") + names.at(static_cast<std::size_t>(one));
+  v.when(std::find(values.begin(), values.end(), value) != values.end(), choice + "\"", body);
 }
 
 // The names of all values of an enumeration that has a to_name, for `choice`.
@@ -167,7 +191,8 @@ class ConfigFile {
   std::unique_ptr<ConfigDocument> document_;
 };
 
-// The configuration as TOML: every key with its value; with_comments adds unit, range and meaning.
+// The configuration as TOML: every key that counts with its value; with_comments every key, with unit, range
+// and meaning.
 std::string to_toml(const std::function<void(ConfigVisitor&)>& body, bool with_comments);
 
 }  // namespace halocline::bus

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <toml++/toml.h>
@@ -18,28 +19,39 @@
 
 namespace halocline::bus {
 
+// The name of overrides in errors.
+inline constexpr std::string_view kCommandLine = "command line";
+
 struct ConfigDocument {
   std::string path;
   toml::table root;
   std::vector<std::string> errors;
   std::vector<std::string> warnings;
-  std::set<const toml::node*> read;      // values that have been read
-  std::set<const toml::table*> entered;  // tables that a read entered
-  std::set<const toml::table*> shared;   // tables whose other keys are read by other programs
+  std::set<const toml::node*> read;                             // values that have been read
+  std::set<const toml::node*> counting;                         // those of them that counted for some read
+  std::vector<std::pair<const toml::node*, std::string>> idle;  // and that did not, each with its warning
+  std::set<const toml::table*> entered;                         // tables that a read entered
+  std::set<const toml::table*> shared;  // tables whose other keys are read by other programs
   // Keys that some read looked for, by the table they stand in ("vehicle.modem."; items of a list share one).
   std::map<std::string, std::set<std::string, std::less<>>> known;
 
   // "file:line", or "command line" for an override.
   std::string place_of(const toml::node& node) const;
+  [[nodiscard]] bool is_override(const toml::node& node) const;
   std::string folder() const;
   // Kept once, however often it is found.
   void add_error(const std::string& error);
+  void add_warning(const std::string& warning);
 };
 
 // The table as TOML, keys in alphabetical order.
 std::string to_text(const toml::table& table);
 
-// A value as in errors.
+// A number and a text as TOML has them.
+std::string exact(double value);
+std::string toml_quoted(const std::string& value);
+
+// A value as in errors; a long one is cut.
 std::string value_text(const toml::node& node);
 
 // A name as in errors without the numbers of list items: "vehicle[0].modem." is "vehicle.modem.".
@@ -52,7 +64,9 @@ std::string suggestion_for(const ConfigDocument& document, const std::string& pr
 // Fills structs from one table of the document; `prefix` names the table in errors ("environment.").
 class ConfigReader : public ConfigVisitor {
  public:
-  ConfigReader(ConfigDocument& document, toml::table& table, std::string prefix);
+  // `missing_choice` is that of a table that does not count as a whole, and has been warned of.
+  ConfigReader(ConfigDocument& document, toml::table& table, std::string prefix,
+               const std::string& missing_choice = "");
 
   void number(std::string_view key, double& value, const NumberRule& rule) override;
   void integer(std::string_view key, std::int64_t& value, const NumberRule& rule) override;
@@ -79,6 +93,7 @@ class ConfigReader : public ConfigVisitor {
  private:
   toml::node* find(std::string_view key);
   void note(std::string_view key) const;
+  void note_use(const toml::node& node, std::string_view key);
   void fail(const toml::node& node, std::string_view key, const std::string& allowed);
   bool read_number(const toml::node& node, std::string_view key, const NumberRule& rule, double& value);
   bool read_numbers(const toml::node& node, std::string_view key, const NumberRule& rule,
@@ -88,6 +103,7 @@ class ConfigReader : public ConfigVisitor {
   ConfigDocument& document_;
   toml::table& table_;
   std::string prefix_;
+  bool is_warned_of_;
 };
 
 }  // namespace halocline::bus

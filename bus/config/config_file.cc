@@ -103,13 +103,34 @@ void merge(toml::node& into, toml::table& from, const std::string& override_text
   }
 }
 
+// "section.key=word" with the word in quotes; empty where what follows is no plain word.
+std::string with_quoted_word(const std::string& text) {
+  const auto equals = text.find('=');
+  const auto first = equals == std::string::npos ? equals : text.find_first_not_of(" \t", equals + 1);
+  if (first == std::string::npos || std::string_view("\"'[{").find(text[first]) != std::string_view::npos)
+    return "";
+  const std::string word = text.substr(first, text.find_last_not_of(" \t") - first + 1);
+  return is_one_line(word) ? text.substr(0, equals + 1) + toml_quoted(word) : "";
+}
+
+// What is no TOML is a text, so that a shell needs no quotes within quotes: modem.profile=janus.
+toml::table parsed_override(const std::string& text) {
+  try {
+    return parsed_table(text, kCommandLine);
+  } catch (const toml::parse_error& error) {
+    const std::string quoted = with_quoted_word(text);
+    if (quoted.empty()) throw;
+    return parsed_table(quoted, kCommandLine);
+  }
+}
+
 void apply_override(toml::table& root, const std::string& text) {
   try {
-    toml::table given = parsed_table(text, "command line");
+    toml::table given = parsed_override(text);
     merge(root, given, text);
   } catch (const toml::parse_error& error) {
     throw ConfigErrors({"override '" + text + "': " + std::string(error.description()) +
-                        "; allowed is section.key=value, value in TOML (texts in quotes)"});
+                        "; allowed is section.key=value, with a value in TOML or a word"});
   }
 }
 
@@ -223,6 +244,8 @@ void ConfigFile::read(const std::function<void(ConfigVisitor&)>& body) {
 void ConfigFile::check(bool whole_file) {
   if (!whole_file) document_->shared.insert(&document_->root);
   collect_unknown(*document_, document_->root, "", whole_file);
+  for (const auto& [node, warning] : document_->idle)
+    if (!document_->counting.contains(node)) document_->add_warning(warning);
   check_findings();
 }
 
@@ -232,7 +255,7 @@ void ConfigFile::refuse(const std::string& key, const std::string& value,
 }
 
 void ConfigFile::warn(const std::string& key, const std::string& value, const std::string& what_to_know) {
-  document_->warnings.push_back(finding(*document_, key, value, what_to_know));
+  document_->add_warning(finding(*document_, key, value, what_to_know));
 }
 
 void ConfigFile::check_findings() const {

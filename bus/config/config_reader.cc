@@ -12,6 +12,7 @@
 #include "bus/config/config_document.h"
 #include "core/frames.h"
 #include "core/names.h"
+#include "core/utf8.h"
 
 namespace halocline::bus {
 namespace {
@@ -29,13 +30,27 @@ std::string allowed_text(const NumberRule& rule) {
   return text;
 }
 
+// toml++ writes large floats with all their digits.
+std::string whole_value_text(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  if (const auto* number = node.as_floating_point()) return exact(number->get());
+  std::ostringstream text;
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& element : *array)
+      text << (text.tellp() == 0 ? "[ " : ", ") << whole_value_text(element);
+    return array->empty() ? "[]" : text.str() + " ]";
+  }
+  node.visit([&](const auto& value) { text << value; });
+  return text.str();
+}
+
 }  // namespace
 
 std::string value_text(const toml::node& node) {
-  if (node.is_table()) return "a table";
-  std::ostringstream text;
-  node.visit([&](const auto& value) { text << value; });
-  return text.str();
+  constexpr std::size_t kMaxBytes = 120;
+  const std::string text = whole_value_text(node);
+  if (text.size() <= kMaxBytes) return text;
+  return beginning_of(text, kMaxBytes) + "... (" + std::to_string(text.size()) + " characters)";
 }
 
 std::string ConfigDocument::place_of(const toml::node& node) const {
@@ -43,6 +58,10 @@ std::string ConfigDocument::place_of(const toml::node& node) const {
   if (source.path == nullptr) return path;  // a section that the file does not have
   if (*source.path != path) return *source.path;
   return path + ":" + std::to_string(source.begin.line);
+}
+
+bool ConfigDocument::is_override(const toml::node& node) const {
+  return node.source().path != nullptr && *node.source().path == kCommandLine;
 }
 
 std::string ConfigDocument::folder() const {
@@ -54,8 +73,14 @@ void ConfigDocument::add_error(const std::string& error) {
   if (std::find(errors.begin(), errors.end(), error) == errors.end()) errors.push_back(error);
 }
 
-ConfigReader::ConfigReader(ConfigDocument& document, toml::table& table, std::string prefix)
-    : document_(document), table_(table), prefix_(std::move(prefix)) {
+void ConfigDocument::add_warning(const std::string& warning) {
+  if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+}
+
+ConfigReader::ConfigReader(ConfigDocument& document, toml::table& table, std::string prefix,
+                           const std::string& missing_choice)
+    : document_(document), table_(table), prefix_(std::move(prefix)), is_warned_of_(!missing_choice.empty()) {
+  missing_choice_ = missing_choice;
   document_.entered.insert(&table_);
 }
 
@@ -66,8 +91,20 @@ void ConfigReader::note(std::string_view key) const {
 toml::node* ConfigReader::find(std::string_view key) {
   note(key);
   toml::node* node = table_.get(key);
-  if (node != nullptr) document_.read.insert(node);
+  if (node == nullptr) return node;
+  document_.read.insert(node);
+  note_use(*node, key);
   return node;
+}
+
+void ConfigReader::note_use(const toml::node& node, std::string_view key) {
+  if (missing_choice_.empty()) {
+    document_.counting.insert(&node);
+  } else if (!is_warned_of_) {
+    document_.idle.emplace_back(&node, document_.place_of(node) + ": " + prefix_ + std::string(key) + " is " +
+                                           value_text(node) + "; it has no effect, it counts only with " +
+                                           missing_choice_);
+  }
 }
 
 void ConfigReader::fail(const toml::node& node, std::string_view key, const std::string& allowed) {
@@ -120,9 +157,11 @@ void ConfigReader::text(std::string_view key, std::string& value, const std::vec
   if (node == nullptr) return;
   std::string names;
   for (const std::string& name : allowed) names += (names.empty() ? "" : ", ") + name;
-  if (!node->is_string())
+  // A word of the command line may look like a number or a date.
+  const bool is_word = node->is_value() && document_.is_override(*node);
+  if (!node->is_string() && !is_word)
     return fail(*node, key, "a text is needed" + (names.empty() ? "" : ", allowed are " + names));
-  const std::string read = *node->value<std::string>();
+  const std::string read = node->value<std::string>().value_or(value_text(*node));
   if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), read) == allowed.end()) {
     return fail(*node, key, "allowed are " + names);
   }
@@ -183,7 +222,7 @@ void ConfigReader::section(std::string_view key, std::string_view /*meaning*/,
   toml::table missing;  // an absent section is an empty one, so that its keys are checked for being required
   toml::table* table = node != nullptr ? node->as_table() : &missing;
   if (table == nullptr) return fail(*node, key, "a table [" + prefix_ + std::string(key) + "] is needed");
-  ConfigReader reader(document_, *table, prefix_ + std::string(key) + ".");
+  ConfigReader reader(document_, *table, prefix_ + std::string(key) + ".", missing_choice_);
   body(reader);
   document_.entered.erase(&missing);
   document_.shared.erase(&missing);
@@ -202,7 +241,7 @@ void ConfigReader::list(std::string_view key, std::string_view /*meaning*/, std:
   resize(array->size());
   for (std::size_t i = 0; i < array->size(); ++i) {
     ConfigReader reader(document_, *array->get_as<toml::table>(i),
-                        prefix_ + std::string(key) + "[" + std::to_string(i) + "].");
+                        prefix_ + std::string(key) + "[" + std::to_string(i) + "].", missing_choice_);
     item(reader, i);
   }
 }

@@ -17,7 +17,6 @@
 #include "core/frames.h"
 
 namespace halocline::bus {
-namespace {
 
 // The shortest decimal that reads back as the same double; always with a point or exponent, as TOML wants for
 // floats.
@@ -47,6 +46,8 @@ std::string toml_quoted(const std::string& value) {
   }
   return text + "\"";
 }
+
+namespace {
 
 // ---- a table that was read
 
@@ -129,6 +130,7 @@ struct Table {
 
 class Writer : public ConfigVisitor {
  public:
+  // With comments every key is written; without them those that count.
   Writer(Table& table, std::string path, bool with_comments)
       : table_(table), path_(std::move(path)), with_comments_(with_comments) {}
 
@@ -162,6 +164,7 @@ class Writer : public ConfigVisitor {
   }
   void section(std::string_view key, std::string_view meaning,
                const std::function<void(ConfigVisitor&)>& body) override {
+    if (is_left_out()) return;
     const std::string path = path_ + std::string(key);
     Writer nested(table_.table(std::string(key), 0, "\n" + comment_line(meaning) + "[" + path + "]\n"),
                   path + ".", with_comments_);
@@ -170,6 +173,7 @@ class Writer : public ConfigVisitor {
   void list(std::string_view key, std::string_view meaning, std::size_t count,
             const std::function<void(std::size_t)>& /*resize*/,
             const std::function<void(ConfigVisitor&, std::size_t)>& item) override {
+    if (is_left_out()) return;
     const std::string path = path_ + std::string(key);
     for (std::size_t i = 0; i < count; ++i) {
       const std::string header = "\n" + comment_line(i == 0 ? meaning : "") + "[[" + path + "]]\n";
@@ -184,7 +188,9 @@ class Writer : public ConfigVisitor {
   void shared_with_others() override {}
 
  private:
+  bool is_left_out() const { return !with_comments_ && !missing_choice_.empty(); }
   void line(std::string_view key, const std::string& value, const std::string& comment) {
+    if (is_left_out()) return;
     const std::string tail = with_comments_ && !comment.empty() ? "  # " + comment : "";
     table_.add_line(key, std::string(key) + " = " + value + tail + "\n");
   }

@@ -29,6 +29,7 @@
 #include "clients/halocline/waveform/live_sea.h"
 #include "clients/mission/mission_store.h"
 #include "core/check.h"
+#include "core/csv_table.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
@@ -45,8 +46,7 @@ struct RunOptions {
 
 std::vector<std::string> overrides_of(const RunOptions& options) {
   std::vector<std::string> overrides = options.overrides;
-  if (options.duration_s > 0)
-    overrides.push_back("scenario.duration_s=" + std::to_string(options.duration_s));
+  if (options.duration_s > 0) overrides.push_back("scenario.duration_s=" + format_number(options.duration_s));
   if (options.seed >= 0) overrides.push_back("scenario.seed=" + std::to_string(options.seed));
   return overrides;
 }

@@ -70,9 +70,8 @@ SweepAxis parse_axis(const std::string& text) {
   const auto equals = text.find('=');
   const std::string key = trimmed(std::string_view(text).substr(0, std::min(equals, text.size())));
   const bool named = !key.empty() && key.find_first_of(" \t\"'") == std::string::npos;
-  require(
-      equals != std::string::npos && named,
-      "axis '" + text + "'; allowed is section.key=value,value,... with values in TOML (texts in quotes)");
+  require(equals != std::string::npos && named,
+          "axis '" + text + "'; allowed is section.key=value,value,... with values in TOML or words");
   return {key, values_of(key, text.substr(equals + 1))};
 }
 
@@ -129,7 +128,7 @@ SweepRun run_of(const SweepPlan& plan, std::size_t index) {
   run.overrides = plan.overrides;
   for (std::size_t i = 0; i < plan.axes.size(); ++i)
     run.overrides.push_back(plan.axes[i].key + "=" + plan.axes[i].values[run.at[i]]);
-  if (plan.duration_s > 0) run.overrides.push_back("scenario.duration_s=" + std::to_string(plan.duration_s));
+  if (plan.duration_s > 0) run.overrides.push_back("scenario.duration_s=" + format_number(plan.duration_s));
   run.overrides.push_back("scenario.seed=" + std::to_string(run.seed));
   return run;
 }
@@ -150,7 +149,7 @@ void visit(bus::ConfigVisitor& v, SweepPlan& plan) {
         SweepAxis& axis = plan.axes[i];
         std::string values = fmt::format("{}", fmt::join(axis.values, ", "));
         a.text("key", axis.key, {}, "section.key of the scenario");
-        a.text("values", values, {}, "in TOML, between commas; texts in quotes");
+        a.text("values", values, {}, "in TOML or words, between commas");
         bus::report_refusal(a, "values", [&] { axis.values = values_of(axis.key, values); });
       });
   v.list(

@@ -7,7 +7,7 @@
 //   duration_s = 120                      # 0: the scenario's
 //   [[axis]]
 //   key = "environment.wind_mps"
-//   values = "2, 6, 12"                   # as in --set: texts in quotes
+//   values = "2, 6, 12"                   # as in --set
 //   [[set]]
 //   override = "modem.source_level_db=170"  # at every point
 //

@@ -137,6 +137,82 @@ TEST(Finding, NamesFileLineKeyAndValue) {
   }
 }
 
+struct Bottom {
+  std::string kind = "flat";
+  double depth = 100, slope = 0;
+  std::string file;
+};
+
+void visit_bottom(ConfigVisitor& v, Bottom& b) {
+  v.section("bottom", "", [&](ConfigVisitor& s) {
+    s.text("kind", b.kind, {"flat", "slope", "raster"}, "");
+    s.number("depth_m", b.depth, {0, 11000, "m", ""});
+    s.when(b.kind == "slope", "kind = \"slope\"", [&] { s.number("slope", b.slope, {-1, 1, "", "steep"}); });
+    s.when(b.kind == "raster", "kind = \"raster\"",
+           [&] { s.section("raster", "", [&](ConfigVisitor& r) { r.text("path", b.file, {}, ""); }); });
+  });
+}
+
+std::vector<std::string> warnings_in(const std::string& text,
+                                     const std::vector<std::string>& overrides = {}) {
+  auto file = ConfigFile::parse(text, "sea.toml", overrides);
+  Bottom bottom;
+  file.read([&](ConfigVisitor& v) { visit_bottom(v, bottom); });
+  file.check(/*whole_file=*/true);
+  return file.warnings();
+}
+
+TEST(KeyWithoutEffect, IsWarnedOfWithTheChoiceThatItLacks) {
+  EXPECT_THAT(warnings_in("[bottom]\nkind = 'flat'\nslope = 0.1\n"),
+              ElementsAre("sea.toml:3: bottom.slope is 0.1; it has no effect, it counts only with kind = "
+                          "\"slope\""));
+  EXPECT_THAT(warnings_in("", {"bottom.slope=0.1"}),
+              ElementsAre(HasSubstr("command line: bottom.slope is 0.1; it has no effect")));
+}
+
+TEST(KeyWithoutEffect, IsSilentWhereItCountsOrIsNotGiven) {
+  EXPECT_THAT(warnings_in("[bottom]\nkind = 'slope'\nslope = 0.1\n"), IsEmpty());
+  EXPECT_THAT(warnings_in("[bottom]\nkind = 'raster'\n[bottom.raster]\npath = 'a.tif'\n"), IsEmpty());
+  EXPECT_THAT(warnings_in("[bottom]\ndepth_m = 3\n"), IsEmpty());
+}
+
+TEST(KeyWithoutEffect, OfATableWarnsOnceForTheTable) {
+  EXPECT_THAT(warnings_in("[bottom.raster]\npath = 'a.tif'\n"),
+              ElementsAre(HasSubstr("bottom.raster is a table; it has no effect, it counts only with kind = "
+                                    "\"raster\"")));
+}
+
+TEST(KeyWithoutEffect, IsCheckedAllTheSame) {
+  EXPECT_THROW(warnings_in("[bottom]\nslope = 7\n"), ConfigErrors);
+}
+
+TEST(KeyWithoutEffect, IsWarnedOfOnceHoweverOftenItIsRead) {
+  auto file = ConfigFile::parse("[bottom]\nslope = 0.1\n", "sea.toml");
+  Bottom bottom;
+  for (int i = 0; i < 2; ++i) {
+    file.read([&](ConfigVisitor& v) { visit_bottom(v, bottom); });
+    file.check(/*whole_file=*/true);
+  }
+  EXPECT_EQ(file.warnings().size(), 1u);
+}
+
+TEST(KeyWithoutEffect, CountsWhereOneOfTwoReadersUsesIt) {
+  auto file = ConfigFile::parse("[bottom]\nslope = 0.1\n", "sea.toml");
+  Bottom bottom, other;
+  other.kind = "slope";
+  file.read([&](ConfigVisitor& v) { visit_bottom(v, bottom); });
+  file.read([&](ConfigVisitor& v) { visit_bottom(v, other); });
+  file.check(/*whole_file=*/true);
+  EXPECT_THAT(file.warnings(), IsEmpty());
+}
+
+TEST(KeyWithoutEffect, IsLeftOutOfTheEffectiveConfigurationAndListedInTheReference) {
+  Bottom bottom;
+  const auto body = [&](ConfigVisitor& v) { visit_bottom(v, bottom); };
+  EXPECT_EQ(to_toml(body, /*with_comments=*/false), "\n[bottom]\nkind = \"flat\"\ndepth_m = 100.0\n");
+  EXPECT_THAT(to_toml(body, /*with_comments=*/true), HasSubstr("slope = 0.0  # steep (-1 to 1)\n"));
+}
+
 TEST(Finding, AWarningIsNoError) {
   auto file = ConfigFile::parse("", "sea.toml");
   file.warn("environment.wind_mps", "5", "calm");

@@ -286,8 +286,38 @@ TEST(ConfigOverride, ItsErrorsNameTheCommandLine) {
   EXPECT_THAT(errors_of("", {"wind_mps=99"}),
               ElementsAre("command line: wind_mps is 99; allowed is 0 to 60 m/s"));
   EXPECT_THAT(errors_of("", {"wimd=1"}), ElementsAre(HasSubstr("command line: wimd is unknown")));
-  EXPECT_THAT(errors_of("", {"mode=fast"}), ElementsAre(HasSubstr("texts in quotes")));
+  EXPECT_THAT(errors_of("", {"mode=[fast"}), ElementsAre(HasSubstr("a value in TOML or a word")));
   EXPECT_THAT(errors_of("", {"nonsense"}), ElementsAre(HasSubstr("section.key=value")));
+}
+
+TEST(ConfigOverride, AWordNeedsNoQuotes) {
+  EXPECT_EQ(read("", {"mode=fast"}).mode, "fast");
+  EXPECT_EQ(read("", {"colour = green"}).colour, Colour::kGreen);
+  const auto label = [](const std::string& given) {
+    return read("[[part]]\n", {"part.0.label=" + given}).parts.at(0).label;
+  };
+  EXPECT_EQ(label("two words"), "two words");
+  EXPECT_EQ(label("casts/may-2.csv"), "casts/may-2.csv");
+  EXPECT_EQ(label("10.0.4.0/24"), "10.0.4.0/24");
+  EXPECT_EQ(label("2026-05-01T06:00:00Z"), "2026-05-01T06:00:00Z");
+  EXPECT_EQ(label("7"), "7");
+}
+
+TEST(ConfigOverride, AWordInThePlaceOfANumberIsRefused) {
+  EXPECT_THAT(errors_of("", {"wind_mps=strong"}),
+              ElementsAre("command line: wind_mps is 'strong'; a number is needed, allowed is 0 to 60 m/s"));
+}
+
+TEST(ConfigReader, ErrorsShowNumbersAsShortAsTheyAre) {
+  EXPECT_EQ(error_of("wind_mps = 1e300"), "test.toml:1: wind_mps is 1e+300; allowed is 0 to 60 m/s");
+  EXPECT_EQ(error_of("at_m = [1e300, 0.0]"), "test.toml:1: at_m is 1e+300; allowed is -100 to 100 m");
+  EXPECT_EQ(error_of("at_m = [1.5, 0]"),
+            "test.toml:1: at_m is [ 1.5, 0 ]; three numbers are needed, each: allowed is -100 to 100 m");
+  const std::string digits(300, '9');
+  EXPECT_LT(error_of("wind_mps = " + digits + ".0").size(), 200u);
+  EXPECT_LT(error_of("mode = '" + digits + "'").size(), 300u);
+  EXPECT_LT(errors_of("", {"wind_mps=" + digits}).at(0).size(), 300u);
+  EXPECT_LT(error_of("wind_mps = " + digits).size(), 200u);
 }
 
 TEST(ConfigOverride, AnIndexThatIsHugeIsAnErrorAndNoCrash) {
