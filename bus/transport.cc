@@ -2,14 +2,20 @@
 #include "bus/transport.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
+#include <mutex>
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "bus/event_log.h"
+#include "bus/sending/datagram_filter.h"
 #include "core/check.h"
+#include "core/shared_module.h"
 
 namespace halocline::bus {
 namespace {
@@ -74,6 +80,16 @@ std::unique_ptr<lcm::LCM> open_transport(const std::string& url) {
   return lcm;
 }
 
+void warn_of_missing_filter() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    EventLog("bus").warning(
+        "receive-filter-missing",
+        std::string("reason=\"") + std::strerror(errno) +
+            "\" open_to=\"any host, datagrams that end the process: docs/bus.md, Hosts\"");
+  });
+}
+
 std::string receive_buffer_warning(const std::string& url) {
   if (!starts_with(url, "udpm://")) return "";
   const int probe = socket(AF_INET, SOCK_DGRAM, 0);
@@ -92,3 +108,15 @@ std::string receive_buffer_warning(const std::string& url) {
 }
 
 }  // namespace halocline::bus
+
+// Takes the place of the C library's in LCM, which is a shared library, and calls it. LCM has no call that gives its
+// socket, and reads from it before any of its calls returns.
+extern "C" int bind(int socket, const sockaddr* address, socklen_t size) noexcept {
+  using Bind = int (*)(int, const sockaddr*, socklen_t);
+  static const auto next = reinterpret_cast<Bind>(halocline::next_symbol("bind"));
+  namespace bus = halocline::bus;
+  const bool is_of_lcm =
+      halocline::library_of(__builtin_return_address(0)).find("liblcm") != std::string::npos;
+  if (is_of_lcm && !bus::attach_filter(socket, bus::datagram_program())) bus::warn_of_missing_filter();
+  return next(socket, address, size);
+}

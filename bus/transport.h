@@ -39,6 +39,9 @@ class NetworkError : public std::runtime_error {
 // where LCM cannot open it.
 std::unique_ptr<lcm::LCM> open_transport(const std::string& url);
 
+// Tells the user, once a process, that no filter is on a socket of LCM (sending/datagram_filter.h).
+void warn_of_missing_filter();
+
 // A warning for the user when the kernel grants less receive buffer than requested; empty when it grants enough.
 [[nodiscard]] std::string receive_buffer_warning(const std::string& url);
 

@@ -86,6 +86,7 @@ bool LockstepOptions::run_if_requested(const bus::NodeProgram::Context& context)
   run.lookahead = !no_lookahead_;
   run.bridge_bus = bridge_bus_;
   run.sync_url = context.sync_url;
+  run.bus_url = context.lcm_url;
   run_lockstep(context.lcm, context.identity, context.scenario, run, bus::stop_requested);
   return true;
 }

@@ -49,7 +49,10 @@ class Run {
         log_(run.log_path),
         pace_(run.rate) {
     std::function<void(lockstep_message_t)> on_bridged;
-    if (run.bridge_bus) on_bridged = [this](lockstep_message_t m) { conductor_->inject(std::move(m)); };
+    if (run.bridge_bus) {
+      bus_filter_.emplace(bus_lcm, run.bus_url, bus::accepted_hosts(scenario.accept, run.bus_url));
+      on_bridged = [this](lockstep_message_t m) { conductor_->inject(std::move(m)); };
+    }
     bridge_.emplace(bus_lcm, on_bridged);
     begin(scenario);
     subscribe();
@@ -165,6 +168,7 @@ class Run {
   std::unique_ptr<lcm::LCM> grants_lcm_, answers_lcm_;
   bus::Bus publisher_, receiver_;
   bus::ReceiveFilter filter_;
+  std::optional<bus::ReceiveFilter> bus_filter_;
   lcm::LCM& bus_lcm_;
   lcm::LCM memq_{"memq://"};
   ConductorNode node_;

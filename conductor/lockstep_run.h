@@ -22,7 +22,7 @@ struct LockstepRun {
   SimDuration drop_after;          // silence after which a participant is dropped; 0: never
   bool lookahead = true;           // a participant that steps alone may run ahead
   bool bridge_bus = false;         // messages of others on the ordinary bus are delivered at the next instant
-  std::string sync_url;
+  std::string sync_url, bus_url;
 };
 
 // Returns when the run is over. `bus_lcm`: the ordinary bus, best effort. Once `should_stop` returns true, all

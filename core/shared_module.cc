@@ -37,4 +37,11 @@ void* module_symbol(const std::string& file, const std::string& symbol) {
   return address;
 }
 
+std::string library_of(const void* code) {
+  Dl_info place{};
+  return dladdr(code, &place) != 0 && place.dli_fname != nullptr ? place.dli_fname : "";
+}
+
+void* next_symbol(const std::string& symbol) { return dlsym(RTLD_NEXT, symbol.c_str()); }
+
 }  // namespace halocline

@@ -12,4 +12,9 @@ namespace halocline {
 // own words. Calls may overlap between threads.
 void* module_symbol(const std::string& file, const std::string& symbol);
 
+// The file of the program or shared library that code lies in; empty where there is none.
+std::string library_of(const void* code);
+// For a function of the program that takes the place of a shared library's: the address of that one.
+void* next_symbol(const std::string& symbol);
+
 }  // namespace halocline

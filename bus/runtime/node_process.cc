@@ -188,9 +188,11 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
     journal = std::make_unique<StateJournal>(run.journal, run.config_digest);
     if (journal->inherited()) identity.session = journal->inherited()->session;  // its flows go on
   }
-  const NodeProgram::Context context{*lcm,         identity, run.scenario,   run.folder,
-                                     run.sync_url, false,    run.file.get(), run.config_digest};
+  const NodeProgram::Context context{*lcm,  identity,       run.scenario,      run.folder, run.sync_url,
+                                     false, run.file.get(), run.config_digest, url};
   if (program.run_otherwise && program.run_otherwise(context)) return;
+  ReceiveFilter filter(*lcm, url,
+                       accepted_hosts(run.scenario.accept, url));  // before anything is subscribed to
   const auto time = program.make_time_source ? program.make_time_source(context)
                                              : make_time_source(run.time_source, *lcm, run.identity.name);
   const auto tiles = run.scenario.tile_m > 0 ? std::make_unique<TileGroups>(url, run.scenario)
@@ -204,7 +206,6 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
     node->set_route([&](std::string_view channel) -> lcm::LCM& { return tiles->carrier_of(channel, *lcm); });
   }
   log.info("started", "url=" + url);
-  ReceiveFilter filter(*lcm, url, accepted_hosts(run.scenario.accept, url));
   run_node(*lcm, *node, *time, stop_requested, &filter);
   if (const auto now = time->now(steady_now())) log.set_time(*now);
 }

@@ -64,6 +64,7 @@ struct NodeProgram {
     bool in_lockstep = false;    // as a participant
     ConfigFile* file = nullptr;  // the scenario file, for checks that need more than it; null without one
     std::uint64_t config_digest = 0;  // of the version and the effective configuration; 0 in lockstep
+    std::string lcm_url = {};         // of `lcm`; empty in lockstep
   };
   std::function<std::unique_ptr<Node>(const Context&)> make_node = nullptr;
   // Only for the program that makes the time itself; the others choose with --time-source.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/runtime/receive_filter.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <sstream>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include <arpa/inet.h>
@@ -16,27 +18,14 @@
 
 #include "bus/channel_pattern.h"
 #include "bus/channels.h"
+#include "bus/sending/datagram_filter.h"
 #include "bus/transport.h"
 #include "core/check.h"
 
 namespace halocline::bus {
 namespace {
 
-// A datagram as the filter sees it: 8 bytes of UDP, then LCM's word for a short message, its sequence number, the
-// channel with a 0 behind it, the message (liblcm, udpm_util.h: lcm2_header_short_t).
-constexpr std::uint32_t kWordAt = 8, kChannelAt = 16;
-constexpr std::uint32_t kShortMessage = 0x4c433032;  // "LC02"
-constexpr std::uint32_t kPass = 0xffffffff, kLeaveOut = 0;
-constexpr std::size_t kMaxInstructions = 2048;  // the kernel takes 4096
-
-sock_filter statement(unsigned code, std::uint32_t value) {
-  return {static_cast<std::uint16_t>(code), 0, 0, value};
-}
-
-sock_filter jump(unsigned code, std::uint32_t value, std::size_t if_true, std::size_t if_false) {
-  return {static_cast<std::uint16_t>(BPF_JMP | code | BPF_K), static_cast<std::uint8_t>(if_true),
-          static_cast<std::uint8_t>(if_false), value};
-}
+constexpr std::size_t kMaxInstructions = 2048;  // of channels; the kernel takes 4096 together
 
 std::uint32_t number_at(std::string_view text, std::size_t at, std::size_t bytes) {
   std::uint32_t value = 0;
@@ -44,21 +33,25 @@ std::uint32_t number_at(std::string_view text, std::size_t at, std::size_t bytes
   return value;
 }
 
-// Passes datagrams whose channel begins with `text`; others fall through.
-void append_comparison(std::string_view text, std::vector<sock_filter>& program) {
-  std::vector<sock_filter> steps;
-  const auto end = static_cast<std::uint32_t>(kChannelAt + text.size());
-  steps.push_back(statement(BPF_LD | BPF_W | BPF_LEN, 0));
-  steps.push_back(jump(BPF_JGE, end, 0, 0));
+// Passes datagrams whose channel is `text` with its 0; where there is no 0, its last step jumps for those
+// whose channel begins so. Others fall through.
+void append_comparison(std::string_view text, FilterProgram& program) {
+  FilterProgram steps;
+  const auto end = static_cast<std::uint32_t>(kShortChannelAt + text.size());
+  steps.push_back(filter_statement(BPF_LD | BPF_W | BPF_LEN, 0));
+  steps.push_back(filter_jump(BPF_JGE, end, 0, 0));
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t left = text.size() - at, bytes = left >= 4 ? 4 : left >= 2 ? 2 : 1;
     const unsigned size = bytes == 4 ? BPF_W : bytes == 2 ? BPF_H : BPF_B;
-    steps.push_back(statement(BPF_LD | size | BPF_ABS, static_cast<std::uint32_t>(kChannelAt + at)));
-    steps.push_back(jump(BPF_JEQ, number_at(text, at, bytes), 0, 0));
+    steps.push_back(
+        filter_statement(BPF_LD | size | BPF_ABS, static_cast<std::uint32_t>(kShortChannelAt + at)));
+    steps.push_back(filter_jump(BPF_JEQ, number_at(text, at, bytes), 0, 0));
     at += bytes;
   }
   for (std::size_t i = 1; i < steps.size(); i += 2) steps[i].jf = static_cast<std::uint8_t>(steps.size() - i);
-  steps.push_back(statement(BPF_RET | BPF_K, kPass));
+  const bool is_whole = text.back() == '\0';
+  steps.push_back(is_whole ? filter_statement(BPF_RET | BPF_K, kFilterPasses)
+                           : filter_statement(BPF_JMP | BPF_JA, 0));
   program.insert(program.end(), steps.begin(), steps.end());
 }
 
@@ -72,19 +65,27 @@ bool is_bound_to(int socket, std::uint16_t port) {
          address.sin_family == AF_INET && ntohs(address.sin_port) == port;
 }
 
-// LCM does not tell its socket. -1 unless exactly one of the process is bound to the port.
-int find_socket(std::uint16_t port) {
+// Sockets of the process that are bound to the port. LCM does not tell its own.
+std::vector<int> sockets_at(std::uint16_t port) {
   std::vector<int> found;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
     const int socket = std::stoi(entry.path().filename().string());
     if (is_bound_to(socket, port)) found.push_back(socket);
   }
-  return found.size() == 1 ? found[0] : -1;
+  return found;
 }
 
-// Empty where every channel has to pass.
-std::vector<sock_filter> channel_program(const std::multiset<std::string>& expressions) {
+std::vector<int> receiving_sockets(lcm::LCM& lcm, const std::string& url) {
+  const auto port = port_of(url);
+  if (!port || !url.starts_with("udpm://")) return {};
+  lcm.getFileno();  // begins to receive
+  return sockets_at(*port);
+}
+
+// For short messages: returns where the channel is one of these or none of them, and goes on at its end
+// where it begins with one. Empty where every channel has to pass.
+FilterProgram channel_program(const std::multiset<std::string>& expressions) {
   std::set<std::string> texts;
   for (const std::string& expression : expressions) {
     const ChannelPattern pattern(expression);
@@ -94,35 +95,38 @@ std::vector<sock_filter> channel_program(const std::multiset<std::string>& expre
     texts.insert(text);
     texts.insert(channels::kRepair.of(text));
   }
-  std::vector<sock_filter> program{statement(BPF_LD | BPF_W | BPF_ABS, kWordAt),
-                                   jump(BPF_JEQ, kShortMessage, 1, 0), statement(BPF_RET | BPF_K, kPass)};
+  FilterProgram program;
   for (const std::string& text : texts) append_comparison(text, program);
-  program.push_back(statement(BPF_RET | BPF_K, kLeaveOut));
-  return program.size() <= kMaxInstructions ? program : std::vector<sock_filter>();
+  program.push_back(filter_statement(BPF_RET | BPF_K, kFilterDrops));
+  for (std::size_t i = 0; i < program.size(); ++i) {
+    if (program[i].code == (BPF_JMP | BPF_JA))
+      program[i].k = static_cast<std::uint32_t>(program.size() - i - 1);
+  }
+  return program.size() <= kMaxInstructions ? program : FilterProgram();
 }
 
 // Goes on behind itself for accepted hosts, and leaves out the others. Empty for any host.
-std::vector<sock_filter> host_program(const AcceptedHosts& hosts) {
+FilterProgram host_program(const AcceptedHosts& hosts) {
   constexpr std::uint32_t kPacketType = SKF_AD_OFF + SKF_AD_PKTTYPE, kInterface = SKF_AD_OFF + SKF_AD_IFINDEX;
   constexpr std::uint32_t kSource = SKF_NET_OFF + 12;  // of the IP header
   if (hosts.any) return {};
-  std::vector<sock_filter> program;
+  FilterProgram program;
   std::vector<std::size_t> ways_on;
   const auto go_on_if = [&](std::uint32_t value) {
-    program.push_back(jump(BPF_JEQ, value, 0, 1));
+    program.push_back(filter_jump(BPF_JEQ, value, 0, 1));
     ways_on.push_back(program.size());
-    program.push_back(statement(BPF_JMP | BPF_JA, 0));
+    program.push_back(filter_statement(BPF_JMP | BPF_JA, 0));
   };
-  program.push_back(statement(BPF_LD | BPF_W | BPF_ABS, kPacketType));
+  program.push_back(filter_statement(BPF_LD | BPF_W | BPF_ABS, kPacketType));
   go_on_if(PACKET_LOOPBACK);  // multicast of this host's
-  program.push_back(statement(BPF_LD | BPF_W | BPF_ABS, kInterface));
+  program.push_back(filter_statement(BPF_LD | BPF_W | BPF_ABS, kInterface));
   go_on_if(if_nametoindex("lo"));
   for (const AcceptedHosts::Range& range : hosts.ranges) {
-    program.push_back(statement(BPF_LD | BPF_W | BPF_ABS, kSource));
-    program.push_back(statement(BPF_ALU | BPF_AND | BPF_K, range.mask));
+    program.push_back(filter_statement(BPF_LD | BPF_W | BPF_ABS, kSource));
+    program.push_back(filter_statement(BPF_ALU | BPF_AND | BPF_K, range.mask));
     go_on_if(range.address & range.mask);
   }
-  program.push_back(statement(BPF_RET | BPF_K, kLeaveOut));
+  program.push_back(filter_statement(BPF_RET | BPF_K, kFilterDrops));
   for (const std::size_t way : ways_on) program[way].k = static_cast<std::uint32_t>(program.size() - way - 1);
   return program;
 }
@@ -157,24 +161,24 @@ AcceptedHosts accepted_hosts(const std::string& text, const std::string& url) {
   return hosts;
 }
 
-std::vector<sock_filter> receive_program(const std::multiset<std::string>& expressions,
-                                         const AcceptedHosts& hosts) {
-  std::vector<sock_filter> program = host_program(hosts);
-  const std::vector<sock_filter> channels = channel_program(expressions);
-  if (!program.empty() && channels.empty()) program.push_back(statement(BPF_RET | BPF_K, kPass));
-  program.insert(program.end(), channels.begin(), channels.end());
-  return program;
+FilterProgram receive_program(const std::multiset<std::string>& expressions, const AcceptedHosts& hosts) {
+  return datagram_program(host_program(hosts), channel_program(expressions));
 }
 
 int receive_socket(lcm::LCM& lcm, const std::string& url) {
-  const auto port = port_of(url);
-  if (!port || !url.starts_with("udpm://")) return -1;
-  lcm.getFileno();  // begins to receive
-  return find_socket(*port);
+  const std::vector<int> sockets = receiving_sockets(lcm, url);
+  return sockets.size() == 1 ? sockets[0] : -1;
 }
 
 ReceiveFilter::ReceiveFilter(lcm::LCM& lcm, const std::string& url, AcceptedHosts hosts)
-    : hosts_(std::move(hosts)), socket_(receive_socket(lcm, url)) {}
+    : hosts_(std::move(hosts)) {
+  const std::vector<int> sockets = receiving_sockets(lcm, url);
+  const FilterProgram for_all = receive_program({".*"}, hosts_);
+  bool is_attached = !sockets.empty() || !url.starts_with("udpm://");
+  for (const int socket : sockets) is_attached = attach_filter(socket, for_all) && is_attached;
+  if (!is_attached) warn_of_missing_filter();
+  if (sockets.size() == 1) socket_ = sockets[0];
+}
 
 void ReceiveFilter::follow(const Subscriptions* first, const Subscriptions* second) {
   if (socket_ < 0) return;
@@ -189,13 +193,14 @@ void ReceiveFilter::follow(const Subscriptions* first, const Subscriptions* seco
   attach(expressions);
 }
 
-// Without a filter, or where the kernel refuses it, LCM itself discards what nobody wants.
+// The kernel grants a socket some memory for filters (net.core.optmem_max, 20 kB before Linux 6.7), of
+// which the one before takes its part until it is replaced: by one that drops everything, for some
+// microseconds. Where channels are too many, LCM itself discards what nobody wants.
 void ReceiveFilter::attach(const std::multiset<std::string>& expressions) {
-  std::vector<sock_filter> program = receive_program(expressions, hosts_);
-  const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
-  const int none = 0;
-  if (program.empty() || setsockopt(socket_, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) != 0)
-    setsockopt(socket_, SOL_SOCKET, SO_DETACH_FILTER, &none, sizeof none);
+  const FilterProgram program = receive_program(expressions, hosts_);
+  if (attach_filter(socket_, program)) return;
+  std::ignore = attach_filter(socket_, {filter_statement(BPF_RET | BPF_K, kFilterDrops)});
+  if (!attach_filter(socket_, program)) std::ignore = attach_filter(socket_, receive_program({".*"}, hosts_));
 }
 
 }  // namespace halocline::bus

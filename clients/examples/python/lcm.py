@@ -55,8 +55,12 @@ class Unfinished:
 
     def add(self, number, offset, part):
         """True when it is whole."""
+        if number >= self.count:
+            raise ValueError("a fragment beyond the count of its message")
         if number == 0:
-            channel, _, part = part.partition(b"\0")
+            channel, end, part = part.partition(b"\0")
+            if not end:
+                raise ValueError("a channel without its end")
             self.channel = channel.decode("ascii")
         if offset + len(part) > len(self.data):
             raise ValueError("a fragment beyond the end of its message")
@@ -153,7 +157,7 @@ class LCM:
         if datagram[:4] != FRAGMENT:
             return None
         _, sequence, size, offset, number, count = FRAGMENT_HEADER.unpack_from(datagram)
-        if size > MAX_UNFINISHED or number >= count:
+        if size > MAX_UNFINISHED:
             return None
         message = self._unfinished.get(sender)
         if message is None or message.sequence != sequence or len(message.data) != size:

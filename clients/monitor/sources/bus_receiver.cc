@@ -66,6 +66,7 @@ void BusReceiver::run() {
 }
 
 void BusReceiver::receive(lcm::LCM& lcm) {
+  bus::ReceiveFilter filter(lcm, url_, hosts_);  // before anything is subscribed to
   std::vector<BusMessage> batch;
   bus::Bus bus(lcm, {node_, 0});
   bus::ConductorTime clock(lcm, node_);
@@ -73,7 +74,7 @@ void BusReceiver::receive(lcm::LCM& lcm) {
     const auto* bytes = static_cast<const std::uint8_t*>(data);
     batch.push_back({bus.received_at().to_utime(), std::string(channel), {bytes, bytes + size}});
   });
-  bus::ReceiveFilter(lcm, url_, hosts_).follow(&bus.receives(), clock.receives());
+  filter.follow(&bus.receives(), clock.receives());
   bus::GroupMemberships tiles;
   bus::TileGroups::join_all(url_, tiles);
   is_open_ = true;

@@ -2,6 +2,7 @@
 // The filter on sockets of a private loopback network (scripts/isolated).
 #include "bus/runtime/receive_filter.h"
 
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -22,6 +23,7 @@
 #include "bus/bus.h"
 #include "bus/transport.h"
 #include "core/check.h"
+#include "tests/bus/filtered_socket.h"
 #include "tests/bus/messages_for_tests.h"
 #include "tests/support/process.h"
 
@@ -29,43 +31,12 @@ namespace halocline::bus {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
-
-class Socket {
- public:
-  Socket() {
-    sockaddr_in any{AF_INET, 0, {htonl(INADDR_LOOPBACK)}, {}};
-    EXPECT_EQ(bind(socket_, reinterpret_cast<sockaddr*>(&any), sizeof any), 0);
-  }
-  ~Socket() { close(socket_); }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
-
-  void attach(std::vector<sock_filter> program) {
-    const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
-    ASSERT_EQ(setsockopt(socket_, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter), 0);
-  }
-  // Whether what is sent to it arrives; on loopback it is there at once.
-  bool receives(const std::string& datagram) {
-    sockaddr_in own{};
-    socklen_t size = sizeof own;
-    getsockname(socket_, reinterpret_cast<sockaddr*>(&own), &size);
-    sendto(socket_, datagram.data(), datagram.size(), 0, reinterpret_cast<sockaddr*>(&own), size);
-    char buffer[1000];
-    return recv(socket_, buffer, sizeof buffer, MSG_DONTWAIT) >= 0;
-  }
-
- private:
-  int socket_ = socket(AF_INET, SOCK_DGRAM, 0);
-};
-
-std::string short_message(const std::string& channel, const std::string& message = "12345678") {
-  return std::string("LC02") + std::string(4, 1) + channel + std::string(1, 0) + message;
-}
+using testing::FilteredSocket;
+using testing::Fragment;
+using testing::short_message;
 
 TEST(ReceiveFilter, PassesWhatAnExpressionMatches) {
-  Socket socket;
-  socket.attach(receive_program({"STATE\\..*", "CLOCK", "RAY_REPLY\\.channel-a1"}));
+  const FilteredSocket socket(receive_program({"STATE\\..*", "CLOCK", "RAY_REPLY\\.channel-a1"}));
   for (const char* channel :
        {"STATE.auv-1", "STATE.", "CLOCK", "RAY_REPLY.channel-a1", "REPAIR.STATE.auv-1", "REPAIR.CLOCK"})
     EXPECT_TRUE(socket.receives(short_message(channel))) << channel;
@@ -76,31 +47,44 @@ TEST(ReceiveFilter, PassesWhatAnExpressionMatches) {
 }
 
 TEST(ReceiveFilter, ThisHostIsAlwaysAccepted) {
-  Socket socket;
-  socket.attach(receive_program({"CLOCK"}, accepted_hosts("", "")));
+  const FilteredSocket socket(receive_program({"CLOCK"}, accepted_hosts("", "")));
   EXPECT_TRUE(socket.receives(short_message("CLOCK")));
   EXPECT_FALSE(socket.receives(short_message("STATE.a")));
 }
 
 TEST(ReceiveFilter, ADatagramShorterThanAChannelIsComparedWithTheOthers) {
-  Socket socket;
-  socket.attach(receive_program({"ABCDEFGHIJKLMNOPQRSTUVWXYZ", "ABC"}));
+  const FilteredSocket socket(receive_program({"ABCDEFGHIJKLMNOPQRSTUVWXYZ", "ABC"}));
   EXPECT_TRUE(socket.receives(short_message("ABC", "")));
   EXPECT_FALSE(socket.receives(short_message("ABCD", "")));
 }
 
-TEST(ReceiveFilter, WhatIsNoShortMessagePasses) {
-  Socket socket;
-  socket.attach(receive_program({"CLOCK"}));
-  EXPECT_TRUE(socket.receives("LC03" + std::string(20, 2)));
-  EXPECT_FALSE(socket.receives("LC"));  // nothing that LCM could read
+TEST(ReceiveFilter, AChannelThatBeginsAsAnExpressionEndsWithinTheDatagram) {
+  const FilteredSocket socket(receive_program({"STATE\\..*", "CLOCK"}));
+  const std::string header = "LC02" + std::string(4, 1);
+  for (const char* cut : {"STATE.", "STATE.auv-1", "REPAIR.STATE.auv-1", "CLOCK"})
+    EXPECT_FALSE(socket.receives(header + cut)) << cut;
+  EXPECT_TRUE(socket.receives(short_message("STATE." + std::string(57, 'a'))));
+  EXPECT_FALSE(socket.receives(short_message("STATE." + std::string(58, 'a'))));
 }
 
-TEST(ReceiveFilter, OfAnExpressionThatIsNoTextEverythingHasToPass) {
-  EXPECT_THAT(receive_program({"CLOCK", "STATE.[0-9]+"}), IsEmpty());
+TEST(ReceiveFilter, SoundFragmentsPassWhateverTheirChannel) {
+  const FilteredSocket socket(receive_program({"CLOCK"}));
+  EXPECT_TRUE(socket.receives(Fragment{.part = std::string("STATE.a\0xyz", 11)}.datagram()));
+  EXPECT_FALSE(socket.receives(Fragment{.offset = 0xfffffff0, .number = 1}.datagram()));
+}
+
+// The last one is of too many instructions.
+TEST(ReceiveFilter, WhereEveryChannelPassesUnsoundDatagramsDoNot) {
   std::multiset<std::string> many;
   for (int i = 0; i < 2000; ++i) many.insert("COMMAND\\.auv-" + std::to_string(i));
-  EXPECT_THAT(receive_program(many), IsEmpty());
+  for (const std::multiset<std::string>& expressions :
+       {std::multiset<std::string>{".*"}, {"CLOCK", "STATE.[0-9]+"}, many}) {
+    const FilteredSocket socket(receive_program(expressions));
+    EXPECT_TRUE(socket.receives(short_message("ANY")));
+    EXPECT_TRUE(socket.receives(Fragment().datagram()));
+    EXPECT_FALSE(socket.receives(short_message(std::string(64, 'A'))));
+    EXPECT_FALSE(socket.receives(Fragment{.offset = 0xfffffff0, .number = 1}.datagram()));
+  }
 }
 
 // Datagrams that the kernel did not give to the sockets of a port (proc(5), /proc/net/udp: the last column).
@@ -180,9 +164,7 @@ TEST(ReceiveFilter, UnicastOfAnotherHostIsReceivedOnlyWhereItIsAccepted) {
     getsockname(receiver, reinterpret_cast<sockaddr*>(&any), &size);
     auto program = receive_program({expressions.begin(), expressions.end()}, accepted_hosts(accept, ""));
     const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
-    if (!program.empty()) {
-      EXPECT_EQ(setsockopt(receiver, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter), 0);
-    }
+    EXPECT_EQ(setsockopt(receiver, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter), 0);
     const timeval longest{0, 300'000};
     setsockopt(receiver, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
     other.send("LC02\\001\\001\\001\\001CLOCK\\000x", ntohs(any.sin_port));
@@ -268,6 +250,38 @@ TEST_F(ReceiveFilterOfLcmTest, FollowsSubscriptions) {
   publish("A", 5);
   EXPECT_THAT(received_, ElementsAre(1, 3, 5));
   EXPECT_EQ(left_out(kPort), 2);
+}
+
+TEST(ReceiveFilter, WhereTheKernelTakesNoneTheProgramWarns) {
+  if (std::system("PATH=$PATH:/sbin:/usr/sbin; sysctl -qw net.core.optmem_max=6000") != 0)
+    GTEST_SKIP() << "the kernel has one limit for all network namespaces";
+  halocline::testing::Process program({HALOCLINE_BIN_DIR "/halocline-conductor"});
+  for (int i = 0; i < 200 && program.output().find("started") == std::string::npos; ++i) usleep(100'000);
+  EXPECT_THAT(program.output(), ::testing::HasSubstr("receive-filter-missing"));
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+  std::system("PATH=$PATH:/sbin:/usr/sbin; sysctl -qw net.core.optmem_max=131072");
+}
+
+// As Linux grants before 6.7; of this network namespace alone.
+TEST_F(ReceiveFilterOfLcmTest, FollowsSubscriptionsWithTwentyKilobytesForFilters) {
+  if (std::system("PATH=$PATH:/sbin:/usr/sbin; sysctl -qw net.core.optmem_max=20480") != 0)
+    GTEST_SKIP() << "the kernel has one limit for all network namespaces";
+  ReceiveFilter filter(*lcm_, url_);
+  Bus bus(*lcm_, {"receiver", 2});
+  for (int i = 0; i < 6; ++i) subscribe(bus, "A" + std::string(20, 'a') + std::to_string(i));
+  filter.follow(&bus.receives(), nullptr);
+  publish("A" + std::string(20, 'a') + "5", 1);
+  publish("B", 2);
+  EXPECT_THAT(received_, ElementsAre(1));
+  EXPECT_EQ(left_out(kPort), 1);
+  for (int i = 0; i < 200; ++i) subscribe(bus, "C" + std::string(20, 'c') + std::to_string(i));
+  filter.follow(&bus.receives(), nullptr);  // now too many for the kernel
+  publish("C" + std::string(20, 'c') + "199", 3);
+  publish("B", 4);
+  EXPECT_THAT(received_, ElementsAre(1, 3));
+  EXPECT_EQ(left_out(kPort), 1);
+  std::system("PATH=$PATH:/sbin:/usr/sbin; sysctl -qw net.core.optmem_max=131072");
 }
 
 TEST_F(ReceiveFilterOfLcmTest, WithSeveralSocketsOnThePortEverythingPasses) {

@@ -50,7 +50,7 @@ class PythonLcm : public ::testing::Test {
     return received_.size() == 1 && received_.front() == data;
   }
   static void send_datagram(const std::string& datagram) {
-    const int datagrams = socket(AF_INET, SOCK_DGRAM, 0);
+    static const int datagrams = socket(AF_INET, SOCK_DGRAM, 0);  // one sender
     sockaddr_in group{};
     group.sin_family = AF_INET;
     group.sin_port = htons(7667);
@@ -58,7 +58,6 @@ class PythonLcm : public ::testing::Test {
     EXPECT_EQ(sendto(datagrams, datagram.data(), datagram.size(), 0, reinterpret_cast<sockaddr*>(&group),
                      sizeof group),
               static_cast<ssize_t>(datagram.size()));
-    close(datagrams);
   }
 
   int patience_ = 60;
@@ -85,7 +84,12 @@ TEST_F(PythonLcm, DatagramsThatAreNoMessageAreIgnored) {
   for (const std::string& datagram :
        {std::string(), std::string("LC0"), std::string("LC02"), std::string("LC02\0\0\0\1no zero", 15),
         std::string("LC02\0\0\0\1\377\376\0x", 12), std::string("LC03\0\0\0", 7), fragment + "beyond the end",
-        std::string("LC03\0\0\0\7\377\377\377\377\0\0\0\0\0\0\0\2x", 21), std::string("LC99 something else")})
+        std::string("LC03\0\0\0\7\377\377\377\377\0\0\0\0\0\0\0\2x", 21), std::string("LC99 something else"),
+        // Two fragments of a count, none of them the first.
+        std::string("LC03\0\0\0\11\0\0\0\4\0\0\0\0\0\1\0\2ab", 22),
+        std::string("LC03\0\0\0\11\0\0\0\4\0\0\0\2\0\2\0\3cd", 22),
+        // A channel without its end.
+        std::string("LC03\0\0\0\12\0\0\0\4\0\0\0\0\0\0\0\1TO_PYTHON.echo", 34)})
     send_datagram(datagram);
   EXPECT_TRUE(echoes(pattern(1000))) << python_.output();
   EXPECT_EQ(python_.output(), "");

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bus/sending/datagram_filter.h"
+
+#include <utility>
+#include <vector>
+
+#include <sys/socket.h>
+
+namespace halocline::bus {
+namespace {
+
+constexpr std::uint32_t kShortWord = 0x4c433032, kFragmentWord = 0x4c433033;  // "LC02", "LC03"
+constexpr std::uint32_t kMaxChannelBytes = 64;                                // with the 0 at its end
+// Offsets in a datagram, behind 8 bytes of UDP (liblcm, udpm_util.h: lcm2_header_long_t).
+constexpr std::uint32_t kWordAt = 8, kSizeAt = 16, kOffsetAt = 20, kNumberAt = 24, kCountAt = 26,
+                        kPartAt = 28;
+constexpr std::uint32_t kMaxPartBytes = 65'487;  // 65 507 of a UDP datagram less LCM's header
+// Places in the filter's memory.
+constexpr std::uint32_t kRoom = 0, kPayload = 1, kChannelBytes = 2;
+
+class Assembler {
+ public:
+  explicit Assembler(FilterProgram program) : program_(std::move(program)) {}
+
+  void add(unsigned code, std::uint32_t value = 0) { program_.push_back(filter_statement(code, value)); }
+  void add(const FilterProgram& part) { program_.insert(program_.end(), part.begin(), part.end()); }
+  void load_word(std::uint32_t at) { add(BPF_LD | BPF_W | BPF_ABS, at); }
+  void load_half(std::uint32_t at) { add(BPF_LD | BPF_H | BPF_ABS, at); }
+  void load_length() { add(BPF_LD | BPF_W | BPF_LEN); }
+  // Drops the datagram where the accumulator compares so with `value`, or with the index register.
+  void drop_if(unsigned comparison, std::uint32_t value) {
+    program_.push_back(filter_jump(comparison, value, 0, 1));
+    add(BPF_RET | BPF_K, kFilterDrops);
+  }
+  void drop_if_x(unsigned comparison) {
+    drop_if(comparison, 0);
+    program_[program_.size() - 2].code |= BPF_X;
+  }
+  // Jumps to where land() is called with what this returns, always or where the accumulator is `value`.
+  std::size_t leap() {
+    add(BPF_JMP | BPF_JA);
+    return program_.size() - 1;
+  }
+  std::size_t leap_if(std::uint32_t value) {
+    program_.push_back(filter_jump(BPF_JEQ, value, 0, 1));
+    return leap();
+  }
+  void land(std::size_t leap) { program_[leap].k = static_cast<std::uint32_t>(program_.size() - leap - 1); }
+  FilterProgram take() { return std::move(program_); }
+
+ private:
+  FilterProgram program_;
+};
+
+// Drops what the header shows, and leaves the bytes up to the size's end and those of the payload in memory.
+void check_header(Assembler& to) {
+  to.load_length();
+  to.add(BPF_ALU | BPF_SUB | BPF_K, kPartAt);
+  to.add(BPF_ST, kPayload);
+  to.load_half(kCountAt);  // fails, and so drops, where the header is not whole
+  to.add(BPF_ALU | BPF_MUL | BPF_K, kMaxPartBytes);
+  to.add(BPF_MISC | BPF_TAX);
+  to.load_word(kSizeAt);
+  to.drop_if(BPF_JEQ, 0);
+  to.drop_if(BPF_JGT, kMaxMessageBytes);
+  to.drop_if_x(BPF_JGE);
+  to.add(BPF_MISC | BPF_TAX);
+  to.load_word(kOffsetAt);
+  to.drop_if_x(BPF_JGT);
+  to.add(BPF_MISC | BPF_TAX);
+  to.load_word(kSizeAt);
+  to.add(BPF_ALU | BPF_SUB | BPF_X);
+  to.add(BPF_ST, kRoom);
+  to.load_half(kCountAt);
+  to.add(BPF_MISC | BPF_TAX);
+  to.load_half(kNumberAt);
+  to.drop_if_x(BPF_JGE);
+}
+
+// Looks for the channel's end from the index register on; its bytes with the 0 are in the accumulator then.
+void find_channel_end(Assembler& to) {
+  std::vector<std::size_t> found;
+  for (std::uint32_t i = 0; i < kMaxChannelBytes; ++i) {
+    to.add(BPF_LD | BPF_B | BPF_IND, i);  // fails, and so drops, behind the datagram's end
+    to.add({filter_jump(BPF_JEQ, 0, 0, 2)});
+    to.add(BPF_LD | BPF_W | BPF_IMM, i + 1);
+    found.push_back(to.leap());
+  }
+  to.add(BPF_RET | BPF_K, kFilterDrops);
+  for (const std::size_t one : found) to.land(one);
+}
+
+void check_payload(Assembler& to) {
+  to.add(BPF_LDX | BPF_W | BPF_MEM, kRoom);
+  to.add(BPF_LD | BPF_W | BPF_MEM, kPayload);
+  to.drop_if_x(BPF_JGT);
+  to.load_half(kNumberAt);
+  to.add(BPF_ALU | BPF_ADD | BPF_K, 1);
+  to.add(BPF_MISC | BPF_TAX);
+  to.load_half(kCountAt);
+  to.add({filter_jump(BPF_JEQ | BPF_X, 0, 1, 0)});
+  to.add(BPF_RET | BPF_K, kFilterPasses);  // not the last
+  to.add(BPF_LDX | BPF_W | BPF_MEM, kRoom);
+  to.add(BPF_LD | BPF_W | BPF_MEM, kPayload);
+  to.add({filter_jump(BPF_JEQ | BPF_X, 0, 0, 1)});
+  to.add(BPF_RET | BPF_K, kFilterPasses);
+  to.add(BPF_RET | BPF_K, kFilterDrops);
+}
+
+}  // namespace
+
+sock_filter filter_statement(unsigned code, std::uint32_t value) {
+  return {static_cast<std::uint16_t>(code), 0, 0, value};
+}
+
+sock_filter filter_jump(unsigned code, std::uint32_t value, std::size_t if_true, std::size_t if_false) {
+  return {static_cast<std::uint16_t>(BPF_JMP | code), static_cast<std::uint8_t>(if_true),
+          static_cast<std::uint8_t>(if_false), value};
+}
+
+FilterProgram datagram_program(const FilterProgram& first, const FilterProgram& of_shorts) {
+  Assembler to(first);
+  to.load_word(kWordAt);
+  const std::size_t to_fragments = to.leap_if(kFragmentWord);
+  to.add({filter_jump(BPF_JEQ, kShortWord, 1, 0)});
+  to.add(BPF_RET | BPF_K, kFilterDrops);
+  to.add(of_shorts);
+  to.add(BPF_ST, kRoom);  // not read for a short message, but the kernel cannot know
+  to.add(BPF_ST, kPayload);
+  to.add(BPF_LDX | BPF_W | BPF_IMM, kShortChannelAt);
+  const std::size_t of_short = to.leap();
+  to.land(to_fragments);
+  check_header(to);
+  to.add({filter_jump(BPF_JEQ, 0, 1, 0)});
+  const std::size_t to_rest = to.leap();
+  to.load_word(kOffsetAt);
+  to.add({filter_jump(BPF_JEQ, 0, 1, 0)});
+  to.add(BPF_RET | BPF_K, kFilterDrops);
+  to.add(BPF_LDX | BPF_W | BPF_IMM, kPartAt);
+  to.land(of_short);
+  find_channel_end(to);
+  to.add(BPF_ST, kChannelBytes);
+  to.add(BPF_MISC | BPF_TXA);
+  to.add({filter_jump(BPF_JEQ, kPartAt, 1, 0)});
+  to.add(BPF_RET | BPF_K, kFilterPasses);
+  to.add(BPF_LDX | BPF_W | BPF_MEM, kChannelBytes);
+  to.add(BPF_LD | BPF_W | BPF_MEM, kPayload);
+  to.add(BPF_ALU | BPF_SUB | BPF_X);
+  to.add(BPF_ST, kPayload);
+  to.land(to_rest);
+  check_payload(to);
+  return to.take();
+}
+
+bool attach_filter(int socket, FilterProgram program) {
+  const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
+  return setsockopt(socket, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) == 0;
+}
+
+}  // namespace halocline::bus
