@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/waveform/wav_file.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -17,6 +19,19 @@ struct Closer {
 };
 using File = std::unique_ptr<SNDFILE, Closer>;
 
+// Block by block, as a damaged header may claim any number of samples.
+std::vector<double> read_samples(SNDFILE* file, sf_count_t count) {
+  constexpr sf_count_t kBlock = 1 << 16;
+  std::vector<double> values;
+  for (sf_count_t got = kBlock; got == kBlock && static_cast<sf_count_t>(values.size()) < count;) {
+    const std::size_t before = values.size();
+    values.resize(before + kBlock);
+    got = std::max<sf_count_t>(sf_readf_double(file, values.data() + before, kBlock), 0);
+    values.resize(before + static_cast<std::size_t>(got));
+  }
+  return values;
+}
+
 }  // namespace
 
 acoustics::Samples read_sound(const std::string& path) {
@@ -26,8 +41,8 @@ acoustics::Samples read_sound(const std::string& path) {
   require(info.channels == 1, path + " has " + std::to_string(info.channels) + " channels; allowed is 1");
   require(info.frames > 0, path + " holds no sample");
   acoustics::Samples sound{0, static_cast<double>(info.samplerate), {}};
-  sound.values.resize(static_cast<std::size_t>(info.frames));
-  const sf_count_t read = sf_readf_double(file.get(), sound.values.data(), info.frames);
+  sound.values = read_samples(file.get(), info.frames);
+  const auto read = static_cast<sf_count_t>(sound.values.size());
   require(read == info.frames,
           path + " ends after " + std::to_string(read) + " of " + std::to_string(info.frames) + " samples");
   for (const double value : sound.values)
