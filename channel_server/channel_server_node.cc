@@ -39,9 +39,8 @@ constexpr SimDuration kForgettingPeriod = SimDuration::from_milliseconds(1000);
 // The same for all servers of a scenario.
 std::uint64_t hash_of(const std::vector<scenario_info_t>& scenario) {
   std::string lines;
-  for (const scenario_info_t& part : scenario) {
+  for (const scenario_info_t& part : scenario)
     for (const std::string& line : part.configuration_line) lines += line + '\n';
-  }
   return xxh3(lines);
 }
 
@@ -111,6 +110,7 @@ bus::Due ChannelServerNode::on_due() const {
 
 // Between ticks it publishes what packets come to and answers; other servers receive only the answers of that.
 SimTime ChannelServerNode::on_quiet_until(const ChannelTest& matters) const {
+  if (exchange_.will_tell_of_terrain()) return SimTime::at_once();
   for (const bus::Family& family : {channels::kReceipt, channels::kReceive, channels::kModemEvent,
                                     channels::kLinkReply, channels::kBestPlaceReply}) {
     if (matters(family.of("any"))) return SimTime::at_once();
@@ -126,9 +126,10 @@ SimTime ChannelServerNode::on_quiet_until(const ChannelTest& matters) const {
 void ChannelServerNode::on_step(const bus::Now& now) {
   if (seabed_.take_replies()) {
     next_environment_ = kBeforeAll;
-    exchange_.set_terrain(seabed_.terrain_version());
+    exchange_.set_terrain(seabed_.terrain_version(), now.sim, /*tells=*/!recovery_);
     tables_in_work_.reset();
   }
+  if (exchange_.take_news_of_terrain()) seabed_.ask_for_terrain();
   if (recovery_ && !(now.sim_known && recover(now))) return seabed_.publish_queries(now);
   if (now.sim_known) {
     journal_.write_inputs(now.sim);
@@ -151,10 +152,8 @@ void ChannelServerNode::set_first_instants(SimTime now) {
   if (next_scenario_ == kBeforeAll) publish_scenario(now);
   next_scenario_ = std::max(next_scenario_, on_grid_from(now - kScenarioPeriod, kScenarioPeriod));
   if (next_environment_ == kBeforeAll) publish_environment(now);
-  const SimDuration period = rules_.link_period;
-  if (next_tick_ == kBeforeAll) next_tick_ = on_grid_from(now, period);
-  const SimTime earliest = now - period * kMaxTicksBehind;
-  if (next_tick_ < earliest) next_tick_ = on_grid_from(earliest, period);
+  const SimTime earliest = next_tick_ == kBeforeAll ? now : now - rules_.link_period * kMaxTicksBehind;
+  if (next_tick_ < earliest) next_tick_ = on_grid_from(earliest, rules_.link_period);
 }
 
 // What holds from an instant on counts for what leaves at that very instant, so it is published before.

@@ -122,6 +122,10 @@ void SeabedClient::publish_queries(const bus::Now& now) {
   report_presence();
 }
 
+void SeabedClient::ask_for_terrain() {
+  models_.rays.probe(EchoSurvey(Vec3::Zero(), Vec3::Zero(), bottom_points_));
+}
+
 void SeabedClient::retry_failed_tiles(SimTime steady) {
   const bool is_back = reported_away_ && !models_.rays.is_away();
   if (steady < next_retry_ && !is_back) return;

@@ -52,6 +52,8 @@ class SeabedClient {
   // `links`: all links between them.
   void begin_tick(const std::vector<PlacedVehicle>& vehicles, const std::vector<EndPair>& links);
   void publish_queries(const bus::Now& now);
+  // Asks for the terrain's version: another server has learned one.
+  void ask_for_terrain();
 
   // Steady time at which take_replies() or publish_queries() has something to do, or who waits for the seabed may
   // go on.

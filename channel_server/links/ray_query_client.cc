@@ -41,6 +41,10 @@ RayQueryClient::SurveyId RayQueryClient::submit_urgent(TerrainSurvey survey) {
   return last_survey_;
 }
 
+void RayQueryClient::probe(TerrainSurvey survey) {
+  if (!away_) urgent_depths_.push_back({.urgent = true, .silent = true, .survey = std::move(survey)});
+}
+
 std::vector<RayQueryClient::SurveyId> RayQueryClient::begin_tick() {
   std::vector<SurveyId> dropped;
   for (Queue* queue : {&routine_depths_, &routine_ways_}) {

@@ -59,6 +59,9 @@ class RayQueryClient {
 
   SurveyId submit_routine(TerrainSurvey survey);
   SurveyId submit_urgent(TerrainSurvey survey);
+  // Sends its first query at once, for the service's answer alone: no survey finishes. Nothing while the
+  // service is away.
+  void probe(TerrainSurvey survey);
   // Drops routine surveys not sent yet, and returns them.
   std::vector<SurveyId> begin_tick();
 

@@ -76,9 +76,14 @@ std::int64_t ShardExchange::sea_hash(const SharedQuery& query) {
   return static_cast<std::int64_t>(xxh3(bytes));
 }
 
-void ShardExchange::set_terrain(std::string_view version) {
+void ShardExchange::set_terrain(std::string_view version, SimTime now, bool tells) {
   clear();
   terrain_ = xxh3(version);
+  for (std::size_t i = 0; tells && i < peers_.size(); ++i) {
+    found_paths_t message{};
+    message.utime = now.to_utime();
+    if (static_cast<int>(i) != shard_.index) publish(std::move(message), i);
+  }
 }
 
 void ShardExchange::take(const found_paths_t& message) {
@@ -87,7 +92,10 @@ void ShardExchange::take(const found_paths_t& message) {
     return bus_.refuse(channel_of(shard_.index), "its publisher is none of the other shards");
   }
   for (const link_search_t& search : message.searches) keep(search);
-  if (message.ends_tick == 0) return;
+  if (message.ends_tick == 0) {
+    has_news_of_terrain_ = has_news_of_terrain_ || message.searches.empty();
+    return;
+  }
   Peer& peer = peers_[static_cast<std::size_t>(from)];
   peer.ended = SimTime::from_utime(message.utime);
   peer.has_ended = true;
@@ -137,13 +145,17 @@ void ShardExchange::send_all(std::size_t peer, SimTime tick) {
   if (messages.empty()) messages.emplace_back();
   for (found_paths_t& message : messages) {
     message.utime = tick.to_utime();
-    message.shard_index = shard_.index;
-    message.shard_count = shard_.count;
     message.ends_tick = &message == &messages.back();
-    message.num_searches = static_cast<std::int32_t>(message.searches.size());
-    published_ += message.num_searches;
-    publisher_.publish(channel_of(static_cast<int>(peer)), std::move(message));
+    publish(std::move(message), peer);
   }
+}
+
+void ShardExchange::publish(found_paths_t message, std::size_t peer) {
+  message.shard_index = shard_.index;
+  message.shard_count = shard_.count;
+  message.num_searches = static_cast<std::int32_t>(message.searches.size());
+  published_ += message.num_searches;
+  publisher_.publish(channel_of(static_cast<int>(peer)), std::move(message));
 }
 
 void ShardExchange::await(VehicleId a, VehicleId b) {
@@ -176,6 +188,7 @@ bool ShardExchange::must_wait(SimTime steady) {
 }
 
 SimTime ShardExchange::due() const {
+  if (has_news_of_terrain_) return SimTime::at_once();
   if (waits_until_ == SimTime::never()) return waits_until_;
   return std::any_of(peers_.begin(), peers_.end(), [this](const Peer& peer) { return is_missing(peer); })
              ? waits_until_

@@ -55,8 +55,13 @@ class ShardExchange : public PathExchange {
   std::shared_ptr<const FoundPaths> received(const SharedQuery& query) override;
   void found(const SharedQuery& query, const FoundPaths& paths) override;
 
-  // Forgets what was received and awaited over another.
-  void set_terrain(std::string_view version);
+  // Forgets what was received and awaited over another. Where it `tells`, the other servers learn, by a FOUND_PATHS
+  // without searches that ends no tick, that there is a terrain to ask for: ENVIRONMENT, which the first of them
+  // publishes for all, names it as soon as any of them knows it, as one server alone would.
+  void set_terrain(std::string_view version, SimTime now, bool tells);
+  bool will_tell_of_terrain() const { return !shard_.is_alone() && terrain_ == 0; }
+  // True once after another server has told so.
+  [[nodiscard]] bool take_news_of_terrain() { return std::exchange(has_news_of_terrain_, false); }
   // All that this server owns has been searched for; what others own was awaited since the last tick.
   void end_tick(SimTime tick, SimTime steady);
   // Whether something that was awaited may still come.
@@ -89,6 +94,7 @@ class ShardExchange : public PathExchange {
   void keep(const link_search_t& search);
   bool is_missing(const Peer& peer) const;
   void send_all(std::size_t peer, SimTime tick);
+  void publish(found_paths_t message, std::size_t peer);
 
   bus::Bus& bus_;
   bus::NumberedPublisher& publisher_;
@@ -99,6 +105,7 @@ class ShardExchange : public PathExchange {
   LruCache<std::pair<EnvironmentTimeline::WaterId, double>, std::uint64_t> waters_;
   Half newer_, older_;
   SimTime tick_, waits_until_ = SimTime::never();
+  bool has_news_of_terrain_ = false;
   std::int64_t received_ = 0, published_ = 0;
 };
 
