@@ -14,6 +14,7 @@
 #include "acoustics/fading/channel_record.h"
 #include "acoustics/fading/channel_record_reader.h"
 #include "core/check.h"
+#include "core/input_file.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -137,6 +138,7 @@ void check_motion(hid_t file, const std::string& path, const std::string& name, 
 
 ChannelRecord read_record(const std::string& path, std::size_t receiver) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are reported by exceptions, not on stderr
+  require_input_file(path);
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   require(file.good(), path + ": cannot be read as HDF5 (netCDF-4, MATLAB 7.3)");
   const double version = read_number(file.id(), path, "version");

@@ -9,6 +9,7 @@
 
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/input_file.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -49,8 +50,7 @@ std::map<double, Rows> rows_by_time(const CsvTable& table, const std::string& pa
 }  // namespace
 
 std::vector<TimedSpectrum> read_noise_table(const std::string& path) {
-  std::ifstream file(path);
-  require(file.good(), path + ": cannot be read");
+  std::ifstream file = open_input(path);
   std::vector<std::string> errors;
   const CsvTable table = read_csv(file, errors);
   require(errors.empty(), path + ": " + (errors.empty() ? "" : errors.front()));

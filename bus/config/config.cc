@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/config/config.h"
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <system_error>
 #include <utility>
 
+#include "core/input_file.h"
 #include "core/units.h"
 
 namespace halocline::bus {
@@ -45,13 +42,7 @@ void seconds(ConfigVisitor& v, std::string_view key, SimDuration& value, const N
   value = SimDuration::from_seconds(value_s);
 }
 
-std::string why_unreadable(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return "there is no such file";
-  if (std::filesystem::is_directory(status)) return "it is a folder";
-  return std::ifstream(path) ? "" : "it must not be read: " + std::string(std::strerror(errno));
-}
+std::string why_unreadable(const std::string& path) { return halocline::why_unreadable(path); }
 
 void require_readable(ConfigVisitor& v, std::string_view key, const std::string& path) {
   if (v.writing()) return;

@@ -14,6 +14,7 @@
 
 #include "bus/logs/log_series.h"
 #include "core/check.h"
+#include "core/input_file.h"
 
 namespace halocline::clients {
 namespace {
@@ -29,15 +30,16 @@ struct Mapping {
 
 // An empty file cannot be mapped; it holds nothing.
 Mapping map_file(const std::string& path) {
+  const std::string why = why_unreadable(path);
+  require(why.empty(), "cannot read the log " + path + ": " + why);
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat status {};
   const bool is_open = file >= 0 && fstat(file, &status) == 0;
-  const bool is_file = is_open && S_ISREG(status.st_mode);
-  const auto size = is_file ? static_cast<std::size_t>(status.st_size) : 0;
+  const auto size = is_open ? static_cast<std::size_t>(status.st_size) : 0;
   void* start = size > 0 ? mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0) : nullptr;
-  const std::string reason = is_open && !is_file ? "it is no ordinary file" : std::strerror(errno);
+  const std::string reason = std::strerror(errno);
   if (file >= 0) close(file);
-  require(is_file && start != MAP_FAILED, "cannot read the log " + path + ": " + reason);
+  require(is_open && start != MAP_FAILED, "cannot read the log " + path + ": " + reason);
   if (size == 0) return {};
   madvise(start, size, MADV_SEQUENTIAL);
   const auto* bytes = static_cast<const std::uint8_t*>(start);

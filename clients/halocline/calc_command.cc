@@ -11,6 +11,7 @@
 #include "clients/halocline/calc/quantity.h"
 #include "clients/halocline/commands.h"
 #include "core/check.h"
+#include "core/input_file.h"
 
 namespace halocline::clients {
 namespace {
@@ -25,10 +26,7 @@ int calc(CalcArguments& arguments) {
   if (arguments.options.quantity.empty()) arguments.options.list = true;
   require_free({{arguments.output}, arguments.force}, {arguments.input});
   std::ifstream file;
-  if (!arguments.input.empty() && arguments.input != "-") {
-    file.open(arguments.input);
-    require(file.is_open(), "cannot read " + arguments.input);
-  }
+  if (!arguments.input.empty() && arguments.input != "-") file = open_input(arguments.input);
   std::ostringstream text;  // so that nothing is written unless all went well
   const int code = run_calc(arguments.options, file.is_open() ? file : std::cin, text, std::cerr);
   if (code == kDone) write_output(arguments.output, text.str());

@@ -24,6 +24,7 @@
 #include "clients/halocline/sweep/sweep_plan.h"
 #include "clients/halocline/sweep/sweep_summary.h"
 #include "core/check.h"
+#include "core/input_file.h"
 
 namespace halocline::clients {
 namespace {
@@ -39,7 +40,7 @@ struct SweepOptions {
 };
 
 std::string text_of(const std::string& path) {
-  std::ifstream file(path);
+  std::ifstream file = open_input(path);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();

@@ -17,12 +17,14 @@
 #include "clients/mission/foreign_message.h"
 #include "clients/mission/mission_summary.h"
 #include "clients/mission/mission_time.h"
+#include "core/input_file.h"
 
 namespace halocline::clients {
 namespace {
 
 // Empty where there is no such file.
 std::string text_of(const std::string& path) {
+  if (!why_unreadable(path).empty()) return {};
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
 }

@@ -16,12 +16,12 @@
 #include "core/check.h"
 #include "core/csv_table.h"
 #include "core/frames.h"
+#include "core/input_file.h"
 
 namespace halocline::clients {
 
 std::vector<TrackPlace> read_track(const std::string& path) {
-  std::ifstream in(path);
-  require(in.good(), "cannot read the track " + path);
+  std::ifstream in = open_input(path);
   std::vector<std::string> errors;
   const CsvTable table = read_csv(in, errors);
   std::array<std::size_t, 3> columns{};

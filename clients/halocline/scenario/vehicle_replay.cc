@@ -13,6 +13,7 @@
 #include "core/csv_table.h"
 #include "core/elementary.h"
 #include "core/frames.h"
+#include "core/input_file.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
@@ -102,8 +103,7 @@ VehicleState start_of(const VehicleReplay& r, const Vec3& current_ned) {
 
 std::vector<ScheduledCommand> schedule_of(const VehicleReplay& r) {
   if (r.commands.empty()) return {};
-  std::ifstream file(r.commands);
-  require(file.is_open(), "cannot read " + r.commands);
+  std::ifstream file = open_input(r.commands);
   return read_schedule(file, r.commands);
 }
 

@@ -10,6 +10,7 @@
 #include <sndfile.h>
 
 #include "core/check.h"
+#include "core/input_file.h"
 
 namespace halocline::clients {
 namespace {
@@ -35,6 +36,7 @@ std::vector<double> read_samples(SNDFILE* file, sf_count_t count) {
 }  // namespace
 
 acoustics::Samples read_sound(const std::string& path) {
+  require_input_file(path);
   SF_INFO info{};
   const File file(sf_open(path.c_str(), SFM_READ, &info));
   require(file != nullptr, path + ": cannot be read as sound: " + sf_strerror(nullptr));

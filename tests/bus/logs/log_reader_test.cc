@@ -136,8 +136,8 @@ TEST(LogReader, EmptyLogHoldsNothing) {
 }
 
 TEST(LogReader, WhatIsNoReadableFileIsRefusedWithTheReason) {
-  for (const auto& [path, reason] : {std::pair("/nonexistent/log.lcm", "No such file or directory"),
-                                     std::pair("/", "it is no ordinary file")}) {
+  for (const auto& [path, reason] : {std::pair("/nonexistent/log.lcm", "there is no such file"),
+                                     std::pair("/", "it is a folder; allowed is a regular file")}) {
     try {
       const LogReader log(path);
       FAIL() << path;
