@@ -246,8 +246,8 @@ acoustics::SoundSpeedProfile profile_from_file(const EnvironmentConfig& config,
   const ProfileConfig& p = config.profile;
   const double latitude = p.position_given ? p.latitude_rad : to_radians(scenario.origin_latitude_deg);
   const double longitude = p.position_given ? p.longitude_rad : to_radians(scenario.origin_longitude_deg);
-  const std::string path = path_in(folder, p.file), ending = std::filesystem::path(path).extension().string();
-  if (ending == ".csv" || ending == ".txt") {
+  const std::string path = path_in(folder, p.file);
+  if (acoustics::is_profile_table(path)) {
     return acoustics::read_profile(path, {model, latitude, p.assumed}, latitude, longitude);
   }
   return acoustics::read_grid_profile(

@@ -7,11 +7,14 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <sstream>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "core/check.h"
+#include "core/csv_table.h"
+#include "core/lower_case.h"
+#include "ocean/cf_units.h"
 
 namespace halocline::ocean {
 namespace {
@@ -33,33 +36,6 @@ constexpr std::array<std::pair<std::string_view, Calendar>, 9> kCalendars{
      {"all_leap", Calendar::kAllLeap},
      {"366_day", Calendar::kAllLeap},
      {"360_day", Calendar::k360Day}}};
-
-struct Unit {
-  std::string_view name;
-  double seconds;
-};
-constexpr std::array<Unit, 17> kUnits{{{"s", 1},
-                                       {"sec", 1},
-                                       {"secs", 1},
-                                       {"second", 1},
-                                       {"seconds", 1},
-                                       {"min", 60},
-                                       {"mins", 60},
-                                       {"minute", 60},
-                                       {"minutes", 60},
-                                       {"h", 3600},
-                                       {"hr", 3600},
-                                       {"hrs", 3600},
-                                       {"hour", 3600},
-                                       {"hours", 3600},
-                                       {"d", kDay},
-                                       {"day", kDay},
-                                       {"days", kDay}}};
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 // Rounded down.
 constexpr std::int64_t quotient(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
@@ -107,48 +83,142 @@ std::int64_t day_of(Calendar calendar, const Date& date) {
   return days + date.day - 1;
 }
 
-// "2026-05-01[T| ][06:00[:00.5]][Z| UTC|+00:00]"; false where it is none.
-bool read_date(const std::string& text, Date& date) {
-  std::string plain = text;
-  for (const std::string_view zone : {"Z", " UTC", "+00:00"}) {
-    if (plain.ends_with(zone)) plain.resize(plain.size() - zone.size());
+constexpr std::array<std::string_view, 12> kMonths{"jan", "feb", "mar", "apr", "may", "jun",
+                                                   "jul", "aug", "sep", "oct", "nov", "dec"};
+
+// What is left of the text of a date while it is read.
+class DateText {
+ public:
+  explicit DateText(std::string_view text) : rest_(text) {}
+
+  bool is_done() const { return rest_.empty(); }
+  char front() const { return rest_.empty() ? '\0' : rest_.front(); }
+  bool has_digit() const { return std::isdigit(static_cast<unsigned char>(front())) != 0; }
+  bool take(std::string_view word) {
+    if (lower_case(rest_.substr(0, word.size())) != word) return false;
+    rest_.remove_prefix(word.size());
+    return true;
   }
-  std::replace(plain.begin(), plain.end(), 'T', ' ');
-  int hour = 0, minute = 0, used = 0;
+  void skip_blanks() {
+    while (take(" ")) continue;
+  }
+  std::string_view digits() {
+    const auto end =
+        std::find_if(rest_.begin(), rest_.end(), [](unsigned char c) { return std::isdigit(c) == 0; });
+    const std::string_view found = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
+    rest_.remove_prefix(found.size());
+    return found;
+  }
+
+ private:
+  std::string_view rest_;
+};
+
+// -1: none, or beyond any number of a date.
+int number_of(std::string_view digits) { return parse_number<int>(digits, 0, 99'999'999).value_or(-1); }
+
+// "2026-5-1", "20260501", "2026-5", "2026", "1-May-2026": what is left out is 1.
+bool read_day(DateText& text, Date& date) {
+  const int sign = text.take("-") ? -1 : 1;
+  const std::string_view first = text.digits();
+  date.year = sign * number_of(first);
+  if (first.size() == 8) {
+    date = {number_of(first.substr(0, 4)), number_of(first.substr(4, 2)), number_of(first.substr(6)), 0};
+    return sign > 0;
+  }
+  if (first.empty() || first.size() > 4) return false;
+  if (!text.take("-")) return true;
+  if (text.has_digit()) {
+    date.month = number_of(text.digits());
+    if (text.take("-")) date.day = number_of(text.digits());
+    return true;
+  }
+  const auto* month =
+      std::find_if(kMonths.begin(), kMonths.end(), [&](auto name) { return text.take(name); });
+  date.day = date.year;
+  date.month = static_cast<int>(month - kMonths.begin()) + 1;
+  if (month == kMonths.end() || !text.take("-")) return false;
+  date.year = number_of(text.digits());
+  return date.year >= 0;
+}
+
+// "6", "06:00", "06:00:00.5", "0600", "060000": seconds of the day; NaN: none of these.
+double read_clock(DateText& text) {
+  const std::string_view first = text.digits();
+  const bool is_packed = first.size() == 4 || first.size() == 6;
+  int hour = number_of(is_packed ? first.substr(0, 2) : first), minute = 0;
   double second = 0;
-  if (std::sscanf(plain.c_str(), "%d-%d-%d%n", &date.year, &date.month, &date.day, &used) != 3) return false;
-  std::string_view rest = std::string_view(plain).substr(static_cast<std::size_t>(used));
-  while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
-  if (!rest.empty()) {
-    int time_used = 0;
-    const std::string time(rest);
-    if (std::sscanf(time.c_str(), "%d:%d%n", &hour, &minute, &time_used) != 2) return false;
-    int second_used = 0;
-    if (time[static_cast<std::size_t>(time_used)] == ':') {
-      if (std::sscanf(time.c_str() + time_used, ":%lf%n", &second, &second_used) != 1) return false;
-    }
-    if (static_cast<std::size_t>(time_used + second_used) != time.size()) return false;
+  if (is_packed) {
+    minute = number_of(first.substr(2, 2));
+    second = first.size() == 6 ? number_of(first.substr(4)) : 0;
+  } else if (text.take(":")) {
+    minute = number_of(text.digits());
+    if (text.take(":")) second = number_of(text.digits());
   }
-  date.second = 3600.0 * hour + 60.0 * minute + second;
-  return hour >= 0 && hour <= 24 && minute >= 0 && minute < 60 && second >= 0 && second < 61;
+  if (text.take(".")) second += parse_number("0." + std::string(text.digits())).value_or(0);
+  const bool is_time = hour >= 0 && hour <= 24 && minute >= 0 && minute < 60 && second >= 0 && second < 61;
+  return is_time ? 3600.0 * hour + 60.0 * minute + second : std::nan("");
+}
+
+// "", "Z", "UTC", "GMT", "+hh", "-h:mm", "+hhmm", "-hmm": how far ahead of UTC, s; NaN: another zone.
+double read_zone(DateText& text) {
+  text.skip_blanks();
+  if (text.is_done() || text.take("utc") || text.take("gmt") || text.take("z"))
+    return text.is_done() ? 0 : std::nan("");
+  const int sign = text.take("-") ? -1 : text.take("+") ? 1 : 0;
+  const std::string_view digits = text.digits();
+  int hours = number_of(digits), minutes = 0;
+  if (digits.size() > 2) {
+    minutes = hours % 100;
+    hours /= 100;
+  } else if (text.take(":")) {
+    minutes = number_of(text.digits());
+  }
+  const bool is_zone =
+      sign != 0 && text.is_done() && hours >= 0 && hours <= 14 && minutes >= 0 && minutes < 60;
+  return is_zone ? sign * (3600.0 * hours + 60.0 * minutes) : std::nan("");
+}
+
+// A day, a time of day and a zone; false where it is none.
+bool read_date(const std::string& text, Date& date) {
+  DateText rest(text);
+  rest.skip_blanks();
+  if (!read_day(rest, date)) return false;
+  if (!rest.take("t")) rest.skip_blanks();
+  const double clock_s = rest.has_digit() ? read_clock(rest) : 0;
+  date.second = clock_s - read_zone(rest);
+  return std::isfinite(date.second);
 }
 
 double seconds_since_day_0(Calendar calendar, const std::string& text) {
   Date date;
-  const bool is_date = read_date(text, date) && date.month >= 1 && date.month <= 12 && date.day >= 1 &&
+  const bool has_year_0 = calendar != Calendar::kStandard && calendar != Calendar::kJulian;
+  const bool is_date = read_date(text, date) && (date.year != 0 || has_year_0) && date.month >= 1 &&
+                       date.month <= 12 && date.day >= 1 &&
                        date.day <= days_in_month(calendar, date.year, date.month);
-  require(is_date,
-          "\"" + text +
-              "\" is no date of its calendar; allowed is YYYY-MM-DD, with a time of day hh:mm:ss in UTC "
-              "if wished");
+  require(
+      is_date,
+      "\"" + text +
+          "\" is no date of its calendar; allowed is YYYY-MM-DD, with a time of day hh:mm:ss and a zone as "
+          "Z, GMT or +hh:mm if wished");
   return static_cast<double>(day_of(calendar, date)) * kDay + date.second;
+}
+
+// "hours since 2000-01-01" into its unit and its date; UDUNITS has several words between.
+std::pair<std::string, std::string> split(const std::string& units) {
+  const std::string text = lower_case(units);
+  for (const std::string_view word : {" since ", " after ", " from ", " ref ", " @ "}) {
+    const std::size_t at = text.find(word);
+    if (at != std::string::npos) return {units.substr(0, at), units.substr(at + word.size())};
+  }
+  return {units, ""};
 }
 
 }  // namespace
 
 CfTimeAxis CfTimeAxis::parse(const std::string& units, const std::string& calendar) {
   CfTimeAxis axis;
-  const std::string name = calendar.empty() ? "standard" : lower(calendar);
+  const std::string name = calendar.empty() ? "standard" : lower_case(calendar);
   const auto* known =
       std::find_if(kCalendars.begin(), kCalendars.end(), [&](const auto& c) { return c.first == name; });
   require(known != kCalendars.end(),
@@ -156,15 +226,15 @@ CfTimeAxis CfTimeAxis::parse(const std::string& units, const std::string& calend
               "\"; allowed are standard, gregorian, proleptic_gregorian, julian, noleap, 365_day, all_leap, "
               "366_day, 360_day");
   axis.calendar_ = known->second;
-  std::istringstream words(units);
-  std::string unit, since, date;
-  words >> unit >> since;
-  std::getline(words >> std::ws, date);
-  const auto* one =
-      std::find_if(kUnits.begin(), kUnits.end(), [&](const Unit& u) { return u.name == lower(unit); });
-  require(one != kUnits.end() && lower(since) == "since",
-          "units are \"" + units + "\"; allowed are seconds, minutes, hours or days since a date");
-  axis.unit_s_ = one->seconds;
+  const auto [unit, date] = split(units);
+  const std::optional<UnitFactor> seconds = unit_in(Quantity::kTime, unit);
+  require(seconds && !date.empty(),
+          "units are \"" + units + "\"; allowed are " + allowed_units(Quantity::kTime) +
+              " since a date, as \"hours since 2000-01-01 00:00:00\"" +
+              (lower_case(unit).starts_with("month") || lower_case(unit).starts_with("year")
+                   ? ": months and years have no fixed length"
+                   : ""));
+  axis.unit_s_ = seconds->factor;
   axis.since_s_ = seconds_since_day_0(axis.calendar_, date);
   return axis;
 }

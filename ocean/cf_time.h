@@ -19,13 +19,15 @@ enum class Calendar { kStandard, kProlepticGregorian, kJulian, kNoLeap, kAllLeap
 
 class CfTimeAxis {
  public:
-  // The attributes `units` and `calendar` (empty: standard). Units are seconds, minutes, hours or days since a date.
+  // The attributes `units` and `calendar` (empty: standard). Units are any of fixed length (ocean/cf_units.h)
+  // since a date.
   // Throws InvalidArgument that names the text and what is allowed.
   static CfTimeAxis parse(const std::string& units, const std::string& calendar);
 
   // Seconds from the calendar's day 0 to a value of the axis.
   double seconds_at(double value) const { return since_s_ + value * unit_s_; }
-  // The same of a date, "2026-05-01", "2026-05-01 06:00" or "2026-05-01T06:00:00Z". Throws InvalidArgument.
+  // The same of a date as UDUNITS and CF write them: "2026-05-01", "20260501T0600", "2026-5-1 6:00:00.5
+  // +02:00" (ahead of UTC), "1-May-2026 GMT". Throws InvalidArgument.
   double seconds_of(const std::string& date) const;
   // The date of an instant, to the second, as "2026-05-01T06:00:00Z".
   std::string date_of(double seconds) const;

@@ -142,16 +142,19 @@ std::uint64_t hash_of(const OceanGrid& grid, const OceanValues& values) {
 
 std::string_view name_of(bool is_latitude) { return is_latitude ? "latitude" : "longitude"; }
 
-void require_within(const std::vector<double>& axis, double value, bool is_latitude) {
+// `given` is the value as the scenario has it, `turns` radians from that of the grid.
+void require_within(const std::vector<double>& axis, double given, double turns, bool is_latitude) {
+  const double value = given + turns;
   if (value >= axis.front() - kOutsideRad && value <= axis.back() + kOutsideRad) return;
-  require_in_range(to_degrees(value), to_degrees(axis.front()), to_degrees(axis.back()),
+  require_in_range(to_degrees(given), to_degrees(axis.front() - turns), to_degrees(axis.back() - turns),
                    std::string(name_of(is_latitude)) + " of the scenario's origin", "deg");
 }
 
 }  // namespace
 
-OceanField::OceanField(OceanGrid grid, OceanValues values, const GeodeticOrigin& origin)
-    : grid_(std::move(grid)), values_(std::move(values)), origin_(origin) {
+OceanField::OceanField(OceanGrid grid, OceanValues values, const GeodeticOrigin& origin,
+                       std::vector<std::string> remarks)
+    : grid_(std::move(grid)), values_(std::move(values)), origin_(origin), remarks_(std::move(remarks)) {
   require_rising(grid_.times_s, -1e12, 1e12, "time", "s");
   require_rising(grid_.depths_m, 0, kDeepest, "depth", "m");
   require_rising(grid_.latitudes_rad, -90, 90, "latitude", "deg", to_radians(1));
@@ -166,8 +169,9 @@ OceanField::OceanField(OceanGrid grid, OceanValues values, const GeodeticOrigin&
   // The origin's longitude, in the turn of the grid.
   const double middle = (grid_.longitudes_rad.front() + grid_.longitudes_rad.back()) / 2;
   origin_.longitude_rad = middle + std::remainder(origin_.longitude_rad - middle, 2 * std::numbers::pi);
-  require_within(grid_.latitudes_rad, origin_.latitude_rad, true);
-  require_within(grid_.longitudes_rad, origin_.longitude_rad, false);
+  require_within(grid_.latitudes_rad, origin_.latitude_rad, 0, true);
+  require_within(grid_.longitudes_rad, origin.longitude_rad, origin_.longitude_rad - origin.longitude_rad,
+                 false);
   check(values_.east_mps, grid_, -10, 10, "eastward current", "m/s");
   check(values_.north_mps, grid_, -10, 10, "northward current", "m/s");
   check(values_.temperature_degc, grid_, -5, 45, "temperature", "degC");

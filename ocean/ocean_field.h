@@ -20,6 +20,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/frames.h"
@@ -57,7 +58,8 @@ class OceanField {
  public:
   // Throws InvalidArgument that names the axis or the variable, the value and what is allowed; also when the origin lies outside
   // of the grid or a variable has no value at all at one of its times.
-  OceanField(OceanGrid grid, OceanValues values, const GeodeticOrigin& origin);
+  OceanField(OceanGrid grid, OceanValues values, const GeodeticOrigin& origin,
+             std::vector<std::string> remarks = {});
 
   bool has_current() const { return !values_.east_mps.empty(); }
   bool has_water() const { return !values_.temperature_degc.empty(); }
@@ -81,6 +83,9 @@ class OceanField {
 
   // Where the straight way between two places crosses rows, columns or levels of the grid: shares of it in (0, 1), rising.
   std::vector<double> crossings(const Vec3& from, const Vec3& to) const;
+
+  // What its reader did to values beyond their units, a sentence each.
+  const std::vector<std::string>& remarks() const { return remarks_; }
 
   // Of axes and values: the same field has the same.
   std::uint64_t hash() const { return hash_; }
@@ -119,6 +124,7 @@ class OceanField {
   GeodeticOrigin origin_;
   double meridional_radius_m_, transverse_radius_m_;  // of curvature at the origin
   std::uint64_t hash_ = 0;
+  std::vector<std::string> remarks_;
 };
 
 }  // namespace halocline::ocean

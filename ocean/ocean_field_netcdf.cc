@@ -1,270 +1,92 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ocean fields from CF netCDF files. Part of the module halocline_ocean_fields.so, which only ocean_field_reader.cc loads.
+// Ocean fields and columns of water from CF netCDF files. Part of the module halocline_ocean_fields.so, which
+// only ocean_field_reader.cc loads.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/units.h"
+#include "ocean/cf_axis.h"
+#include "ocean/cf_grid.h"
 #include "ocean/cf_time.h"
 #include "ocean/netcdf_file.h"
 #include "ocean/ocean_field.h"
 #include "ocean/ocean_field_reader.h"
-#include "ocean/potential_temperature.h"
+#include "ocean/sea_variables.h"
 
 namespace halocline::ocean {
 namespace {
 
-constexpr double kMostValues = 1e8;             // of a variable, 0.4 GB
-constexpr double kMostValuesOfAByte = 300;      // deflate packs 1032 bytes into one; more were never written
-constexpr std::size_t kMostPlaces = 1'000'000;  // of an axis
-constexpr double kKelvin = 273.15;              // of 0 degC
+constexpr double kMostValues = 1e8;           // of a variable, 0.4 GB
+constexpr double kMostValuesOfAByte = 300;    // deflate packs 1032 bytes into one; more were never written
+constexpr double kEarthRadius = 6'371'008.8;  // m, mean (IUGG)
+constexpr double kTurn = 360;                 // degrees
 
-using Names = std::vector<std::string_view>;
-
-std::optional<std::string> by_standard_name(const NetcdfFile& file, const Names& names) {
-  for (const std::string_view name : names) {
-    for (const std::string& variable : file.variables()) {
-      if (file.text(variable, "standard_name") == name) return variable;
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> by_name(const NetcdfFile& file, const Names& names) {
-  const std::vector<std::string> variables = file.variables();
-  for (const std::string_view name : names) {
-    if (std::find(variables.begin(), variables.end(), name) != variables.end()) return std::string(name);
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> find_variable(const NetcdfFile& file, const Names& standard_names,
-                                         const Names& names) {
-  const auto variable = by_standard_name(file, standard_names);
-  return variable ? variable : by_name(file, names);
-}
-
-struct UnitFactor {
-  std::string_view unit;
-  double factor, offset = 0;
-};
-constexpr std::array kSpeedUnits{UnitFactor{"m/s", 1},          UnitFactor{"m s-1", 1},
-                                 UnitFactor{"m s^-1", 1},       UnitFactor{"meter second-1", 1},
-                                 UnitFactor{"meter/second", 1}, UnitFactor{"cm/s", 0.01},
-                                 UnitFactor{"cm s-1", 0.01}};
-constexpr std::array kTemperatureUnits{
-    UnitFactor{"degC", 1},     UnitFactor{"degrees_C", 1},      UnitFactor{"Celsius", 1},
-    UnitFactor{"celsius", 1},  UnitFactor{"degree_Celsius", 1}, UnitFactor{"degrees_Celsius", 1},
-    UnitFactor{"degree_C", 1}, UnitFactor{"K", 1, -kKelvin},    UnitFactor{"kelvin", 1, -kKelvin}};
-constexpr std::array kSalinityUnits{UnitFactor{"psu", 1},   UnitFactor{"PSU", 1},    UnitFactor{"1e-3", 1},
-                                    UnitFactor{"0.001", 1}, UnitFactor{"g kg-1", 1}, UnitFactor{"1", 1}};
-constexpr std::array kDepthUnits{UnitFactor{"m", 1}, UnitFactor{"meter", 1}, UnitFactor{"meters", 1},
-                                 UnitFactor{"metre", 1}, UnitFactor{"metres", 1}};
-
-template <std::size_t N>
-UnitFactor unit_of(const NetcdfFile& file, const std::string& variable,
-                   const std::array<UnitFactor, N>& known) {
-  const std::string unit = file.text(variable, "units");
-  std::string allowed;
-  for (const UnitFactor& one : known) {
-    if (one.unit == unit) return one;
-    allowed += (allowed.empty() ? "" : ", ") + std::string(one.unit);
-  }
-  file.refuse(variable, "units are \"" + unit + "\"; allowed are " + allowed);
-}
-
-enum class AxisKind { kTime, kDepth, kLatitude, kLongitude, kUnknown };
-constexpr std::array<std::string_view, 5> kAxisNames{"time", "depth", "latitude", "longitude", "unknown"};
-
-AxisKind kind_of(const NetcdfFile& file, const std::string& axis) {
-  const std::string units = file.text(axis, "units"), standard = file.text(axis, "standard_name"),
-                    letter = file.text(axis, "axis");
-  if (standard == "time" || letter == "T" || units.find(" since ") != std::string::npos)
-    return AxisKind::kTime;
-  if (standard == "latitude" || units.starts_with("degrees_n") || units.starts_with("degree_n"))
-    return AxisKind::kLatitude;
-  if (standard == "longitude" || units.starts_with("degrees_e") || units.starts_with("degree_e"))
-    return AxisKind::kLongitude;
-  if (standard == "depth" || letter == "Z" || !file.text(axis, "positive").empty()) return AxisKind::kDepth;
-  return AxisKind::kUnknown;
-}
-
-// One axis as the file has it: its values in the order of the file, and whether they fall.
-struct Axis {
-  std::string name;
-  std::vector<double> values;
-  bool falls = false;
-};
-
-// The axes of the file's variables, which all are on the same ones.
-class Axes {
- public:
-  Axes(const NetcdfFile& file, const std::string& variable) : file_(file) {
-    std::vector<AxisKind> kinds;
-    for (const std::string& dimension : file.dimensions_of(variable)) {
-      const std::vector<std::string> variables = file.variables();
-      if (std::find(variables.begin(), variables.end(), dimension) == variables.end() ||
-          file.dimensions_of(dimension) != std::vector{dimension}) {
-        file.refuse(variable, "its dimension " + dimension +
-                                  " has no coordinate variable of one dimension; allowed are regular grids");
-      }
-      kinds.push_back(kind_of(file, dimension));
-      dimensions_.push_back(dimension);
-      axes_[static_cast<std::size_t>(kinds.back())] = read(dimension);
-    }
-    using enum AxisKind;
-    const bool has_time = !kinds.empty() && kinds.front() == kTime;
-    if (has_time) kinds.erase(kinds.begin());
-    if (kinds != std::vector{kDepth, kLatitude, kLongitude}) {
-      std::string found;
-      for (const AxisKind kind : kinds)
-        found += (found.empty() ? "" : ", ") + std::string(kAxisNames[static_cast<std::size_t>(kind)]);
-      file.refuse(variable, "its axes are " + std::string(has_time ? "time, " : "") + found +
-                                "; allowed are time (or none), depth, latitude, longitude, in this order");
-    }
-    if (!has_time) axes_[0].values = {0};
-  }
-
-  const std::vector<std::string>& dimensions() const { return dimensions_; }
-  bool has_time() const { return !at(AxisKind::kTime).name.empty(); }
-  const Axis& at(AxisKind kind) const { return axes_[static_cast<std::size_t>(kind)]; }
-  std::size_t size(AxisKind kind) const { return at(kind).values.size(); }
-  double points() const {
-    double product = 1;
-    for (const AxisKind kind : {AxisKind::kTime, AxisKind::kDepth, AxisKind::kLatitude, AxisKind::kLongitude})
-      product *= static_cast<double>(size(kind));
-    return product;
-  }
-
- private:
-  Axis read(const std::string& name) const {
-    const std::size_t length = file_.length_of(name);
-    if (length > kMostPlaces)
-      file_.refuse(name, "has " + std::to_string(length) + " values; allowed are 1000000");
-    Axis axis{name, file_.values(name, 0, length)};
-    if (kind_of(file_, name) == AxisKind::kDepth) {
-      unit_of(file_, name, kDepthUnits);
-      const bool is_up = file_.text(name, "positive") == "up";
-      for (double& depth : axis.values) depth = is_up && depth != 0 ? -depth : depth;
-    }
-    axis.falls = axis.values.size() > 1 && axis.values.front() > axis.values.back();
-    for (std::size_t i = 0; i < axis.values.size(); ++i) {
-      if (!std::isfinite(axis.values[i])) file_.refuse(name, "has a value missing at " + std::to_string(i));
-      if (i > 0 && !(axis.falls ? axis.values[i] < axis.values[i - 1] : axis.values[i] > axis.values[i - 1]))
-        file_.refuse(name, "neither rises nor falls throughout, at " + std::to_string(i));
-    }
-    return axis;
-  }
-
-  const NetcdfFile& file_;
-  std::vector<std::string> dimensions_;
-  std::array<Axis, 5> axes_;
-};
-
-std::vector<double> rising(const Axis& axis) {
-  std::vector<double> values = axis.values;
-  if (axis.falls) std::reverse(values.begin(), values.end());
-  return values;
-}
-
-// All of a variable, its axes turned so that they rise.
-std::vector<float> read_values(const NetcdfFile& file, const std::string& variable, const Axes& axes,
-                               const UnitFactor& unit) {
-  if (file.dimensions_of(variable) != axes.dimensions())
-    file.refuse(variable, "is on other dimensions than the variables before it; allowed is one grid");
-  using enum AxisKind;
-  const std::size_t times = axes.size(kTime), depths = axes.size(kDepth), rows = axes.size(kLatitude),
-                    columns = axes.size(kLongitude);
-  std::vector<float> values(times * depths * rows * columns);
-  const auto place = [](const Axis& axis, std::size_t i) {
-    return axis.falls ? axis.values.size() - 1 - i : i;
-  };
-  for (std::size_t time = 0; time < times; ++time) {
-    const std::vector<double> read = axes.has_time() ? file.values(variable, place(axes.at(kTime), time), 1)
-                                                     : file.values(variable, 0, depths);
-    for (std::size_t depth = 0; depth < depths; ++depth) {
-      for (std::size_t row = 0; row < rows; ++row) {
-        const std::size_t from =
-            (place(axes.at(kDepth), depth) * rows + place(axes.at(kLatitude), row)) * columns;
-        const std::size_t to = ((time * depths + depth) * rows + row) * columns;
-        for (std::size_t column = 0; column < columns; ++column) {
-          const double value = read[from + place(axes.at(kLongitude), column)];
-          values[to + column] = static_cast<float>(value * unit.factor + unit.offset);
-        }
-      }
-    }
-  }
-  return values;
-}
-
-void make_in_situ(const OceanGrid& grid, OceanValues& values) {
-  std::size_t i = 0;
-  for (std::size_t time = 0; time < grid.times_s.size(); ++time) {
-    for (const double depth : grid.depths_m) {
-      for (const double latitude : grid.latitudes_rad) {
-        for (std::size_t column = 0; column < grid.longitudes_rad.size(); ++column, ++i) {
-          values.temperature_degc[i] = static_cast<float>(
-              in_situ_temperature_degc(values.salinity_psu[i], values.temperature_degc[i], depth, latitude));
-        }
-      }
-    }
-  }
+void require_size(const NetcdfFile& file, const CfGrid& grid) {
+  const auto bytes = std::filesystem::file_size(file.path());
+  require(grid.points() <= std::min(kMostValues, kMostValuesOfAByte * static_cast<double>(bytes)),
+          file.path() + ": has " + fmt::format("{:.0f}", grid.points()) + " values a variable in " +
+              std::to_string(bytes) + " bytes; allowed are 100000000, and 300 a byte: cut out a region");
 }
 
 // Times from the start on.
-void set_times(const NetcdfFile& file, const Axes& axes, const std::string& start_date, OceanGrid& grid) {
-  const Axis& axis = axes.at(AxisKind::kTime);
-  if (axis.name.empty()) {
+std::vector<double> times_from(const NetcdfFile& file, const Axis& axis, const std::string& start_date) {
+  const std::string units = axis.name.empty() ? "" : file.text(axis.name, "units");
+  const bool is_undated = axis.name.empty() || (axis.values.size() == 1 && start_date.empty());
+  if (is_undated) {
     require(start_date.empty(), file.path() + ": has no times; allowed is no start");
-    grid.times_s = {0};
-    return;
+    return {0};
   }
   try {
-    const CfTimeAxis time =
-        CfTimeAxis::parse(file.text(axis.name, "units"), file.text(axis.name, "calendar"));
-    for (const double value : rising(axis)) grid.times_s.push_back(time.seconds_at(value));
-    const double first = grid.times_s.front(), last = grid.times_s.back();
+    const CfTimeAxis time = CfTimeAxis::parse(units, file.text(axis.name, "calendar"));
+    std::vector<double> times_s;
+    for (const double value : axis.values) times_s.push_back(time.seconds_at(value));
+    const double first = times_s.front(), last = times_s.back();
     const double start = start_date.empty() ? first : time.seconds_of(start_date);
     require(start >= first && start <= last, "the start is " + start_date + "; allowed is " +
                                                  time.date_of(first) + " to " + time.date_of(last));
-    for (double& seconds : grid.times_s) seconds -= start;
+    for (double& seconds : times_s) seconds -= start;
+    return times_s;
   } catch (const InvalidArgument& error) {
     file.refuse(axis.name, error.what());
   }
 }
 
+std::vector<double> in_radians(const std::vector<double>& degrees) {
+  std::vector<double> radians;
+  for (const double angle : degrees) radians.push_back(to_radians(angle));
+  return radians;
+}
+
+OceanGrid grid_of(const CfGrid& grid, std::vector<double> times_s) {
+  return {std::move(times_s), grid.at(AxisKind::kDepth).values,
+          in_radians(grid.at(AxisKind::kLatitude).values), in_radians(grid.at(AxisKind::kLongitude).values)};
+}
+
 struct Found {
-  std::optional<std::string> east, north, temperature, potential, salinity;
+  std::optional<std::string> east, north;
+  std::optional<TemperatureVariable> temperature;
+  std::optional<SalinityVariable> salinity;
 };
 
 Found find_all(const NetcdfFile& file) {
-  Found found;
-  found.east = find_variable(file, {"eastward_sea_water_velocity"}, {"water_u", "uo", "u_eastward", "u"});
-  found.north = find_variable(file, {"northward_sea_water_velocity"}, {"water_v", "vo", "v_northward", "v"});
-  // What a standard name says goes before what a name suggests.
-  found.potential = by_standard_name(file, {"sea_water_potential_temperature"});
-  if (!found.potential)
-    found.temperature = find_variable(file, {"sea_water_temperature"}, {"water_temp", "temperature", "temp"});
-  if (!found.potential && !found.temperature) found.potential = by_name(file, {"thetao"});
-  found.salinity =
-      find_variable(file, {"sea_water_salinity", "sea_water_practical_salinity"}, {"salinity", "so", "salt"});
-  const bool has_temperature = found.temperature || found.potential;
+  const Found found{find_eastward(file), find_northward(file), find_temperature(file), find_salinity(file)};
   require(found.east.has_value() == found.north.has_value(),
           file.path() + ": has one component of the current; allowed are both or none");
-  require(has_temperature == found.salinity.has_value(),
+  require(found.temperature.has_value() == found.salinity.has_value(),
           file.path() + ": has temperature or salinity alone; allowed are both or none");
   require(
-      found.east || has_temperature,
+      found.east || found.salinity,
       file.path() + ": has neither currents nor temperature and salinity (known names: docs/scenarios.md)");
   return found;
 }
@@ -272,37 +94,227 @@ Found find_all(const NetcdfFile& file) {
 OceanField* read_field(const FieldQuery& query) {
   const NetcdfFile file(query.path);
   const Found found = find_all(file);
-  const Axes axes(file, found.east ? *found.east : *found.salinity);
-  const auto bytes = std::filesystem::file_size(query.path);
-  require(axes.points() <= std::min(kMostValues, kMostValuesOfAByte * static_cast<double>(bytes)),
-          query.path + ": has " + fmt::format("{:.0f}", axes.points()) + " values a variable in " +
-              std::to_string(bytes) + " bytes; allowed are 100000000, and 300 a byte: cut out a region");
-  OceanGrid grid;
-  set_times(file, axes, query.start_date, grid);
-  grid.depths_m = rising(axes.at(AxisKind::kDepth));
-  for (const double degrees : rising(axes.at(AxisKind::kLatitude)))
-    grid.latitudes_rad.push_back(to_radians(degrees));
-  for (const double degrees : rising(axes.at(AxisKind::kLongitude)))
-    grid.longitudes_rad.push_back(to_radians(degrees));
+  const CfGrid on(file, found.east ? *found.east : found.salinity->variable,
+                  to_degrees(query.origin.latitude_rad), to_degrees(query.origin.longitude_rad));
+  require_size(file, on);
+  OceanGrid grid = grid_of(on, times_from(file, on.at(AxisKind::kTime), query.start_date));
   OceanValues values;
+  std::vector<std::string> remarks;
   if (found.east) {
-    values.east_mps = read_values(file, *found.east, axes, unit_of(file, *found.east, kSpeedUnits));
-    values.north_mps = read_values(file, *found.north, axes, unit_of(file, *found.north, kSpeedUnits));
+    values.east_mps = read_speed(on, file, *found.east);
+    values.north_mps = read_speed(on, file, *found.north);
   }
   if (found.salinity) {
-    const std::string temperature = found.temperature ? *found.temperature : *found.potential;
-    values.temperature_degc =
-        read_values(file, temperature, axes, unit_of(file, temperature, kTemperatureUnits));
-    const bool has_unit = !file.text(*found.salinity, "units").empty();
-    const UnitFactor none{"", 1};
-    values.salinity_psu = read_values(file, *found.salinity, axes,
-                                      has_unit ? unit_of(file, *found.salinity, kSalinityUnits) : none);
-    if (found.potential) make_in_situ(grid, values);
+    values.temperature_degc = read_temperature(on, file, *found.temperature);
+    values.salinity_psu = read_salinity(on, file, *found.salinity);
+    if (found.temperature->is_potential) make_in_situ(grid, values);
+    remarks = remarks_on(*found.salinity);
   }
   try {
-    return new OceanField(std::move(grid), std::move(values), query.origin);
+    return new OceanField(std::move(grid), std::move(values), query.origin, std::move(remarks));
   } catch (const InvalidArgument& error) {
     throw InvalidArgument(query.path + ": " + error.what());
+  }
+}
+
+// Great circle (haversine), degrees to metres.
+double distance_m(double latitude_a, double longitude_a, double latitude_b, double longitude_b) {
+  const double half_lat = to_radians(latitude_b - latitude_a) / 2,
+               half_lon = to_radians(longitude_b - longitude_a) / 2;
+  const double h = elementary::pow(elementary::sin(half_lat), 2) +
+                   elementary::cos(to_radians(latitude_a)) * elementary::cos(to_radians(latitude_b)) *
+                       elementary::pow(elementary::sin(half_lon), 2);
+  return 2 * kEarthRadius * elementary::asin(std::sqrt(std::min(h, 1.0)));
+}
+
+// The values of an axis within a reach of a place, and one more on either side.
+void keep_about(CfGrid& grid, AxisKind kind, double place, double reach) {
+  const std::vector<double>& values = grid.at(kind).values;
+  const auto low = std::lower_bound(values.begin(), values.end(), place - reach);
+  const auto high = std::upper_bound(values.begin(), values.end(), place + reach);
+  const auto first = low == values.begin() ? low : low - 1, last = high == values.end() ? high : high + 1;
+  grid.keep(kind, static_cast<std::size_t>(first - values.begin()), static_cast<std::size_t>(last - first));
+}
+
+// The columns that can be near enough to a place.
+void keep_window(CfGrid& grid, double latitude_deg, double longitude_deg) {
+  const double reach = to_degrees(kFarthestColumn / kEarthRadius);
+  const double nearest_pole = std::min(std::abs(latitude_deg) + reach, 89.0);
+  keep_about(grid, AxisKind::kLatitude, latitude_deg, reach);
+  keep_about(grid, AxisKind::kLongitude, longitude_deg, reach / elementary::cos(to_radians(nearest_pole)));
+}
+
+void keep_time(const NetcdfFile& file, CfGrid& grid, int index) {
+  const std::vector<std::size_t>& places = grid.at(AxisKind::kTime).places;
+  const auto found = std::find(places.begin(), places.end(), static_cast<std::size_t>(index));
+  require(found != places.end(), file.path() + ": has " + std::to_string(places.size()) +
+                                     " times; given is number " + std::to_string(index) + " (from 0)");
+  grid.keep(AxisKind::kTime, static_cast<std::size_t>(found - places.begin()), 1);
+}
+
+// The column of a window that has water and is nearest to a place.
+struct Nearest {
+  std::size_t column = 0;  // row by row
+  double latitude_deg = 0, longitude_deg = 0, distance_m = std::numeric_limits<double>::infinity();
+};
+
+bool has_water(const OceanValues& values, std::size_t at) {
+  return !std::isnan(values.temperature_degc[at]) && !std::isnan(values.salinity_psu[at]);
+}
+
+Nearest nearest_water(const CfGrid& grid, const OceanValues& values, double latitude_deg,
+                      double longitude_deg) {
+  Nearest best;
+  std::size_t column = 0;
+  const std::size_t columns =
+      grid.at(AxisKind::kLatitude).values.size() * grid.at(AxisKind::kLongitude).values.size();
+  for (const double latitude : grid.at(AxisKind::kLatitude).values) {
+    for (const double longitude : grid.at(AxisKind::kLongitude).values) {
+      bool is_wet = false;
+      for (std::size_t at = column; at < values.salinity_psu.size(); at += columns)
+        is_wet |= has_water(values, at);
+      const double away =
+          is_wet ? distance_m(latitude_deg, longitude_deg, latitude, longitude) : best.distance_m;
+      if (away < best.distance_m) best = {column, latitude, longitude, away};
+      ++column;
+    }
+  }
+  return best;
+}
+
+// Levels down to the deepest value of some columns: below, water stays as it is and needs no rows.
+std::size_t levels_with_water(const OceanGrid& grid, const OceanValues& values,
+                              const std::vector<std::size_t>& columns) {
+  std::size_t levels = 0;
+  for (std::size_t level = 0; level < grid.depths_m.size(); ++level) {
+    for (const std::size_t column : columns)
+      levels = has_water(values, level * grid.columns() + column) ? level + 1 : levels;
+  }
+  return levels;
+}
+
+// The columns that stand around a place: two by two, or fewer at a line of the grid.
+std::vector<std::size_t> columns_about(const OceanGrid& grid, double latitude_rad, double longitude_rad) {
+  const auto lines = [](const std::vector<double>& axis, double value) {
+    const auto above = std::lower_bound(axis.begin(), axis.end(), value);
+    const auto high = static_cast<std::size_t>(std::min(above, axis.end() - 1) - axis.begin());
+    const bool is_on_it = high == 0 || axis[high] <= value;
+    return is_on_it ? std::vector{high} : std::vector{high - 1, high};
+  };
+  std::vector<std::size_t> columns;
+  for (const std::size_t row : lines(grid.latitudes_rad, latitude_rad)) {
+    for (const std::size_t column : lines(grid.longitudes_rad, longitude_rad))
+      columns.push_back(row * grid.longitudes_rad.size() + column);
+  }
+  return columns;
+}
+
+// Only that of one column.
+OceanValues column_of(const OceanValues& values, std::size_t columns, std::size_t column) {
+  OceanValues one;
+  for (std::size_t at = column; at < values.salinity_psu.size(); at += columns) {
+    one.temperature_degc.push_back(values.temperature_degc[at]);
+    one.salinity_psu.push_back(values.salinity_psu[at]);
+  }
+  return one;
+}
+
+bool is_within(const std::vector<double>& axis, double value) {
+  return value >= axis.front() && value <= axis.back();
+}
+
+// Water of the columns near a place, on their grid.
+struct Window {
+  OceanGrid grid;
+  OceanValues values;
+  Nearest nearest;
+  double longitude_deg = 0;  // of the place, in the turn of the grid
+  std::string grid_in_words;
+};
+
+// Temperature and salinity, each on its own file's grid, which are the same.
+class WaterFiles {
+ public:
+  explicit WaterFiles(const ColumnQuery& query)
+      : query_(query),
+        warm_(query.temperature_path),
+        salty_(query.salinity_path.empty() ? query.temperature_path : query.salinity_path),
+        temperature_(required(find_temperature(warm_), warm_, "temperature")),
+        salinity_(required(find_salinity(salty_), salty_, "salinity")) {}
+
+  Window window(double latitude_deg, double longitude_deg) const {
+    CfGrid warm(warm_, temperature_.variable, latitude_deg, longitude_deg),
+        salty(salty_, salinity_.variable, latitude_deg, longitude_deg);
+    require(warm.is_as(salty), salty_.path() + ": temperature and salinity are on different grids");
+    const std::vector<double> latitudes = warm.at(AxisKind::kLatitude).values,
+                              longitudes = warm.at(AxisKind::kLongitude).values;
+    const double middle = (longitudes.front() + longitudes.back()) / 2;
+    const double in_turn = middle + std::remainder(longitude_deg - middle, kTurn);
+    for (CfGrid* one : {&warm, &salty}) {
+      keep_time(warm_, *one, query_.time_index);
+      keep_window(*one, latitude_deg, in_turn);
+    }
+    require_size(warm_, warm);
+    Window window{grid_of(warm, {0}), read(warm, salty), {}, in_turn, {}};
+    if (temperature_.is_potential) make_in_situ(window.grid, window.values);
+    window.nearest = nearest_water(warm, window.values, latitude_deg, in_turn);
+    window.grid_in_words = fmt::format("{:g} to {:g} N and {:g} to {:g} E", latitudes.front(),
+                                       latitudes.back(), longitudes.front(), longitudes.back());
+    return window;
+  }
+
+ private:
+  template <class Variable>
+  static Variable required(const std::optional<Variable>& found, const NetcdfFile& file, const char* what) {
+    require(found.has_value(),
+            file.path() + ": has no variable of " + what + " (known names: docs/scenarios.md)");
+    return *found;
+  }
+  OceanValues read(const CfGrid& warm, const CfGrid& salty) const {
+    OceanValues values;
+    values.temperature_degc = read_temperature(warm, warm_, temperature_);
+    values.salinity_psu = read_salinity(salty, salty_, salinity_);
+    return values;
+  }
+
+  const ColumnQuery& query_;
+  NetcdfFile warm_, salty_;
+  TemperatureVariable temperature_;
+  SalinityVariable salinity_;
+};
+
+// The nearest column with water alone stands for a place beyond the grid or among land.
+void keep_nearest(Window& window) {
+  window.values = column_of(window.values, window.grid.columns(), window.nearest.column);
+  window.grid.latitudes_rad = {to_radians(window.nearest.latitude_deg)};
+  window.grid.longitudes_rad = {to_radians(window.nearest.longitude_deg)};
+}
+
+WaterColumn* read_column(const ColumnQuery& query) {
+  Window window = WaterFiles(query).window(to_degrees(query.latitude_rad),
+                                           std::remainder(to_degrees(query.longitude_rad), kTurn));
+  const Nearest& nearest = window.nearest;
+  GeodeticOrigin place{query.latitude_rad, to_radians(window.longitude_deg)};
+  std::vector<std::size_t> about = columns_about(window.grid, place.latitude_rad, place.longitude_rad);
+  const bool is_inside = is_within(window.grid.latitudes_rad, place.latitude_rad) &&
+                         is_within(window.grid.longitudes_rad, place.longitude_rad);
+  if (!is_inside || levels_with_water(window.grid, window.values, about) == 0) {
+    require(
+        nearest.distance_m <= kFarthestColumn,
+        fmt::format("{}: no water within 300 km of {:g} N {:g} E; its grid spans {}", query.temperature_path,
+                    to_degrees(query.latitude_rad), to_degrees(query.longitude_rad), window.grid_in_words));
+    keep_nearest(window);
+    place = {window.grid.latitudes_rad.front(), window.grid.longitudes_rad.front()};
+    about = {0};
+  }
+  try {
+    const OceanField field(window.grid, window.values, place);
+    std::vector<WaterAtDepth> rows = field.column_at(0, 0, 0);
+    rows.resize(levels_with_water(window.grid, window.values, about));
+    return new WaterColumn{std::move(rows), to_radians(nearest.latitude_deg),
+                           to_radians(std::remainder(nearest.longitude_deg, kTurn)), nearest.distance_m};
+  } catch (const InvalidArgument& error) {
+    throw InvalidArgument(query.temperature_path + ": " + error.what());
   }
 }
 
@@ -310,7 +322,12 @@ OceanField* read_field(const FieldQuery& query) {
 }  // namespace halocline::ocean
 
 extern "C" halocline::ocean::OceanFieldReader halocline_read_ocean_field;
+extern "C" halocline::ocean::WaterColumnReader halocline_read_water_column;
 
 halocline::ocean::OceanField* halocline_read_ocean_field(const halocline::ocean::FieldQuery& query) {
   return halocline::ocean::read_field(query);
+}
+
+halocline::ocean::WaterColumn* halocline_read_water_column(const halocline::ocean::ColumnQuery& query) {
+  return halocline::ocean::read_column(query);
 }

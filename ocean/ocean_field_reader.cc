@@ -2,9 +2,11 @@
 #include "ocean/ocean_field_reader.h"
 
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "core/shared_module.h"
 
@@ -24,6 +26,12 @@ std::shared_ptr<const OceanField> read_ocean_field(const FieldQuery& query) {
   field.reset(read(query));
   known = field;
   return field;
+}
+
+WaterColumn read_water_column(const ColumnQuery& query) {
+  static const auto read = reinterpret_cast<WaterColumnReader*>(
+      module_symbol("halocline_ocean_fields.so", "halocline_read_water_column"));
+  return std::move(*std::unique_ptr<WaterColumn>(read(query)));
 }
 
 }  // namespace halocline::ocean

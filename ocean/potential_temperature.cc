@@ -39,6 +39,14 @@ double pressure_dbar(double depth_m, double latitude_rad) {
   return 1.0052405 * (1 + 5.28e-3 * sine * sine) * depth_m + 2.36e-6 * depth_m * depth_m;
 }
 
+// Specific volume integrated over pressure, over gravity.
+double unesco_depth_m(double pressure_dbar, double latitude_rad) {
+  const double p = pressure_dbar, sine = elementary::sin(latitude_rad), x = sine * sine;
+  // Gravity at the surface plus half of its growth down to p.
+  const double gravity = 9.780318 * (1 + (5.2788e-3 + 2.36e-5 * x) * x) + 1.092e-6 * p;
+  return (((-1.82e-15 * p + 2.279e-10) * p - 2.2512e-5) * p + 9.72659) * p / gravity;
+}
+
 double in_situ_temperature_degc(double salinity_psu, double potential_degc, double depth_m,
                                 double latitude_rad) {
   return adiabatic_temperature_degc(salinity_psu, potential_degc, 0, pressure_dbar(depth_m, latitude_rad));

@@ -15,6 +15,10 @@ double adiabatic_temperature_degc(double salinity_psu, double temperature_degc, 
 
 double pressure_dbar(double depth_m, double latitude_rad);
 
+// Depth, m, where the gauge pressure is `pressure_dbar` (0..10 000) at `latitude_rad`: UNESCO Technical Paper
+// 44, algorithm 3 (Saunders and Fofonoff 1976), standard ocean; 0.1 m.
+double unesco_depth_m(double pressure_dbar, double latitude_rad);
+
 // At `depth_m` >= 0, of water that has the potential temperature `potential_degc` re the surface.
 double in_situ_temperature_degc(double salinity_psu, double potential_degc, double depth_m,
                                 double latitude_rad);

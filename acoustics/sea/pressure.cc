@@ -31,16 +31,6 @@ double common_oceans_pressure_dbar(double depth_m, double latitude_rad) {
   return standard_ocean_pressure_dbar(depth_m, latitude_rad) - correction_mpa * kDecibarPerMegapascal;
 }
 
-double unesco_depth_m(double pressure_dbar, double latitude_rad) {
-  // UNESCO 1983, Technical Paper 44, algorithm 3 (Saunders and Fofonoff 1976): depth = (specific volume integrated over
-  // pressure) / gravity.
-  const double p = pressure_dbar;
-  const double x = squared_sine(latitude_rad);
-  // Gravity at the surface plus half of its growth down to p.
-  const double gravity = 9.780318 * (1 + (5.2788e-3 + 2.36e-5 * x) * x) + 1.092e-6 * p;
-  return (((-1.82e-15 * p + 2.279e-10) * p - 2.2512e-5) * p + 9.72659) * p / gravity;
-}
-
 double pressure_atm_absolute(double depth_m, double latitude_rad) {
   return 1 + standard_ocean_pressure_dbar(depth_m, latitude_rad) / kDecibarPerAtmosphere;
 }

@@ -14,6 +14,8 @@
 // surface. Left out: the other regional corrections (Mediterranean, Baltic, ...), geopotential anomaly.
 #pragma once
 
+#include "ocean/potential_temperature.h"
+
 namespace halocline::acoustics {
 
 inline constexpr double kDecibarPerAtmosphere = 10.1325;  // 101 325 Pa (BIPM)
@@ -25,8 +27,7 @@ double standard_ocean_pressure_dbar(double depth_m, double latitude_rad);
 // The same with the correction for the common oceans.
 double common_oceans_pressure_dbar(double depth_m, double latitude_rad);
 
-// Depth, m, where the gauge pressure is `pressure_dbar` (0..10 000) at `latitude_rad`.
-double unesco_depth_m(double pressure_dbar, double latitude_rad);
+using ocean::unesco_depth_m;
 
 // The pressure of Fisher and Simmons's absorption: 1 + (gauge pressure of the standard ocean) / 10.1325
 // dbar. At 100 m and 45 degrees it is 10.952 atm: the reference figures 6 and 7 use this number.

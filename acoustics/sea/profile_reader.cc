@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/sea/profile_reader.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <fstream>
-#include <memory>
+#include <numbers>
 #include <optional>
+#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "core/check.h"
 #include "core/csv_table.h"
-#include "core/shared_module.h"
+#include "core/input_file.h"
+#include "core/units.h"
+#include "ocean/ocean_field.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -73,24 +78,58 @@ double read_cell(const CsvTable& table, const CsvLine& row, std::size_t column, 
   return std::nan("");
 }
 
-void check_rising(double depth_m, double before_m, int line, std::vector<std::string>& errors) {
-  if (depth_m > before_m || std::isnan(depth_m) || std::isnan(before_m)) return;
-  errors.push_back("line " + std::to_string(line) + ", depth_m: " + format_number(depth_m) +
-                   " m is not below the row before (" + format_number(before_m) + " m); depths must rise");
+struct DepthAt {
+  double depth_m;
+  int line;
+};
+
+// Why depths do not rise, in one sentence where the rows are the legs of a cast; else a line for each.
+void check_rising(const std::vector<DepthAt>& depths, std::vector<std::string>& errors) {
+  const auto does_not_rise = [](const DepthAt& a, const DepthAt& b) { return b.depth_m <= a.depth_m; };
+  const auto does_not_fall = [](const DepthAt& a, const DepthAt& b) { return b.depth_m >= a.depth_m; };
+  const auto turn = std::adjacent_find(depths.begin(), depths.end(), does_not_rise);
+  if (turn == depths.end()) return;
+  const auto lines = [](auto first, auto last) {
+    return "lines " + std::to_string(first->line) + " to " + std::to_string((last - 1)->line);
+  };
+  constexpr std::ptrdiff_t kLeg = 3;  // rows: fewer are a fault of their own
+  const bool comes_up = std::adjacent_find(turn + 1, depths.end(), does_not_fall) == depths.end();
+  if (comes_up && depths.end() - turn > kLeg) {
+    errors.push_back(turn == depths.begin()
+                         ? "depths fall: " + lines(depths.begin(), depths.end()) +
+                               " are of the way up; reverse their order, so that depths rise"
+                         : "the cast goes down and up, and turns at " + format_number(turn->depth_m) +
+                               " m: keep the way down, " + lines(depths.begin(), turn + 1) +
+                               ", or the way up, " + lines(turn + 1, depths.end()) + " in reverse order");
+    return;
+  }
+  for (std::size_t i = 1; i < depths.size(); ++i) {
+    if (does_not_rise(depths[i - 1], depths[i]))
+      errors.push_back("line " + std::to_string(depths[i].line) +
+                       ", depth_m: " + format_number(depths[i].depth_m) + " m is not below the row before (" +
+                       format_number(depths[i - 1].depth_m) + " m); depths must rise");
+  }
 }
 
 void throw_all(const std::string& name, const std::vector<std::string>& errors) {
   if (errors.empty()) return;
+  constexpr std::size_t kShown = 5;
   std::string text;
-  for (const std::string& error : errors) text += (text.empty() ? "" : "\n") + name + ": " + error;
+  for (std::size_t i = 0; i < std::min(kShown, errors.size()); ++i)
+    text += (text.empty() ? "" : "\n") + name + ": " + errors[i];
+  if (errors.size() > kShown)
+    text += "\n" + name + ": and " + std::to_string(errors.size() - kShown) + " more";
   throw InvalidArgument(text);
 }
 
-bool ends_with_any(const std::string& path, std::initializer_list<const char*> endings) {
-  for (const char* ending : endings) {
-    if (path.ends_with(ending)) return true;
-  }
-  return false;
+std::string describe(const ocean::WaterColumn& column) {
+  std::ostringstream text;
+  text.precision(4);
+  text << std::fixed << "nearest column at " << to_degrees(column.nearest_latitude_rad) << " N "
+       << to_degrees(column.nearest_longitude_rad) << " E, ";
+  text.precision(1);
+  text << column.distance_m / 1000 << " km away, " << column.rows.size() << " levels";
+  return text.str();
 }
 
 }  // namespace
@@ -104,11 +143,10 @@ SoundSpeedProfile read_csv_profile(std::istream& in, const std::string& name, co
 
   std::vector<WaterRow> water;
   std::vector<SpeedRow> speeds;
-  double before = -1;
+  std::vector<DepthAt> depths;
   for (const CsvLine& row : table.rows) {
     const double depth = read_cell(table, row, columns->depth, kDepthLimits, errors);
-    check_rising(depth, before, row.number, errors);
-    before = depth;
+    if (!std::isnan(depth)) depths.push_back({depth, row.number});
     if (columns->second) {
       const double t = read_cell(table, row, columns->first, kTemperatureLimits, errors);
       water.push_back({depth, t, read_cell(table, row, *columns->second, kSalinityLimits, errors)});
@@ -116,6 +154,7 @@ SoundSpeedProfile read_csv_profile(std::istream& in, const std::string& name, co
       speeds.push_back({depth, read_cell(table, row, columns->first, kSpeedLimits, errors)});
     }
   }
+  check_rising(depths, errors);
   if (table.rows.empty()) errors.push_back("no row after the header");
   const bool wants_teos10 = reading.model == SoundSpeedModel::kTeos10;
   if (columns->second && wants_teos10 && !columns->teos10) {
@@ -128,18 +167,33 @@ SoundSpeedProfile read_csv_profile(std::istream& in, const std::string& name, co
 }
 
 GridProfile read_grid_profile(const GridQuery& query, SoundSpeedModel model) {
-  static const auto read = reinterpret_cast<GridProfileReader*>(
-      module_symbol("halocline_profile_grids.so", "halocline_read_grid_profile"));
-  return std::move(*std::unique_ptr<GridProfile>(read(query, model)));
+  require(model != SoundSpeedModel::kTeos10,
+          "gridded climatologies hold no absolute salinity: teos10 cannot use them");
+  require_in_range(query.latitude_rad, -std::numbers::pi / 2, std::numbers::pi / 2, "latitude", "rad");
+  require_finite(query.longitude_rad, "longitude");
+  const ocean::WaterColumn column = ocean::read_water_column(query);
+  std::vector<WaterRow> rows;
+  for (const ocean::WaterAtDepth& at : column.rows)
+    rows.push_back({at.depth_m, at.temperature_degc, at.salinity_psu});
+  const int levels = static_cast<int>(rows.size());
+  return {SoundSpeedProfile::from_water(std::move(rows), model, query.latitude_rad),
+          column.nearest_latitude_rad,
+          column.nearest_longitude_rad,
+          column.distance_m,
+          levels,
+          describe(column)};
+}
+
+bool is_profile_table(const std::string& path) {
+  return path.ends_with(".csv") || path.ends_with(".CSV") || path.ends_with(".txt");
 }
 
 SoundSpeedProfile read_profile(const std::string& path, const ProfileReading& reading, double latitude_rad,
                                double longitude_rad) {
-  if (!ends_with_any(path, {".csv", ".CSV", ".txt"})) {
+  if (!is_profile_table(path)) {
     return read_grid_profile({path, "", latitude_rad, longitude_rad, 0}, reading.model).profile;
   }
-  std::ifstream file(path);
-  require(file.good(), path + ": cannot be read");
+  std::ifstream file = open_input(path);
   return read_csv_profile(file, path, reading);
 }
 

@@ -14,7 +14,6 @@ const std::vector<Exemption>& exemptions() {
       {"clients/halocline/coverage/coverage_gdal", "gdal", "the module that writes maps"},
       {"clients/halocline/coverage/coverage_gdal", "ogr", "the module that writes maps"},
       {"clients/halocline/coverage/coverage_netcdf", "ogr", "the module that writes maps"},
-      {"acoustics/sea/profile_grid_reader", "gdal", "the module that reads grids of profiles"},
       {"ocean/netcdf_file", "netcdf.h", "the module that reads ocean fields"},
       {"acoustics/fading/channel_record_hdf5", "hdf5.h", "the module that reads measured channels"},
       {"vehicle_sim/world/ode_", "ode/", "the one place of the Open Dynamics Engine"},

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ocean/cf_time.h"
 
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/check.h"
@@ -10,7 +13,7 @@
 namespace halocline::ocean {
 namespace {
 
-using testing::tolerance;
+using halocline::testing::tolerance;
 
 constexpr double kDayS = 86'400;
 
@@ -63,13 +66,96 @@ TEST(CfTime, WhatIsWrongIsNamed) {
     }
     return std::string("taken");
   };
-  EXPECT_NE(refused("months since 2000-01-01", "").find("allowed are seconds, minutes, hours or days"),
-            std::string::npos);
+  EXPECT_NE(
+      refused("months since 2000-01-01", "").find("allowed are seconds, minutes, hours, days or another"),
+      std::string::npos);
   EXPECT_NE(refused("days since 2000-13-01", "").find("2000-13-01"), std::string::npos);
   EXPECT_NE(refused("days since 2001-02-29", "").find("2001-02-29"), std::string::npos);
-  EXPECT_NE(refused("days since 2000-01-01 06:00:00+02:00", "").find("UTC"), std::string::npos);
+  EXPECT_NE(refused("days since 2000-01-01 06:00:00 EST", "").find("EST"), std::string::npos);
   EXPECT_NE(refused("days since 2000-01-01", "lunar").find("360_day"), std::string::npos);
   EXPECT_EQ(refused("days since 2001-02-29", "all_leap"), "taken");
+}
+
+// Units of published files, and dates made by cftime 1.6.
+struct Instant {
+  const char *units, *calendar;
+  double value;
+  const char* date;  // to the second
+};
+const std::vector<Instant> kInstants{
+    {"seconds since 1968-05-23 00:00:00 GMT", "", 1700000000, "2022-04-05T22:13:20Z"},
+    {"hours since 2000-01-01 00:00:00 UTC", "", 6, "2000-01-01T06:00:00Z"},
+    {"hours since 2000-01-01T00:00:00Z", "", 6, "2000-01-01T06:00:00Z"},
+    {"hours since 2000-01-01 00:00:00 Z", "", 6, "2000-01-01T06:00:00Z"},
+    {"seconds since 1970-01-01 00:00:00 +0000", "", 1, "1970-01-01T00:00:01Z"},
+    {"seconds since 1970-01-01 00:00:00 +00:00", "", 1, "1970-01-01T00:00:01Z"},
+    {"seconds since 1970-01-01 00:00:00+00:00", "", 1, "1970-01-01T00:00:01Z"},
+    {"hours since 2024-10-08 15:15:42.5 -6:00", "", 0, "2024-10-08T21:15:42Z"},
+    {"hours since 2024-10-08 15:15:42.5 -06:00", "", 0, "2024-10-08T21:15:42Z"},
+    {"hours since 2024-10-08 15:15:42.5 -600", "", 0, "2024-10-08T21:15:42Z"},
+    {"hours since 2024-10-08 15:15:42.5 +05:30", "", 0, "2024-10-08T09:45:42Z"},
+    {"hours since 2000-01-01 00", "", 3, "2000-01-01T03:00:00Z"},
+    {"hours since 2000-01-01 6", "", 0, "2000-01-01T06:00:00Z"},
+    {"hours since 2000-1-1 0:0:0", "", 3, "2000-01-01T03:00:00Z"},
+    {"hours since 2000-01-01 06:00", "", 0, "2000-01-01T06:00:00Z"},
+    {"hours since 2000-01-01 00:00:00.000000", "", 3, "2000-01-01T03:00:00Z"},
+    {"days since 1950-01-01T00:00:00Z", "", 27028.25, "2024-01-01T06:00:00Z"},
+    {"Days since 1950-01-01", "", 1, "1950-01-02T00:00:00Z"},
+    {"DAYS SINCE 1950-01-01", "", 1, "1950-01-02T00:00:00Z"},
+    {"days since 20000101", "", 1, "2000-01-02T00:00:00Z"},
+    {"days since 20000101T060000", "", 0, "2000-01-01T06:00:00Z"},
+    {"milliseconds since 1970-01-01", "", 1700000000000, "2023-11-14T22:13:20Z"},
+    {"ms since 1970-01-01", "", 1700000000000, "2023-11-14T22:13:20Z"},
+    {"msec since 1970-01-01", "", 1700000000000, "2023-11-14T22:13:20Z"},
+    {"microseconds since 1970-01-01", "", 1700000000000000, "2023-11-14T22:13:20Z"},
+    {"nanoseconds since 1970-01-01", "", 1.7e+18, "2023-11-14T22:13:20Z"},
+    {"minutes since 2000-01-01", "", 90, "2000-01-01T01:30:00Z"},
+    {"min since 2000-01-01", "", 90, "2000-01-01T01:30:00Z"},
+    {"mins since 2000-01-01", "", 90, "2000-01-01T01:30:00Z"},
+    {"hrs since 2000-01-01", "", 3, "2000-01-01T03:00:00Z"},
+    {"hr since 2000-01-01", "", 3, "2000-01-01T03:00:00Z"},
+    {"h since 2000-01-01", "", 3, "2000-01-01T03:00:00Z"},
+    {"d since 2000-01-01", "", 1, "2000-01-02T00:00:00Z"},
+    {"secs since 2000-01-01", "", 1, "2000-01-01T00:00:01Z"},
+    {"weeks since 2000-01-01", "", 1, "2000-01-08T00:00:00Z"},
+    {"hours after 2000-01-01", "", 3, "2000-01-01T03:00:00Z"},
+    {"hours from 2000-01-01", "", 3, "2000-01-01T03:00:00Z"},
+    {"days since 1970", "", 1, "1970-01-02T00:00:00Z"},
+    {"days since 0001-01-01 00:00:00", "", 738887, "2024-01-01T00:00:00Z"},
+    {"days since 0001-01-01 00:00:00", "proleptic_gregorian", 738885, "2024-01-01T00:00:00Z"},
+    {"days since 2000-01-01", "julian", 60, "2000-03-01T00:00:00Z"},
+    {"days since 2000-01-01", "360_day", 60, "2000-03-01T00:00:00Z"},
+    {"days since 2000-01-01", "noleap", 59, "2000-03-01T00:00:00Z"},
+    {"days since 2001-01-01", "all_leap", 60, "2001-03-01T00:00:00Z"},
+    {"days since 2000-01-01", "366_day", 60, "2000-03-01T00:00:00Z"},
+    {"hours since 1900-01-01", "gregorian", 1086966, "2024-01-01T06:00:00Z"},
+    {"days since 1-Jan-2000 00:00:0.0", "", 1, "2000-01-02T00:00:00Z"},
+};
+
+TEST(CfTime, UnitsOfPublishedFilesGiveTheirDates) {
+  for (const Instant& one : kInstants) {
+    const CfTimeAxis axis = CfTimeAxis::parse(one.units, one.calendar);
+    constexpr double kRoundingS = 1e-3;  // of a double after 2000 years: 8 us
+    EXPECT_EQ(axis.date_of(axis.seconds_at(one.value) + kRoundingS), one.date) << one.units;
+  }
+}
+
+TEST(CfTime, UnitsWithoutADateOrAFixedLengthAreRefused) {
+  for (const char* units : {
+           "days since 2000-02-30",
+           "days since 2001-02-29",
+           "days since 0000-01-01",
+           "seconds since 2000-01-01 00:00:00 EST",
+           "day as %Y%m%d.%f",
+           "months since 1955-01-01 00:00:00",
+           "years since 2000-01-01",
+           "second",
+           "m since 2000-01-01",
+           "hours since",
+           "",
+       }) {
+    EXPECT_THROW(CfTimeAxis::parse(units, ""), InvalidArgument) << units;
+  }
 }
 
 // The check value of UNESCO Technical Paper 44, and back.

@@ -7,6 +7,7 @@
 #include "core/frames.h"
 #include "core/units.h"
 #include "ocean/cf_time.h"
+#include "ocean/cf_units.h"
 #include "ocean/ocean_field.h"
 
 namespace halocline::ocean {
@@ -16,6 +17,12 @@ TEST(HeaderExamples, TimesOfTwoDates) {
   const CfTimeAxis axis = CfTimeAxis::parse("hours since 2000-01-01", "standard");
   const double later_s = axis.seconds_at(24) - axis.seconds_of("2000-01-01T06:00:00Z");  // 64 800
   EXPECT_EQ(later_s, 64'800);
+}
+
+TEST(HeaderExamples, AUnitOfLength) {
+  const auto unit = unit_in(Quantity::kLength, "km");  // {1000, 0}
+  ASSERT_TRUE(unit);
+  EXPECT_EQ((*unit)(2), 2000);
 }
 
 TEST(HeaderExamples, CurrentAtAPlace) {

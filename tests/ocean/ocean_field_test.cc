@@ -16,7 +16,7 @@
 namespace halocline::ocean {
 namespace {
 
-using testing::tolerance;
+using halocline::testing::tolerance;
 
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 constexpr GeodeticOrigin kGridOrigin{to_radians(40), to_radians(-50)};

@@ -165,6 +165,7 @@ bool check_ocean(const ScenarioConfig& config, bus::ConfigFile& file) {
                                                 {to_radians(config.scenario.origin_latitude_deg),
                                                  to_radians(config.scenario.origin_longitude_deg)}});
     make_environment(config.channel_server.environment, config.scenario, config.folder);
+    for (const std::string& remark : field->remarks()) file.warn("ocean.file", entry.file, remark);
     const double last_s = field->grid().times_s.back();
     if (!field->is_steady() && config.scenario.duration.seconds() > last_s) {
       file.warn("ocean.file", entry.file,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/sea/profile_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -64,6 +65,26 @@ TEST(ProfileReader, UnsortedAndRepeatedDepthsAreRefusedWithTheirLines) {
   EXPECT_THAT(text, AllOf(HasSubstr("cast.csv: line 4, depth_m"), HasSubstr("line 5, depth_m")));
 }
 
+// One cast: 0 to 100 m by halves on lines 2 to 202, and back.
+TEST(ProfileReader, ACastThatGoesDownAndUpIsToldInOneLine) {
+  std::string text = "depth_m,temperature_degC,salinity_psu\n";
+  for (int i = 0; i <= 400; ++i) text += std::to_string(0.5 * std::min(i, 400 - i)) + ",10,35\n";
+  EXPECT_EQ(complaint(text),
+            "cast.csv: the cast goes down and up, and turns at 100 m: keep the way down, lines 2 to 202, or "
+            "the way up, lines "
+            "203 to 402 in reverse order");
+  EXPECT_THAT(complaint("depth_m,sound_speed_mps\n40,1500\n30,1500\n20,1500\n10,1500\n"),
+              HasSubstr("cast.csv: depths fall: lines 2 to 5 are of the way up; reverse their order"));
+}
+
+TEST(ProfileReader, OfManyFaultsFiveAreShownAndTheRestCounted) {
+  std::string text = "depth_m,sound_speed_mps\n";
+  for (int i = 0; i < 20; ++i) text += std::to_string(10 * i) + ",warm\n";
+  const std::string told = complaint(text);
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 5);
+  EXPECT_THAT(told, HasSubstr("cast.csv: and 15 more"));
+}
+
 TEST(ProfileReader, EveryBadCellIsNamedWithWhatIsAllowed) {
   const std::string text =
       complaint("depth_m,temperature_degC,salinity_psu\n0,warm,35\n-1,10,35\n20,10,99\n");
@@ -112,8 +133,8 @@ TEST_F(LevitusTest, NorthIsNorth) {
 
 TEST_F(LevitusTest, LongitudesOfEveryTurnAreTheSame) {
   const double warm = levitus_at(20.2, -40.3).profile.water(0).temperature_degc;
-  EXPECT_EQ(levitus_at(20.2, 319.7).profile.water(0).temperature_degc, warm);
-  EXPECT_EQ(levitus_at(20.2, 319.7 - 720).profile.water(0).temperature_degc, warm);
+  EXPECT_NEAR(levitus_at(20.2, 319.7).profile.water(0).temperature_degc, warm, tolerance(1e-6));
+  EXPECT_NEAR(levitus_at(20.2, 319.7 - 720).profile.water(0).temperature_degc, warm, tolerance(1e-6));
 }
 
 TEST_F(LevitusTest, FillValuesAreNeverUsedAndTheColumnIsStated) {
