@@ -44,10 +44,10 @@ void visit_bounds(ConfigVisitor& v, RasterOptions& r) {
 }
 
 void visit_raster(ConfigVisitor& v, RasterOptions& r) {
-  v.text("path", r.path, {}, "the file, or what GDAL calls it; relative to the scenario's folder");
+  v.text("path", r.path, {}, "the file; relative to the scenario's folder");
   v.text("variable", r.variable, {}, "of a netCDF file that holds several; empty: the only one");
   bus::integer_as(v, "band", r.band, {1, 1000, "", "band of the raster"});
-  v.boolean("positive_down", r.positive_down, "true for a file of depths instead of heights");
+  v.boolean("positive_down", r.positive_down, "true for a file of depths that does not say so itself");
   std::vector<double> no_data;
   if (r.no_data) no_data = {*r.no_data};
   v.numbers("no_data", no_data, {-3.5e38, 3.5e38, "", "empty, or one more value that means no data"});
@@ -64,10 +64,9 @@ void visit_raster(ConfigVisitor& v, RasterOptions& r) {
   v.number("datum_offset_m", r.datum_offset_m, {-200, 200, "m", "added to every depth"});
 }
 
-// GDAL's own names ("NETCDF:...", "/vsi...") are no files.
+// GDAL's own names, where they are allowed, are no files.
 void require_raster(ConfigVisitor& v, const std::string& path) {
-  const bool is_file = path.find(':') == std::string::npos && !path.starts_with("/vsi");
-  if (is_file) bus::require_readable(v, "path", path);
+  if (!is_any_raster_allowed()) bus::require_readable(v, "path", path);
 }
 
 void visit_shapes(ConfigVisitor& v, TerrainRecipe& t) {
@@ -134,10 +133,11 @@ void visit(ConfigVisitor& v, TerrainRecipe& t) {
                 "rasters: flat (z is depth) or enu (the earth's curvature in z)");
     visit_domain(s, t.domain);
     visit_shapes(s, t);
-    s.section("raster", "kind = raster: any file GDAL reads", [&](ConfigVisitor& r) {
-      visit_raster(r, t.raster);
-      if (t.kind == TerrainKind::kRaster) require_raster(r, t.raster.path);
-    });
+    s.section("raster", "kind = raster: GeoTIFF, netCDF, ESRI ASCII and other files of elevations",
+              [&](ConfigVisitor& r) {
+                visit_raster(r, t.raster);
+                if (t.kind == TerrainKind::kRaster) require_raster(r, t.raster.path);
+              });
     s.boolean("whole_file", t.whole_file,
               "true: a raster in local metres, post by post; the grid above is not used");
     s.section("relief", "Synthetic relief on top, fractal and seeded",

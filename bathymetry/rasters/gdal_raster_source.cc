@@ -14,9 +14,11 @@
 #include <ogr_spatialref.h>
 
 #include "bathymetry/rasters/gdal_support.h"
+#include "bathymetry/rasters/netcdf_raster_source.h"
 #include "bathymetry/rasters/raster_options.h"
 #include "bathymetry/rasters/raster_source.h"
-#include "bathymetry/rasters/suspect_values.h"
+#include "bathymetry/rasters/raster_windows.h"
+#include "bathymetry/rasters/vertical_sense.h"
 #include "core/check.h"
 
 namespace halocline::bathymetry {
@@ -69,6 +71,7 @@ class GdalRasterSource final : public RasterSource {
   std::string vertical_datum() const override {
     return state_.vertical_datum.empty() ? "unstated" : state_.vertical_datum;
   }
+  std::vector<std::string> warnings() const override { return state_.warnings; }
   PixelPosition pixel_at(double latitude_deg, double longitude_deg) const override;
   PixelPosition pixel_at_local(double north_m, double east_m) const override {
     return state_.posts.pixel(east_m, north_m);
@@ -87,6 +90,8 @@ class GdalRasterSource final : public RasterSource {
     int period = 0;  // columns of a full turn; 0 when the raster does not go round the earth
     double origin_longitude_deg = 0;
     std::string coordinate_system_name, vertical_datum;
+    std::vector<std::string> warnings;
+    bool is_down = false;  // it holds depths
     gdal::Transformation
         from_wgs84;  // null when the raster's coordinates are longitude and latitude on WGS84
 
@@ -122,8 +127,11 @@ void GdalRasterSource::State::name_coordinate_system(double origin_latitude_deg)
   }
   OGRSpatialReference system;
   if (!options.coordinate_system.empty()) {
-    require(system.SetFromUserInput(options.coordinate_system.c_str()) == OGRERR_NONE,
-            "coordinate_system '" + options.coordinate_system + "' is not known to PROJ");
+    // A definition or a code, no file and no address that holds one.
+    require(
+        system.SetFromUserInput(options.coordinate_system.c_str(),
+                                OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) == OGRERR_NONE,
+        "coordinate_system '" + options.coordinate_system + "' is not known to PROJ");
   } else if (declared != nullptr) {
     system = *declared;
   } else {
@@ -168,13 +176,18 @@ GdalRasterSource::GdalRasterSource(const RasterOptions& options, double origin_l
   s.origin_longitude_deg = origin_longitude_deg;
   // netCDF files without coordinates would be turned over or not by rules of their own; then the file's order
   // holds.
-  s.dataset = gdal::open(options.path, options.variable, options.bounds.has_value());
+  s.dataset = gdal::open(options.path, options.variable, options.bounds.has_value(), s.warnings);
   s.columns = s.dataset->GetRasterXSize();
   s.rows = s.dataset->GetRasterYSize();
   require(s.columns >= 2 && s.rows >= 2, options.path + ": a raster needs at least 2 x 2 posts");
   require(options.band >= 1 && options.band <= s.dataset->GetRasterCount(),
           options.path + ": there is no band " + std::to_string(options.band));
   s.band = s.dataset->GetRasterBand(options.band);
+  const auto declared = [&](const char* key) {
+    const char* text = s.band->GetMetadataItem(key);
+    return std::string(text == nullptr ? "" : text);
+  };
+  s.is_down = holds_depths(declared("positive"), declared("standard_name"), options);
   s.place();
   s.name_coordinate_system(origin_latitude_deg);
   s.close_the_turn();
@@ -211,7 +224,7 @@ void GdalRasterSource::State::read_block(int first_column, int columns_read, Ras
   const gdal::BandMeaning meaning = gdal::meaning_of(*band, options.no_data);
   const std::vector<unsigned char> mask =
       gdal::read_mask(*band, {wrapped, window.first_row, columns_read, window.rows});
-  const double sign = options.positive_down ? 1 : -1;
+  const double sign = is_down ? 1 : -1;
   for (std::size_t r = 0; r < static_cast<std::size_t>(window.rows); ++r) {
     for (std::size_t c = 0; c < static_cast<std::size_t>(columns_read); ++c) {
       float& value = out[r * row_length + c];
@@ -229,32 +242,22 @@ void GdalRasterSource::State::read_block(int first_column, int columns_read, Ras
 RasterWindow GdalRasterSource::read(const PixelPosition& low, const PixelPosition& high,
                                     PostCounts& counts) const {
   const State& s = state_;
-  const auto bounded = [](double value, double min, double max) {
-    return static_cast<int>(std::clamp(value, min, max));
-  };
   // A global raster may be entered from either side of its seam, by no more than a turn.
-  const double min_column = s.period > 0 ? -s.period : 0,
-               max_column = s.period > 0 ? 2 * s.period : s.columns - 1;
-  const int first_column = bounded(std::floor(low.column), min_column, max_column);
-  const int last_column = bounded(std::ceil(high.column), min_column, max_column);
-  const int first_row = bounded(std::floor(low.row), 0, s.rows - 1);
-  const int last_row = bounded(std::ceil(high.row), 0, s.rows - 1);
-  RasterWindow window{first_column, first_row, last_column - first_column + 1, last_row - first_row + 1, {}};
-  const bool apart =
-      high.column < min_column || low.column > max_column || high.row < 0 || low.row > s.rows - 1;
-  if (apart || std::isnan(low.column)) return {};
+  RasterWindow window = s.period > 0 ? window_between(low, high, -s.period, 2 * s.period, s.rows)
+                                     : window_between(low, high, 0, s.columns - 1, s.rows);
+  if (window.columns == 0) return window;
   const std::int64_t posts = std::int64_t{window.columns} * window.rows;
   require(posts <= kMaxPostsRead, s.options.path + ": the scenario covers " + std::to_string(posts) +
                                       " posts of the raster, more than 2^28; take a smaller domain");
   window.depths_m.resize(static_cast<std::size_t>(posts));
-  for (int column = first_column; column <= last_column;) {
+  const int end_column = window.first_column + window.columns;
+  for (int column = window.first_column; column < end_column;) {
     const int wrapped = s.period > 0 ? ((column % s.period) + s.period) % s.period : column;
-    const int run = std::min(last_column - column + 1, (s.period > 0 ? s.period : s.columns) - wrapped);
+    const int run = std::min(end_column - column, (s.period > 0 ? s.period : s.columns) - wrapped);
     s.read_block(column, run, window, counts);
     column += run;
   }
-  if (!s.options.trust_every_value) counts.undeclared_no_data += remove_suspects(window);
-  for (float& depth : window.depths_m) depth += static_cast<float>(s.options.datum_offset_m);
+  finish(window, s.options, counts);
   return window;
 }
 
@@ -266,5 +269,8 @@ extern "C" halocline::bathymetry::RasterOpener halocline_open_raster;
 halocline::bathymetry::RasterSource* halocline_open_raster(
     const halocline::bathymetry::RasterOptions& options, double origin_latitude_deg,
     double origin_longitude_deg) {
-  return new halocline::bathymetry::GdalRasterSource(options, origin_latitude_deg, origin_longitude_deg);
+  using namespace halocline::bathymetry;
+  if (auto source = open_uneven_netcdf(options, origin_latitude_deg, origin_longitude_deg))
+    return source.release();
+  return new GdalRasterSource(options, origin_latitude_deg, origin_longitude_deg);
 }

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <mutex>
 
 #include <cpl_conv.h>
 
+#include "bathymetry/rasters/gdal_access.h"
 #include "core/check.h"
+#include "ocean/cf_units.h"
 
 namespace halocline::bathymetry::gdal {
 namespace {
@@ -27,20 +28,34 @@ class QuietErrors {
   std::string last() const { return CPLGetLastErrorMsg(); }
 };
 
-void register_drivers_once() {
-  static std::once_flag once;
-  std::call_once(once, [] { GDALAllRegister(); });
-}
+// While in scope: warnings of this thread are collected.
+class CollectedWarnings {
+ public:
+  explicit CollectedWarnings(std::vector<std::string>& warnings) {
+    CPLErrorReset();
+    CPLPushErrorHandlerEx(collect, &warnings);
+  }
+  ~CollectedWarnings() { CPLPopErrorHandler(); }
+  CollectedWarnings(const CollectedWarnings&) = delete;
+  CollectedWarnings& operator=(const CollectedWarnings&) = delete;
 
-Dataset open_one(const std::string& path, bool rows_as_stored) {
-  const QuietErrors quiet;
+ private:
+  static void CPL_STDCALL collect(CPLErr kind, CPLErrorNum, const char* text) {
+    auto& warnings = *static_cast<std::vector<std::string>*>(CPLGetErrorHandlerUserData());
+    if (kind == CE_Warning && std::find(warnings.begin(), warnings.end(), text) == warnings.end())
+      warnings.emplace_back(text);
+  }
+};
+
+Dataset open_one(const std::string& path, bool rows_as_stored, std::vector<std::string>& warnings) {
+  const CollectedWarnings collected(warnings);
   if (rows_as_stored) CPLSetThreadLocalConfigOption("GDAL_NETCDF_BOTTOMUP", "NO");
   Dataset dataset(GDALDataset::FromHandle(
-      GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr)));
+      GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, allowed_drivers(), nullptr, nullptr)));
   if (rows_as_stored) CPLSetThreadLocalConfigOption("GDAL_NETCDF_BOTTOMUP", nullptr);
-  const std::string reason = quiet.last();
+  const std::string reason = CPLGetLastErrorMsg();
   require(dataset != nullptr, "cannot read the raster '" + path +
-                                  "': " + (reason.empty() ? "GDAL knows no format of this content" : reason));
+                                  "': " + (reason.empty() ? "it is of no format that is read" : reason));
   return dataset;
 }
 
@@ -63,35 +78,20 @@ std::string names_of(const std::map<std::string, std::string>& parts) {
 }
 
 double metres_in(const std::string& unit) {
-  static const std::map<std::string, double> kUnits{{"", 1},
-                                                    {"m", 1},
-                                                    {"metre", 1},
-                                                    {"metres", 1},
-                                                    {"meter", 1},
-                                                    {"meters", 1},
-                                                    {"km", 1000},
-                                                    {"dm", 0.1},
-                                                    {"cm", 0.01},
-                                                    {"ft", 0.3048},
-                                                    {"feet", 0.3048},
-                                                    {"foot", 0.3048},
-                                                    {"fathom", 1.8288},
-                                                    {"fathoms", 1.8288},
-                                                    {"unknown", 1},
-                                                    {"us survey foot", 1200.0 / 3937.0},
-                                                    {"us-ft", 1200.0 / 3937.0}};
-  std::string lower = unit;
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-  const auto found = kUnits.find(lower);
-  require(found != kUnits.end(), "the raster's unit '" + unit + "' is no length that is known here");
-  return found->second;
+  const std::optional<ocean::UnitFactor> factor = ocean::unit_in(ocean::Quantity::kLength, unit);
+  require(factor || unit.empty() || unit == "unknown", "the raster's unit '" + unit +
+                                                           "' is no length; allowed are " +
+                                                           ocean::allowed_units(ocean::Quantity::kLength));
+  return factor ? factor->factor : 1;
 }
 
 }  // namespace
 
-Dataset open(const std::string& path, const std::string& variable, bool rows_as_stored) {
-  register_drivers_once();
-  Dataset dataset = open_one(path, rows_as_stored);
+Dataset open(const std::string& path, const std::string& variable, bool rows_as_stored,
+             std::vector<std::string>& warnings) {
+  prepare_access();
+  require_allowed(path);
+  Dataset dataset = open_one(path, rows_as_stored, warnings);
   const auto parts = parts_of(*dataset);
   if (variable.empty()) {
     require(dataset->GetRasterCount() > 0,
@@ -106,7 +106,7 @@ Dataset open(const std::string& path, const std::string& variable, bool rows_as_
   }
   require(part != parts.end(),
           "'" + path + "' has no variable '" + variable + "'; it has " + names_of(parts));
-  return open_one(part->second, rows_as_stored);
+  return open_one(part->second, rows_as_stored, warnings);
 }
 
 Transformation transformation_from_wgs84(const OGRSpatialReference& system) {

@@ -25,9 +25,11 @@ struct TransformationDestroyer {
 };
 using Transformation = std::unique_ptr<OGRCoordinateTransformation, TransformationDestroyer>;
 
-// Opens a raster read-only. variable: which of several a netCDF or HDF file holds; empty when there is one.
-// rows_as_stored: netCDF rows come in the file's order instead of north first.
-Dataset open(const std::string& path, const std::string& variable, bool rows_as_stored);
+// Opens a raster read-only, where gdal_access.h lets it. variable: which of several a netCDF or HDF file
+// holds; empty when there is one. rows_as_stored: netCDF rows come in the file's order instead of north
+// first. What GDAL warns of is added to `warnings`.
+Dataset open(const std::string& path, const std::string& variable, bool rows_as_stored,
+             std::vector<std::string>& warnings);
 
 // From WGS84 (longitude, latitude in degrees) to the system (its x, y; degrees as longitude, latitude); null
 // when they are the same.

@@ -140,7 +140,8 @@ RasterReport report_on(const RasterOptions& options, const RasterSource& source,
                       .declared_no_data = counts.declared_no_data,
                       .undeclared_no_data = counts.undeclared_no_data,
                       .shallowest_m = HUGE_VAL,
-                      .deepest_m = -HUGE_VAL};
+                      .deepest_m = -HUGE_VAL,
+                      .warnings = source.warnings()};
   for (const float z : grid.posts()) {
     report.posts_without_depth += std::isnan(z);
     report.posts_above_datum += z < 0;
@@ -149,6 +150,13 @@ RasterReport report_on(const RasterOptions& options, const RasterSource& source,
   }
   require(report.posts_without_depth < grid.posts().size(),
           options.path + ": the raster has no depth anywhere in the scenario's domain");
+  if (report.undeclared_no_data > 0)
+    report.warnings.push_back(
+        std::to_string(report.undeclared_no_data) +
+        " posts are taken as no data that it does not declare: beyond any sea and mountain, or 999 "
+        "and 9999 far from what is around; trust_every_value = true keeps them");
+  if (report.posts_above_datum + report.posts_without_depth == grid.posts().size())
+    report.warnings.emplace_back("all of it lies above the sea; positive_down = true is for files of depths");
   return report;
 }
 

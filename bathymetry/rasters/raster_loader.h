@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "bathymetry/rasters/raster_options.h"
 #include "bathymetry/terrain/height_grid.h"
@@ -37,6 +38,7 @@ struct RasterReport {
   std::size_t posts_without_depth = 0;  // posts of the grid
   std::size_t posts_above_datum = 0;    // of the grid: land; all of them hint at a depth-positive-down file
   double shallowest_m = 0, deepest_m = 0;  // of the grid, z
+  std::vector<std::string> warnings = {};  // what was said while it was opened, and what its values hint at
 };
 
 struct LoadedRaster {

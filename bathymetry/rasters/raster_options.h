@@ -5,6 +5,7 @@
 // system or a place in the world is refused with the option that would supply it. The exceptions are stated.
 #pragma once
 
+#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -25,12 +26,18 @@ struct RasterBounds {
   RowOrder row_order = RowOrder::kNorthFirst;  // of the rows as the file stores them
 };
 
+// True where the user lets a raster be anything that GDAL opens, servers and virtual files among it: by
+// `halocline --any-raster`, which sets HALOCLINE_ANY_RASTER for the programs that it starts.
+inline constexpr const char* kAnyRaster = "HALOCLINE_ANY_RASTER";
+inline bool is_any_raster_allowed() { return std::getenv(kAnyRaster) != nullptr; }
+
 struct RasterOptions {
-  std::string path = {};      // whatever GDAL opens, including "NETCDF:file:variable" and /vsi... paths
+  std::string path = {};      // of a file
   std::string variable = {};  // of a netCDF or HDF file with several; empty: the only one with two dimensions
   int band = 1;               // from 1
 
-  bool positive_down = false;  // the file holds depths; never detected, the report says how much is land
+  bool positive_down =
+      false;  // the file holds depths, and does not say so itself; the report says how much is land
   std::optional<double> no_data = {};  // a value to take as no data beside the declared ones, before scaling
   bool trust_every_value = false;      // no value is suspected of being undeclared no data
 

@@ -8,9 +8,9 @@
 // - a longitude axis whose step is rounded (ETOPO5 drifts by 0.0033 degrees over the globe): a raster that
 // goes
 //   round the earth gets the step 360 / columns;
-// - NoData: declared values, netCDF fills, masks, NaN; values no sea or mountain has (below -12 000 m, above
-//   9 500 m); and undeclared -9999 or 9999, distinguished from a real trench by neighbours none of which is
-//   within 2000 m;
+// - NoData: declared values, netCDF fills, masks, NaN; values no sea or mountain has; and undeclared marks
+//   (suspect_values.h);
+// - axes of netCDF that are unevenly spaced (netcdf_raster_source.h);
 // - scale and offset of the band; feet; rows that run either way.
 // Only windows are read, so a global 15 arc-second grid costs what the scenario covers of it.
 #pragma once
@@ -75,7 +75,8 @@ class RasterSource {
   virtual RasterWindow read(const PixelPosition& low, const PixelPosition& high,
                             PostCounts& counts) const = 0;
 
-  virtual std::string coordinate_system() const = 0;  // by name
+  virtual std::vector<std::string> warnings() const = 0;  // said while it was opened
+  virtual std::string coordinate_system() const = 0;      // by name
   virtual std::string vertical_datum() const = 0;
 };
 

@@ -10,42 +10,106 @@ namespace halocline::bathymetry {
 namespace {
 
 constexpr float kDeepestM = 12'000, kHighestM = 9'500;
-constexpr float kMark = 9999;
+constexpr float kMark = 9999, kSmallMark = 999;
 constexpr float kMaxStepM = 2000;  // between neighbouring posts of real terrain
+constexpr float kLeastCliffM = 50, kCliffSteps = 10;
+constexpr double kUsualShare = 0.95;           // of neighbours
+constexpr std::size_t kMostSteps = 1'000'000;  // looked at
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-bool is_mark(float value) { return std::abs(value) == kMark; }
+bool is_mark(float value) { return std::abs(value) == kMark || std::abs(value) == kSmallMark; }
 
-// Whether a neighbour that is no mark stands within a believable step.
-bool has_believable_neighbour(const RasterWindow& window, int row, int column) {
-  const float value =
-      window.depths_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(window.columns) +
-                      static_cast<std::size_t>(column)];
-  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, window.rows - 1); ++r) {
-    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, window.columns - 1); ++c) {
-      const float other =
-          window.depths_m[static_cast<std::size_t>(r) * static_cast<std::size_t>(window.columns) +
-                          static_cast<std::size_t>(c)];
-      if (!is_mark(other) && std::abs(other - value) <= kMaxStepM) return true;
+class Suspects {
+ public:
+  explicit Suspects(RasterWindow& window) : window_(window), is_seen_(window.depths_m.size(), false) {}
+
+  std::size_t remove() {
+    std::size_t removed = 0;
+    for (float& depth : window_.depths_m) {
+      const bool is_impossible = depth > kDeepestM || depth < -kHighestM;
+      removed += is_impossible ? 1 : 0;
+      depth = is_impossible ? kNone : depth;
+    }
+    std::vector<std::vector<std::size_t>> marked;
+    for (std::size_t post = 0; post < window_.depths_m.size(); ++post) {
+      if (!is_mark(window_.depths_m[post]) || is_seen_[post]) continue;
+      std::vector<std::size_t> patch = patch_from(post);
+      if (is_no_depth(patch)) marked.push_back(std::move(patch));
+    }
+    for (const auto& patch : marked) {
+      for (const std::size_t post : patch) window_.depths_m[post] = kNone;
+      removed += patch.size();
+    }
+    return removed;
+  }
+
+ private:
+  template <class Visit>
+  void for_neighbours(std::size_t post, const Visit& visit) const {
+    const int row = static_cast<int>(post / static_cast<std::size_t>(window_.columns)),
+              column = static_cast<int>(post % static_cast<std::size_t>(window_.columns));
+    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, window_.rows - 1); ++r) {
+      for (int c = std::max(column - 1, 0); c <= std::min(column + 1, window_.columns - 1); ++c)
+        visit(static_cast<std::size_t>(r) * static_cast<std::size_t>(window_.columns) +
+              static_cast<std::size_t>(c));
     }
   }
-  return false;
-}
+
+  // Posts that touch each other and have the same mark.
+  std::vector<std::size_t> patch_from(std::size_t first) {
+    const float mark = window_.depths_m[first];
+    std::vector<std::size_t> patch{first};
+    is_seen_[first] = true;
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      for_neighbours(patch[i], [&](std::size_t post) {
+        if (window_.depths_m[post] != mark || is_seen_[post]) return;
+        is_seen_[post] = true;
+        patch.push_back(post);
+      });
+    }
+    return patch;
+  }
+
+  bool is_no_depth(const std::vector<std::size_t>& patch) {
+    const float mark = window_.depths_m[patch.front()];
+    float nearest = std::numeric_limits<float>::infinity();
+    bool has_others = false;
+    for (const std::size_t inside : patch) {
+      for_neighbours(inside, [&](std::size_t post) {
+        const float depth = window_.depths_m[post];
+        if (std::isnan(depth) || is_mark(depth)) return;
+        has_others = true;
+        nearest = std::min(nearest, std::abs(depth - mark));
+      });
+    }
+    if (std::abs(mark) == kMark) return nearest > kMaxStepM;
+    return has_others && nearest > std::max(kLeastCliffM, kCliffSteps * usual_step());
+  }
+
+  // From a post to the next of its row, between posts that are no marks.
+  float usual_step() {
+    if (usual_step_ >= 0) return usual_step_;
+    std::vector<float> steps;
+    const std::size_t stride = 1 + window_.depths_m.size() / kMostSteps;
+    for (std::size_t post = 0; post + 1 < window_.depths_m.size(); post += stride) {
+      const float a = window_.depths_m[post], b = window_.depths_m[post + 1];
+      const bool is_row = (post + 1) % static_cast<std::size_t>(window_.columns) != 0;
+      if (is_row && !is_mark(a) && !is_mark(b) && std::isfinite(a - b)) steps.push_back(std::abs(a - b));
+    }
+    if (steps.empty()) return usual_step_ = 0;
+    const auto usual =
+        steps.begin() + static_cast<std::ptrdiff_t>(kUsualShare * static_cast<double>(steps.size() - 1));
+    std::nth_element(steps.begin(), usual, steps.end());
+    return usual_step_ = *usual;
+  }
+
+  RasterWindow& window_;
+  std::vector<bool> is_seen_;
+  float usual_step_ = -1;  // not known yet
+};
 
 }  // namespace
 
-std::size_t remove_suspects(RasterWindow& window) {
-  std::vector<std::size_t> suspects;
-  for (int row = 0; row < window.rows; ++row) {
-    for (int column = 0; column < window.columns; ++column) {
-      const std::size_t n = static_cast<std::size_t>(row) * static_cast<std::size_t>(window.columns) +
-                            static_cast<std::size_t>(column);
-      const float depth = window.depths_m[n];
-      const bool impossible = depth > kDeepestM || depth < -kHighestM;
-      if (is_mark(depth) ? !has_believable_neighbour(window, row, column) : impossible) suspects.push_back(n);
-    }
-  }
-  for (const std::size_t n : suspects) window.depths_m[n] = std::numeric_limits<float>::quiet_NaN();
-  return suspects.size();
-}
+std::size_t remove_suspects(RasterWindow& window) { return Suspects(window).remove(); }
 
 }  // namespace halocline::bathymetry

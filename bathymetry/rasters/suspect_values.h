@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds values of a raster that cannot be depths: no data that the file does not declare.
 //
-// Rule: a value deeper than 12 000 m or higher than 9 500 m is none (the deepest sea is 10 935 m, the highest
-// mountain 8 849 m). -9999 and 9999, the usual marks, are real depths too, in a trench: such a post is taken
-// as a mark unless a neighbour that is none lies within 2000 m of it. A rule "below -9999" would cut trenches
-// off.
+// Rules: a value deeper than 12 000 m or higher than 9 500 m is none (the deepest sea is 10 935 m, the
+// highest mountain 8 849 m). 999 and 9999 of either sign, the usual marks, are real depths too, on a slope
+// and in a trench. Posts that touch and have the same mark are judged together, by the posts around them that
+// are none:
+// - 9999 is a mark where none of these lies within 2000 m of it, or there are none;
+// - 999 is one where all of these are further than 50 m and than ten times the step that 95 % of neighbours
+//   keep. A rule "below -9999" would cut trenches off.
 #pragma once
 
 #include <cstddef>

@@ -26,10 +26,12 @@ bool is_whole_multiple(double size_m, double spacing_m) {
   return count >= 1 && count <= kMaxCells && std::abs(count - std::round(count)) <= kDecimalTolerance;
 }
 
-// GDAL's own names ("NETCDF:...", "/vsi...") and absolute paths are taken as they are.
+// Absolute paths are taken as they are, as are GDAL's own names ("WMS:...", "/vsi...") where they are
+// allowed.
 RasterOptions located(RasterOptions options, const std::string& folder) {
   require(!options.path.empty(), "terrain.raster.path is missing; it names a raster file");
-  const bool relative = options.path.front() != '/' && options.path.find(':') == std::string::npos;
+  const bool is_name = is_any_raster_allowed() && options.path.find(':') != std::string::npos;
+  const bool relative = options.path.front() != '/' && !is_name;
   if (relative && !folder.empty()) options.path = folder + "/" + options.path;
   return options;
 }

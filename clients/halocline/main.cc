@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "bathymetry/rasters/raster_options.h"
 #include "bus/files/output_check.h"
 #include "bus/files/version_text.h"
 #include "bus/runtime/node_process.h"
@@ -29,6 +31,14 @@ void refuse_nan(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands({})) refuse_nan(*command);
 }
 
+// It holds for the programs that a run starts, too.
+void add_any_raster_option(CLI::App& app) {
+  const auto allow = [](std::int64_t) { setenv(halocline::bathymetry::kAnyRaster, "1", 1); };
+  app.add_flag_function("--any-raster", allow,
+                        "rasters may be anything that GDAL opens: virtual files and servers, too")
+      ->trigger_on_parse();
+}
+
 void describe(CLI::App& app, int& exit_code) {
   app.set_version_flag("--version", [] { return halocline::bus::version_text("halocline"); });
   app.require_subcommand(1);
@@ -42,6 +52,7 @@ void describe(CLI::App& app, int& exit_code) {
         hc::add_waveform_command, hc::add_view_command, hc::add_config_command, hc::add_completion_command}) {
     add(app, exit_code);
   }
+  add_any_raster_option(app);
   refuse_nan(app);
 }
 

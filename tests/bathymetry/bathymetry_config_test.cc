@@ -115,8 +115,13 @@ TEST(BathymetryConfig, ARasterThatIsNotThereIsAnErrorThatNamesIt) {
             std::string::npos);
   EXPECT_NE(errors_of("[[terrain.nested]]\n[terrain.nested.raster]\npath = \"gone.tif\"").find(gone),
             std::string::npos);
-  // Names of GDAL's own are no files.
-  EXPECT_EQ(errors_of("[terrain]\nkind = \"raster\"\n[terrain.raster]\npath = \"NETCDF:gone.nc:z\""), "");
+  for (const char* name : {"NETCDF:gone.nc:z", "/vsicurl/http://127.0.0.1/a.tif", "WMS:http://127.0.0.1/"}) {
+    EXPECT_NE(
+        errors_of("[terrain]\nkind = \"raster\"\n[terrain.raster]\npath = \"" + std::string(name) + "\"")
+            .find(gone),
+        std::string::npos)
+        << name;
+  }
 }
 
 TEST(BathymetryConfig, BoundsNeedFourNumbersAndARowOrder) {

@@ -161,11 +161,12 @@ void check_rasters(const ScenarioConfig& config, const bathymetry::PreparedTerra
     const RasterReport& report = prepared.rasters[i];
     const bool is_base = has_base && i == 0;
     const std::size_t nested = i - (has_base ? 1 : 0);
+    const std::string key =
+        is_base ? "terrain.raster.path" : "terrain.nested." + std::to_string(nested) + ".raster.path";
+    for (const std::string& warning : report.warnings) file.warn(key, report.path, warning);
     const bool is_filled =
         !is_base && config.terrain.nested.at(nested).holes == bathymetry::Holes::kFillFromAround;
     if (report.posts_without_depth == 0 || is_filled) continue;
-    const std::string key =
-        is_base ? "terrain.raster.path" : "terrain.nested." + std::to_string(nested) + ".raster.path";
     file.warn(key, report.path,
               std::to_string(report.posts_without_depth) +
                   " posts of the grid have no depth: the raster is smaller than the grid, or has no data "
