@@ -61,8 +61,7 @@ std::optional<std::string> find(const NetcdfFile& file, const Names& standard_na
 }
 
 void refuse_conservative(const NetcdfFile& file) {
-  const Names kNames{"sea_water_conservative_temperature"};
-  auto variable = by_standard_name(file, kNames);
+  auto variable = by_standard_name(file, {"sea_water_conservative_temperature"});
   if (!variable && file.has("CT")) variable = "CT";
   if (variable)
     file.refuse(*variable,

@@ -49,10 +49,10 @@ double position_on(const std::vector<double>& posts, double value) {
 
 // The axes of a variable by kind, of its last two dimensions that have a meaning.
 struct Layout {
-  std::string variable;
-  std::string latitude, longitude;  // coordinate variables; empty: none
+  std::string variable = {};
+  std::string latitude = {}, longitude = {};  // coordinate variables; empty: none
   bool latitude_first = true;
-  std::vector<std::string> others;  // coordinate variables of no such kind
+  std::vector<std::string> others = {};  // coordinate variables of no such kind
 };
 
 Layout layout_of(const NetcdfFile& file, const std::string& variable) {

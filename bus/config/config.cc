@@ -42,8 +42,6 @@ void seconds(ConfigVisitor& v, std::string_view key, SimDuration& value, const N
   value = SimDuration::from_seconds(value_s);
 }
 
-std::string why_unreadable(const std::string& path) { return halocline::why_unreadable(path); }
-
 void require_readable(ConfigVisitor& v, std::string_view key, const std::string& path) {
   if (v.writing()) return;
   const std::string whole = (std::filesystem::path(v.folder()) / path).string();

@@ -123,9 +123,6 @@ std::vector<std::string> names_of(const std::array<Enum, count>& values) {
 // A duration, in seconds in the file (its key ends in _s).
 void seconds(ConfigVisitor& v, std::string_view key, SimDuration& value, const NumberRule& rule_in_seconds);
 
-// Why a file cannot be read, in words; empty when it can.
-std::string why_unreadable(const std::string& path);
-
 // The value of `key` names a file, from folder(): what cannot be read becomes an error with the reason.
 void require_readable(ConfigVisitor& v, std::string_view key, const std::string& path);
 

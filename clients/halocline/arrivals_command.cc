@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "acoustics/rays/arrivals.h"
@@ -13,6 +16,10 @@
 #include "clients/halocline/arrivals/sea_files.h"
 #include "clients/halocline/commands.h"
 #include "core/check.h"
+#include "core/csv_table.h"
+#include "core/elementary.h"
+#include "core/input_file.h"
+#include "core/units.h"
 
 namespace halocline::clients {
 namespace {
@@ -20,17 +27,36 @@ namespace {
 struct ArrivalsArguments {
   SeaDescription sea;
   std::string links, solver, format = "table", output, plot;
-  double source_depth_m = 0, receiver_depth_m = 0, range_m = -1;
+  double source_depth_m = 0, receiver_depth_m = 0;
+  std::optional<double> range_m;
   bool force = false;
 };
 
 std::vector<acoustics::RayLink> links_of(const ArrivalsArguments& arguments) {
-  require(arguments.links.empty() != (arguments.range_m < 0), "give either --links or --range-m, not both");
-  if (arguments.links.empty())
-    return {{arguments.source_depth_m, arguments.receiver_depth_m, arguments.range_m}};
-  std::ifstream file(arguments.links);
-  require(file.is_open(), "cannot read " + arguments.links);
+  require(arguments.links.empty() == arguments.range_m.has_value(),
+          "give either --links or --range-m, not both");
+  if (arguments.range_m) {
+    require(*arguments.range_m >= 0,
+            "range is " + format_number(*arguments.range_m) + " m; allowed is 0 and more");
+    return {{arguments.source_depth_m, arguments.receiver_depth_m, *arguments.range_m}};
+  }
+  std::ifstream file = open_input(arguments.links);
   return read_links(file, arguments.links);
+}
+
+// Links whose path over the surface, the steepest of those with one bounce at most, is left out.
+void note_steep_paths(const std::vector<LinkArrivals>& found, double max_launch_angle_deg) {
+  const auto is_steep = [&](const LinkArrivals& one) {
+    const double height_m = one.link.source_depth_m + one.link.receiver_depth_m;
+    return to_degrees(elementary::atan2(height_m, one.link.range_m)) > max_launch_angle_deg;
+  };
+  const auto first = std::find_if(found.begin(), found.end(), is_steep);
+  if (first == found.end()) return;
+  const auto others = std::count_if(first + 1, found.end(), is_steep);
+  std::cerr << "note: at a range of " << format_number(first->link.range_m) << " m"
+            << (others > 0 ? ", and of " + std::to_string(others) + " links more," : "")
+            << " paths steeper than " << format_number(max_launch_angle_deg)
+            << " degrees were not searched; --max-launch-angle-deg 90 searches all\n";
 }
 
 OutputFormat format_of(const std::string& name) {
@@ -46,6 +72,7 @@ int find_arrivals(const ArrivalsArguments& arguments) {
   std::vector<LinkArrivals> found;
   for (const acoustics::RayLink& link : links_of(arguments))
     found.push_back({link, arrivals(sea, link, solver)});
+  note_steep_paths(found, arguments.sea.max_launch_angle_deg);
   if (!arguments.plot.empty()) write_plot(arrival_plot(found, "Arrivals"), arguments.plot);
   std::ostringstream text;  // so that nothing is written unless all went well
   print_arrivals(text, found, format_of(arguments.format));
@@ -56,6 +83,8 @@ int find_arrivals(const ArrivalsArguments& arguments) {
 void add_water_options(CLI::App& command, SeaDescription& sea) {
   command.add_option("--water", sea.water,
                      "profile: CSV (depth_m, sound_speed_mps), netCDF or built-in name");
+  command.add_option("--latitude", sea.latitude_deg, "degrees: of the place in a netCDF of --water");
+  command.add_option("--longitude", sea.longitude_deg, "likewise");
   command.add_option("--sound-speed-mps", sea.sound_speed_mps, "the same at every depth, instead of --water");
   command.add_option("--frequency-khz", sea.frequency_khz, "of absorption and reflection");
   command.add_option("--absorption", sea.absorption, "formula by name (see calc absorption), or none");

@@ -307,6 +307,7 @@ const std::vector<Room>& rooms() {
         "acoustics/modem",
         "acoustics/rays",
         "acoustics/link",
+        "bathymetry/rasters/raster_options.h",
         "bus",
         "bus/config",
         "bus/files",

@@ -17,6 +17,7 @@
 #include "core/check.h"
 #include "core/csv_table.h"
 #include "core/elementary.h"
+#include "core/input_file.h"
 
 namespace halocline::clients {
 namespace {
@@ -72,8 +73,14 @@ SoundSpeedProfile profile_of(const SeaDescription& sea) {
   if (sea.sound_speed_mps) return SoundSpeedProfile::isovelocity(*sea.sound_speed_mps, assumed);
   if (auto built_in = acoustics::built_in_profile(sea.water, std::nullopt, assumed))
     return *std::move(built_in);
-  return acoustics::read_profile(sea.water, {acoustics::SoundSpeedModel::kMackenzie1981, kLatitude, assumed},
-                                 kLatitude, 0);
+  const bool has_place = sea.latitude_deg && sea.longitude_deg;
+  require(has_place || acoustics::is_profile_table(sea.water),
+          sea.water + " is a grid of water: give the place in it by --latitude and --longitude");
+  const double latitude = sea.latitude_deg
+                              ? to_radians(require_in_range(*sea.latitude_deg, -90, 90, "latitude", "deg"))
+                              : kLatitude;
+  return acoustics::read_profile(sea.water, {acoustics::SoundSpeedModel::kMackenzie1981, latitude, assumed},
+                                 latitude, to_radians(sea.longitude_deg.value_or(0)));
 }
 
 acoustics::AbsorptionAtDepth absorption_of(const SeaDescription& sea) {
@@ -106,8 +113,7 @@ acoustics::BottomProfile profile_of_bottom(const SeaDescription& sea) {
   require(sea.bottom.empty() != !sea.bottom_depth_m.has_value(),
           "give the bottom: either a file or one depth");
   if (sea.bottom_depth_m) return acoustics::BottomProfile::flat(*sea.bottom_depth_m);
-  std::ifstream file(sea.bottom);
-  require(file.is_open(), "cannot read " + sea.bottom);
+  std::ifstream file = open_input(sea.bottom);
   return acoustics::BottomProfile(read_bottom_profile(file, sea.bottom), to_radians(sea.crease_angle_deg));
 }
 

@@ -21,23 +21,24 @@
 namespace halocline::clients {
 
 struct SeaDescription {
-  std::string water;                       // file or built-in name; empty: the speed below everywhere
-  std::optional<double> sound_speed_mps;   // 1000..2000
-  std::string bottom;                      // file; empty: the depth below everywhere
-  std::optional<double> bottom_depth_m;    // 0.1..12 000
-  std::string sediment;                    // TR 9407 name; empty: the three numbers below
-  double bottom_density_ratio = 1.9;       // to the water
-  double bottom_sound_speed_mps = 1650;    // of the sediment
-  double bottom_attenuation_db = 0.8;      // per wavelength
-  std::string surface = "flat";            // acoustics::SurfaceModel by name
-  double wind_mps = 0;                     // 0..60
-  std::string absorption = "none";         // acoustics::AbsorptionModel by name, or none
-  double temperature_degc = 10;            // of the water that absorbs
-  double salinity_psu = 35;                // likewise
-  double ph = 8;                           // likewise
-  double frequency_khz = 25;               // 0.01..1000
-  double max_launch_angle_deg = 80;        // 0..90
-  bool keep_steep_direct = true;           // also the direct path when it is steeper than that
+  std::string water;                      // file or built-in name; empty: the speed below everywhere
+  std::optional<double> sound_speed_mps;  // 1000..2000
+  std::optional<double> latitude_deg, longitude_deg;  // of the place in a grid of water
+  std::string bottom;                                 // file; empty: the depth below everywhere
+  std::optional<double> bottom_depth_m;               // 0.1..12 000
+  std::string sediment;                               // TR 9407 name; empty: the three numbers below
+  double bottom_density_ratio = 1.9;                  // to the water
+  double bottom_sound_speed_mps = 1650;               // of the sediment
+  double bottom_attenuation_db = 0.8;                 // per wavelength
+  std::string surface = "flat";                       // acoustics::SurfaceModel by name
+  double wind_mps = 0;                                // 0..60
+  std::string absorption = "none";                    // acoustics::AbsorptionModel by name, or none
+  double temperature_degc = 10;                       // of the water that absorbs
+  double salinity_psu = 35;                           // likewise
+  double ph = 8;                                      // likewise
+  double frequency_khz = 25;                          // 0.01..1000
+  double max_launch_angle_deg = 80;                   // 0..90
+  bool keep_steep_direct = true;                      // also the direct path when it is steeper than that
   double crease_angle_deg = 5;             // of the bottom: above it a corner, below a bend; 0..180
   int max_bounces = 400;                   // 0..10 000
   double min_boundary_factor = 0.005;      // of the pressure, product over all bounces, 0..1

@@ -71,6 +71,18 @@ TEST(SeaFiles, ThePathLossOfAbsorptionIsThatOfTheFormula) {
       1e-9);
 }
 
+TEST(SeaFiles, AGridOfWaterNeedsAPlace) {
+  SeaDescription sea = still_water();
+  sea.sound_speed_mps.reset();
+  sea.water = "model.nc";
+  EXPECT_THAT(what_is_wrong([&] { make_sea(sea); }),
+              HasSubstr("model.nc is a grid of water: give the place in it by --latitude and --longitude"));
+  sea.latitude_deg = 45;
+  sea.longitude_deg = 0;
+  EXPECT_THAT(what_is_wrong([&] { make_sea(sea); }),
+              HasSubstr("cannot read model.nc: there is no such file"));
+}
+
 TEST(SeaFiles, ImpossibleOptionsAreRefusedWithWhatIsAllowed) {
   SeaDescription sea = still_water();
   sea.water = "munk";
