@@ -62,10 +62,11 @@ TEST(Programs, NoFileThatAUserNamesIsWaitedFor) {
       {kHalocline, "calc", "sound-speed", table},
       {kHalocline, "log", "info", any},
       {kHalocline, "outcomes", any},
-      {kHalocline, "replay", any},
+      {kHalocline, "replay", any, "--log", out + ".lcm"},
       {kHalocline, "sweep", toml, "--out", out},
       {std::string(HALOCLINE_BIN_DIR) + "/halocline-bathymetry", toml}};
-  for (const char* command : {"config", "run", "link"}) commands.push_back({kHalocline, command, toml});
+  for (const char* command : {"config", "run"}) commands.push_back({kHalocline, command, toml});
+  commands.push_back({kHalocline, "link", toml, "--from", "a", "--to", "b"});
   for (const std::string& key :
        {"environment.profile_file='" + table + "'", "environment.profile_file='" + any + "'"})
     commands.push_back({kHalocline, "config", scenario, "--set", "environment.profile='file'", "--set", key});
