@@ -174,7 +174,9 @@ ReceiveFilter::ReceiveFilter(lcm::LCM& lcm, const std::string& url, AcceptedHost
     : hosts_(std::move(hosts)) {
   const std::vector<int> sockets = receiving_sockets(lcm, url);
   const FilterProgram for_all = receive_program({".*"}, hosts_);
-  bool is_attached = !sockets.empty() || !url.starts_with("udpm://");
+  const bool is_network =
+      url.starts_with("udpm://") && lcm.getFileno() >= 0;  // else there is nothing to receive
+  bool is_attached = !sockets.empty() || !is_network;
   for (const int socket : sockets) is_attached = attach_filter(socket, for_all) && is_attached;
   if (!is_attached) warn_of_missing_filter();
   if (sockets.size() == 1) socket_ = sockets[0];
