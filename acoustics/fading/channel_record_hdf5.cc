@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,6 +23,8 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kOldestVersion = 1, kFirstUnknownVersion = 2;
+// Of a number in the file; HDF5 allocates what a damaged header claims.
+constexpr std::size_t kMaxNumberBytes = 16;
 
 // An identifier of HDF5 that is closed by the function of its kind.
 class Handle {
@@ -66,7 +71,7 @@ class Dataset {
   }
   void require_real() const {
     const H5T_class_t kind = H5Tget_class(type());
-    require(kind == H5T_FLOAT || kind == H5T_INTEGER,
+    require((kind == H5T_FLOAT || kind == H5T_INTEGER) && H5Tget_size(type()) <= kMaxNumberBytes,
             place_ + ": is not of numbers; allowed are real numbers");
   }
 
@@ -91,7 +96,8 @@ double read_number(hid_t file, const std::string& path, const std::string& name)
 
 // The names of a complex number's parts in the file.
 std::pair<const char*, const char*> complex_names(const Dataset& set) {
-  if (H5Tget_class(set.type()) == H5T_COMPOUND && H5Tget_nmembers(set.type()) == 2) {
+  if (H5Tget_class(set.type()) == H5T_COMPOUND && H5Tget_size(set.type()) <= 2 * kMaxNumberBytes &&
+      H5Tget_nmembers(set.type()) == 2) {
     for (const auto& [real, imaginary] : {std::pair("real", "imag"), std::pair("r", "i")}) {
       if (H5Tget_member_index(set.type(), real) >= 0 && H5Tget_member_index(set.type(), imaginary) >= 0) {
         return {real, imaginary};
@@ -162,6 +168,11 @@ ChannelRecord read_record(const std::string& path, std::size_t receiver) {
           taps.place() + ": is of size " + taps.dimensions_text() + "; allowed are " +
               std::to_string(kMaxRecordDelays) + " delays and " + std::to_string(kMaxRecordTaps) +
               " values a receiver");
+  // Deflate makes a byte of 1032 at most; a damaged header claims what no file of its size holds.
+  constexpr std::uintmax_t kMaxCompression = 1032;
+  require(
+      size[0] * size[2] <= kMaxCompression * std::filesystem::file_size(path) / sizeof(std::complex<float>),
+      taps.place() + ": is of size " + taps.dimensions_text() + "; the file is too short for that");
   record.delays = size[2];
   record.taps = read_taps(taps, receiver);
   validate(record);
