@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathymetry/bathymetry_config.h"
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bathymetry/rasters/raster_options.h"
@@ -11,6 +13,8 @@ namespace halocline::bathymetry {
 namespace {
 
 using bus::ConfigVisitor;
+
+const std::vector<std::string> kKinds{"flat", "slope", "ridge", "seamount", "raster"};
 
 void visit_domain(ConfigVisitor& v, DomainRecipe& d) {
   v.number("center_north_m", d.center_north_m, {-1e6, 1e6, "m", "centre of the grid, north of the origin"});
@@ -32,8 +36,10 @@ void visit_bounds(ConfigVisitor& v, RasterOptions& r) {
   v.numbers("bounds", numbers,
             {-1e8, 1e8, "",
              "only for a raster without a geotransform: west, south, east, north of its pixel edges"});
-  bus::choice(v, "row_order", bounds.row_order, {"north_first", "south_first"},
-              "with bounds: how the file stores rows");
+  v.when(!numbers.empty(), "bounds", [&] {
+    bus::choice(v, "row_order", bounds.row_order, {"north_first", "south_first"},
+                "with bounds: how the file stores rows");
+  });
   if (numbers.empty()) return;
   if (numbers.size() != 4 || !(numbers[0] < numbers[2] && numbers[1] < numbers[3])) {
     return v.problem("bounds",
@@ -69,18 +75,27 @@ void require_raster(ConfigVisitor& v, const std::string& path) {
   if (!is_any_raster_allowed()) bus::require_readable(v, "path", path);
 }
 
+// Visits what belongs to one kind of terrain.
+void with_kind(ConfigVisitor& v, const TerrainRecipe& t, TerrainKind kind,
+               const std::function<void()>& body) {
+  bus::when_one_of(v, "kind", t.kind, kKinds, {kind}, body);
+}
+
 void visit_shapes(ConfigVisitor& v, TerrainRecipe& t) {
   constexpr double kDeep = 12'000;
-  v.section("flat", "kind = flat", [&](ConfigVisitor& s) {
+  const auto shape = [&](std::string_view key, std::string_view meaning, TerrainKind kind, auto&& body) {
+    with_kind(v, t, kind, [&] { v.section(key, meaning, body); });
+  };
+  shape("flat", "kind = flat", TerrainKind::kFlat, [&](ConfigVisitor& s) {
     s.number("depth_m", t.flat.depth_m, {-kDeep, kDeep, "m", "z of the bottom"});
   });
-  v.section("slope", "kind = slope: a plane", [&](ConfigVisitor& s) {
+  shape("slope", "kind = slope: a plane", TerrainKind::kSlope, [&](ConfigVisitor& s) {
     s.number("depth_m", t.slope.depth_m, {-kDeep, kDeep, "m", "z of the bottom at the origin"});
     s.number("slope", t.slope.slope, {-10, 10, "", "metres down a metre along the azimuth"});
     bus::degrees(s, "azimuth_deg", t.slope.azimuth_rad,
                  {-360, 360, "deg", "where it falls away, clockwise from north"});
   });
-  v.section("ridge", "kind = ridge: Gaussian across, endless along", [&](ConfigVisitor& s) {
+  shape("ridge", "kind = ridge: Gaussian across, endless along", TerrainKind::kRidge, [&](ConfigVisitor& s) {
     s.number("depth_m", t.ridge.depth_m, {-kDeep, kDeep, "m", "z of the bottom far from it"});
     s.number("height_m", t.ridge.height_m,
              {-kDeep, kDeep, "m", "of the crest above that; negative: a trench"});
@@ -90,7 +105,7 @@ void visit_shapes(ConfigVisitor& v, TerrainRecipe& t) {
     bus::degrees(s, "azimuth_deg", t.ridge.azimuth_rad,
                  {-360, 360, "deg", "along the crest, clockwise from north"});
   });
-  v.section("seamount", "kind = seamount: a round Gaussian", [&](ConfigVisitor& s) {
+  shape("seamount", "kind = seamount: a round Gaussian", TerrainKind::kSeamount, [&](ConfigVisitor& s) {
     s.number("depth_m", t.seamount.depth_m, {-kDeep, kDeep, "m", "z of the bottom far from it"});
     s.number("height_m", t.seamount.height_m,
              {-kDeep, kDeep, "m", "of the summit above that; negative: a basin"});
@@ -102,11 +117,13 @@ void visit_shapes(ConfigVisitor& v, TerrainRecipe& t) {
 
 void visit_relief(ConfigVisitor& v, FractalRelief& r) {
   v.number("rms_m", r.rms_m, {0, 5000, "m", "standard deviation; 0: no relief"});
-  v.number("longest_wavelength_m", r.longest_wavelength_m, {0.01, 1e6, "m", "of the largest features"});
-  v.number("shortest_wavelength_m", r.shortest_wavelength_m,
-           {0.01, 1e6, "m", "of the smallest; below two posts: cut"});
-  v.number("hurst", r.hurst, {0, 1, "", "smaller is rougher at small scale; the sea floor has about 0.9"});
-  bus::integer_as(v, "seed", r.seed, {0, 9e15, "", "another seed is another relief"});
+  v.when(r.rms_m > 0, "rms_m above 0", [&] {
+    v.number("longest_wavelength_m", r.longest_wavelength_m, {0.01, 1e6, "m", "of the largest features"});
+    v.number("shortest_wavelength_m", r.shortest_wavelength_m,
+             {0.01, 1e6, "m", "of the smallest; below two posts: cut"});
+    v.number("hurst", r.hurst, {0, 1, "", "smaller is rougher at small scale; the sea floor has about 0.9"});
+    bus::integer_as(v, "seed", r.seed, {0, 9e15, "", "another seed is another relief"});
+  });
   if (r.shortest_wavelength_m > r.longest_wavelength_m) {
     v.problem("shortest_wavelength_m", "allowed is at most longest_wavelength_m");
   }
@@ -127,19 +144,23 @@ void visit_nested(ConfigVisitor& v, NestedRecipe& n) {
 
 void visit(ConfigVisitor& v, TerrainRecipe& t) {
   v.section("terrain", "The seabed", [&](ConfigVisitor& s) {
-    bus::choice(s, "kind", t.kind, {"flat", "slope", "ridge", "seamount", "raster"},
-                "what the seabed is made from");
-    bus::choice(s, "frame", t.frame, {"flat", "enu"},
-                "rasters: flat (z is depth) or enu (the earth's curvature in z)");
+    bus::choice(s, "kind", t.kind, kKinds, "what the seabed is made from");
+    const bool has_nested = s.writing() ? !t.nested.empty() : s.given("nested");
+    s.when(t.kind == TerrainKind::kRaster || has_nested, "kind = \"raster\", or a nested raster", [&] {
+      bus::choice(s, "frame", t.frame, {"flat", "enu"},
+                  "rasters: flat (z is depth) or enu (the earth's curvature in z)");
+    });
     visit_domain(s, t.domain);
     visit_shapes(s, t);
-    s.section("raster", "kind = raster: GeoTIFF, netCDF, ESRI ASCII and other files of elevations",
-              [&](ConfigVisitor& r) {
-                visit_raster(r, t.raster);
-                if (t.kind == TerrainKind::kRaster) require_raster(r, t.raster.path);
-              });
-    s.boolean("whole_file", t.whole_file,
-              "true: a raster in local metres, post by post; the grid above is not used");
+    with_kind(s, t, TerrainKind::kRaster, [&] {
+      s.section("raster", "kind = raster: GeoTIFF, netCDF, ESRI ASCII and other files of elevations",
+                [&](ConfigVisitor& r) {
+                  visit_raster(r, t.raster);
+                  if (t.kind == TerrainKind::kRaster) require_raster(r, t.raster.path);
+                });
+      s.boolean("whole_file", t.whole_file,
+                "true: a raster in local metres, post by post; the grid above is not used");
+    });
     s.section("relief", "Synthetic relief on top, fractal and seeded",
               [&](ConfigVisitor& r) { visit_relief(r, t.relief); });
     s.list(

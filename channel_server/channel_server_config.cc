@@ -36,12 +36,16 @@ void visit_count(bus::ConfigVisitor& v, std::string_view key, Count& value, cons
 void visit_noise_variation(bus::ConfigVisitor& v, acoustics::NoiseVariation& n) {
   v.number("noise_spread_db", n.spread_db,
            {0, 30, "dB", "standard deviation of the noise about these; 0: none"});
-  v.number("noise_spread_s", n.spread_time_s, {0.1, 1e6, "s", "its correlation time"});
+  v.when(n.spread_db > 0, "noise_spread_db above 0", [&] {
+    v.number("noise_spread_s", n.spread_time_s, {0.1, 1e6, "s", "its correlation time"});
+  });
   v.number("impulse_exponent", n.burst_exponent,
            {0, 2, "", "of impulsive, alpha-stable noise, 0.5 to 2; 0: there is none"});
-  v.number("impulse_level_db", n.burst_level.value,
-           {-100, 100, "dB", "impulsive noise: its scale over the noise"});
-  bus::seconds(v, "impulse_s", n.burst, {0.001, 60, "s", "impulsive noise: how long a burst lasts"});
+  v.when(n.burst_exponent > 0, "impulse_exponent above 0", [&] {
+    v.number("impulse_level_db", n.burst_level.value,
+             {-100, 100, "dB", "impulsive noise: its scale over the noise"});
+    bus::seconds(v, "impulse_s", n.burst, {0.001, 60, "s", "impulsive noise: how long a burst lasts"});
+  });
   bus::report_refusal(v, "impulse_exponent", [&] { validate(n); });
 }
 
@@ -52,13 +56,18 @@ void visit_vehicle_noise(bus::ConfigVisitor& v, NoiseOf& noise) {
   v.numbers("level_db", levels_db,
             {-200, 300, "dB re 1 uPa^2/Hz at 1 m",
              "of its noise at the reference; linear between, constant beyond"});
-  bus::choice(v, "varies_with", noise.driver, {"propeller", "speed", "nothing"},
+  const std::vector<std::string> kDrivers{"propeller", "speed", "nothing"};
+  bus::choice(v, "varies_with", noise.driver, kDrivers,
               "60 log10 of the turn rate or speed over ground to the reference; nothing: always as loud");
   double turns_per_min = noise.driver == NoiseDriver::kPropeller ? noise.reference * 60 : kReferenceRpm;
   double speed_mps = noise.driver == NoiseDriver::kSpeed ? noise.reference : kReferenceMps;
-  v.number("reference_rpm", turns_per_min,
-           {1, 1e5, "rpm", "varies_with = propeller: of its fastest propeller"});
-  v.number("reference_mps", speed_mps, {0.01, 100, "m/s", "varies_with = speed: over ground"});
+  bus::when_one_of(v, "varies_with", noise.driver, kDrivers, {NoiseDriver::kPropeller}, [&] {
+    v.number("reference_rpm", turns_per_min,
+             {1, 1e5, "rpm", "varies_with = propeller: of its fastest propeller"});
+  });
+  bus::when_one_of(v, "varies_with", noise.driver, kDrivers, {NoiseDriver::kSpeed}, [&] {
+    v.number("reference_mps", speed_mps, {0.01, 100, "m/s", "varies_with = speed: over ground"});
+  });
   noise.reference = noise.driver == NoiseDriver::kPropeller ? turns_per_min / 60 : speed_mps;
   v.number("own_loss_db", noise.own_loss.value, {0, 200, "dB", "from 1 m to its own hydrophone"});
   bus::report_refusal(v, "level_db", [&] {
@@ -86,13 +95,15 @@ void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicl
   }
   v.boolean("has_modem", vehicle.carries_modem,
             "false: a ship or a jammer, which sends and receives nothing");
-  v.boolean("transponder", vehicle.is_transponder,
-            "its modem answers pings to all, of long-baseline ranging");
-  vehicle.has_modem = v.given("modem");
-  if (!vehicle.has_modem) return;
-  if (vehicle.modem == VehicleModem()) vehicle.modem = standard;
-  v.section("modem", "Where it differs from [modem]",
-            [&](bus::ConfigVisitor& modem) { visit_modem(modem, vehicle.modem); });
+  v.when(vehicle.carries_modem, "has_modem = true", [&] {
+    v.boolean("transponder", vehicle.is_transponder,
+              "its modem answers pings to all, of long-baseline ranging");
+    vehicle.has_modem = v.given("modem");
+    if (!vehicle.has_modem) return;
+    if (vehicle.modem == VehicleModem()) vehicle.modem = standard;
+    v.section("modem", "Where it differs from [modem]",
+              [&](bus::ConfigVisitor& modem) { visit_modem(modem, vehicle.modem); });
+  });
 }
 
 void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
@@ -111,10 +122,12 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
                {0, 3600, "s", "how long before its start a transmission may be announced"});
   bus::choice(v, "reach", r.reach.by_level, {"none", "level"},
               "level: links over which sound cannot matter are left out (docs/packets.md); none: none is");
-  v.number("reach_below_noise_db", r.reach.below_noise.value,
-           {0, 200, "dB", "reach: how far below the noise sound disturbs nobody"});
-  v.number("reach_acquired_once_in", r.reach.acquired_once_in,
-           {10, 1e5, "packets", "reach: a preamble that is acquired no more often is not noticed"});
+  v.when(r.reach.by_level, "reach = \"level\"", [&] {
+    v.number("reach_below_noise_db", r.reach.below_noise.value,
+             {0, 200, "dB", "reach: how far below the noise sound disturbs nobody"});
+    v.number("reach_acquired_once_in", r.reach.acquired_once_in,
+             {10, 1e5, "packets", "reach: a preamble that is acquired no more often is not noticed"});
+  });
   v.number("table_range_m", r.reach.table_range_m,
            {0, 4e7, "m", "link tables: peers further away have no row; 0: only those who cannot be heard"});
   visit_count(v, "bottom_points", r.bottom_points,
@@ -169,11 +182,13 @@ void visit_extra_loss(bus::ConfigVisitor& v, ExtraLoss& loss) {
 
 void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
   v.number("wind_mps", e.noise.wind_mps, {0, 60, "m/s", "wind 10 m above the sea: noise"});
-  v.number("shipping", e.noise.shipping, {0, 1, "", "shipping activity: noise"});
-  v.number("rain_mm_per_h", e.noise.rain_mm_per_h, {0, 500, "mm/h", "rain on the sea: noise"});
   v.text("noise_file", e.noise_file, {},
          "CSV of t_s, frequency_khz, level_db: the noise instead of wind, shipping and rain; empty: none");
   if (!e.noise_file.empty()) bus::require_readable(v, "noise_file", e.noise_file);
+  v.when(e.noise_file.empty(), "no noise_file", [&] {
+    v.number("shipping", e.noise.shipping, {0, 1, "", "shipping activity: noise"});
+    v.number("rain_mm_per_h", e.noise.rain_mm_per_h, {0, 500, "mm/h", "rain on the sea: noise"});
+  });
   visit_noise_variation(v, e.noise_variation);
 }
 

@@ -70,9 +70,13 @@ void visit_replay(bus::ConfigVisitor& v, ReplayConfig& config) {
   v.text("replay", config.file, {},
          "measured channel of every link, HDF5 (docs/packets.md); empty: fading by the model");
   if (!config.file.empty()) bus::require_readable(v, "replay", config.file);
-  v.integer("replay_receiver", config.receiver, kReceiver);
-  bus::choice(v, "replay_level", config.level, kLevels,
-              "replay: received level by the model of propagation, or by the file's own gain");
+  v.when(!config.file.empty(), "replay = \"FILE\"",
+         [&] { v.integer("replay_receiver", config.receiver, kReceiver); });
+  const bool has_pairs = v.writing() ? !config.pairs.empty() : v.given("replay_pair");
+  v.when(has_pairs || !config.file.empty(), "replay = \"FILE\" or a replay_pair", [&] {
+    bus::choice(v, "replay_level", config.level, kLevels,
+                "replay: received level by the model of propagation, or by the file's own gain");
+  });
   v.list(
       "replay_pair", "A measured channel of one pair", config.pairs.size(),
       [&](std::size_t n) { config.pairs.resize(n); },

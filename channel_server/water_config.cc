@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -61,17 +63,32 @@ void check_tables(bus::ConfigVisitor& v, const ProfileConfig& p) {
   bus::report_refusal(v, "speeds_mps", [&] { speed_table(p); });
 }
 
+// Visits the keys of some sources alone.
+void with_profile(bus::ConfigVisitor& v, const ProfileConfig& p, std::initializer_list<ProfileSource> sources,
+                  const std::function<void()>& body) {
+  bus::when_one_of(v, "profile", p.source, kProfileSources, sources, body);
+}
+
 void visit_tables(bus::ConfigVisitor& v, ProfileConfig& p) {
-  v.points("water_rows", p.water_rows,
-           {-1e5, 1e5, "", "water-table: rows of [depth m, temperature degC, salinity psu], depth rising"});
-  v.numbers("speed_depths_m", p.speed_depths_m,
-            {0, acoustics::kDeepestWater, "m", "speed-table: depths, rising"});
-  v.numbers("speeds_mps", p.speeds_mps, {1000, 2000, "m/s", "speed-table: a speed for each depth"});
-  v.number("isovelocity_mps", p.isovelocity_mps, {1000, 2000, "m/s", "isovelocity: the speed everywhere"});
-  v.number("assumed_temperature_degc", p.assumed.temperature_degc,
-           {-5, 45, "degC", "water of profiles that hold speeds only"});
-  v.number("assumed_salinity_psu", p.assumed.salinity_psu,
-           {0, 50, "psu", "water of profiles that hold speeds only"});
+  using Source = ProfileSource;
+  with_profile(v, p, {Source::kWaterTable}, [&] {
+    v.points("water_rows", p.water_rows,
+             {-1e5, 1e5, "", "water-table: rows of [depth m, temperature degC, salinity psu], depth rising"});
+  });
+  with_profile(v, p, {Source::kSpeedTable}, [&] {
+    v.numbers("speed_depths_m", p.speed_depths_m,
+              {0, acoustics::kDeepestWater, "m", "speed-table: depths, rising"});
+    v.numbers("speeds_mps", p.speeds_mps, {1000, 2000, "m/s", "speed-table: a speed for each depth"});
+  });
+  with_profile(v, p, {Source::kIsovelocity}, [&] {
+    v.number("isovelocity_mps", p.isovelocity_mps, {1000, 2000, "m/s", "isovelocity: the speed everywhere"});
+  });
+  with_profile(v, p, {Source::kMunk, Source::kIsovelocity, Source::kSpeedTable, Source::kFile}, [&] {
+    v.number("assumed_temperature_degc", p.assumed.temperature_degc,
+             {-5, 45, "degC", "water of profiles that hold speeds only"});
+    v.number("assumed_salinity_psu", p.assumed.salinity_psu,
+             {0, 50, "psu", "water of profiles that hold speeds only"});
+  });
   check_tables(v, p);
 }
 
@@ -93,7 +110,7 @@ void visit_file(bus::ConfigVisitor& v, ProfileConfig& p) {
 void visit_profile(bus::ConfigVisitor& v, ProfileConfig& p) {
   bus::choice(v, "profile", p.source, kProfileSources, "where the sound-speed profile comes from");
   visit_tables(v, p);
-  visit_file(v, p);
+  with_profile(v, p, {ProfileSource::kFile}, [&] { visit_file(v, p); });
 }
 
 void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
@@ -131,9 +148,12 @@ std::vector<std::string> surface_models() {
 void visit_boundaries(bus::ConfigVisitor& v, PropagationConfig& p) {
   v.text("sediment", p.sediment, sediments(),
          "rays: the bottom, by its name in APL-UW TR 9407, or by numbers");
-  v.number("bottom_density_ratio", p.bottom_density_ratio, {0.5, 10, "", "custom: density over the water's"});
-  v.number("bottom_sound_speed_mps", p.bottom_sound_speed_mps, {500, 7000, "m/s", "custom"});
-  v.number("bottom_attenuation_db_per_wavelength", p.bottom_attenuation_db, {0, 54, "dB", "custom"});
+  v.when(p.sediment == kCustom, "sediment = \"custom\"", [&] {
+    v.number("bottom_density_ratio", p.bottom_density_ratio,
+             {0.5, 10, "", "custom: density over the water's"});
+    v.number("bottom_sound_speed_mps", p.bottom_sound_speed_mps, {500, 7000, "m/s", "custom"});
+    v.number("bottom_attenuation_db_per_wavelength", p.bottom_attenuation_db, {0, 54, "dB", "custom"});
+  });
   v.text("surface_loss_model", p.surface_loss_model, surface_models(),
          "rays: what the wind takes from a bounce at the surface");
 }
@@ -143,21 +163,32 @@ bool is_coherent_loss(std::string_view surface_model) {
   return surface_model != "flat" && surface_model != "apl-bubbles";
 }
 
+// Visits the keys that the straight path ignores.
+void with_rays(bus::ConfigVisitor& v, const PropagationConfig& p, const std::function<void()>& body) {
+  bus::when_one_of(v, "model", p.model, kPropagationModels, {PropagationModel::kRays}, body);
+}
+
+void visit_rough_boundaries(bus::ConfigVisitor& v, acoustics::FadingModel& f) {
+  v.number("bottom_roughness_m", f.bottom_roughness_m, {0, 1, "m", "fading: rms height of the bottom"});
+  bus::choice(v, "scattering_loss", f.scattering_loss, kScattering,
+              "fading: lambert: what rough boundaries scatter beyond the bottom's critical angle is lost");
+}
+
 void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
   acoustics::FadingModel& f = p.fading;
   bus::choice(
       v, "fading", f.enabled, {"none", "sea"},
       "sea: paths fade by waves, rough bottom and medium (docs/packets.md); none: powers of paths add");
-  v.number("rice_factor_db", f.rice_factor_db,
-           {-20, 60, "dB", "fading: steady over varying power of the medium"});
-  v.number("medium_coherence_s", f.medium_coherence_s,
-           {0.1, 1e6, "s", "fading: coherence time of the medium"});
-  v.number("large_scale_fading_db", f.large_scale_db,
-           {0, 20, "dB", "fading: standard deviation of a link's level over minutes"});
-  v.number("large_scale_fading_s", f.large_scale_time_s, {0.1, 1e6, "s", "fading: its correlation time"});
-  v.number("bottom_roughness_m", f.bottom_roughness_m, {0, 1, "m", "fading: rms height of the bottom"});
-  bus::choice(v, "scattering_loss", f.scattering_loss, kScattering,
-              "fading: lambert: what rough boundaries scatter beyond the bottom's critical angle is lost");
+  v.when(f.enabled, "fading = \"sea\"", [&] {
+    v.number("rice_factor_db", f.rice_factor_db,
+             {-20, 60, "dB", "fading: steady over varying power of the medium"});
+    v.number("medium_coherence_s", f.medium_coherence_s,
+             {0.1, 1e6, "s", "fading: coherence time of the medium"});
+    v.number("large_scale_fading_db", f.large_scale_db,
+             {0, 20, "dB", "fading: standard deviation of a link's level over minutes"});
+    v.number("large_scale_fading_s", f.large_scale_time_s, {0.1, 1e6, "s", "fading: its correlation time"});
+    with_rays(v, p, [&] { visit_rough_boundaries(v, f); });
+  });
   if (f.enabled && is_coherent_loss(p.surface_loss_model)) {
     v.problem("surface_loss_model",
               "with fading = \"sea\" a rough surface scatters the coherent sound and loses nothing; allowed "
@@ -169,18 +200,18 @@ void visit_reverberation(bus::ConfigVisitor& v, PropagationConfig& p) {
   acoustics::Reverberation& r = p.reverberation;
   bus::choice(v, "reverberation", r.enabled, kScattering,
               "rays: lambert: rough boundaries leave a tail behind every packet (docs/scenarios.md)");
-  v.number("bottom_scattering_db", r.bottom_scattering_db,
-           {-80, -5, "dB", "reverberation: of the bottom, by Lambert's law"});
-  v.number("surface_scattering_db", r.surface_scattering_db,
-           {-80, -5, "dB", "reverberation: of the surface, likewise"});
-  v.number("reverberation_bounce_loss_db", r.bounce_loss_db,
-           {0.01, 100, "dB", "reverberation: that the tail loses at each bounce off the bottom"});
+  v.when(r.enabled, "reverberation = \"lambert\"", [&] {
+    v.number("bottom_scattering_db", r.bottom_scattering_db,
+             {-80, -5, "dB", "reverberation: of the bottom, by Lambert's law"});
+    v.number("surface_scattering_db", r.surface_scattering_db,
+             {-80, -5, "dB", "reverberation: of the surface, likewise"});
+    v.number("reverberation_bounce_loss_db", r.bounce_loss_db,
+             {0.01, 100, "dB", "reverberation: that the tail loses at each bounce off the bottom"});
+  });
   if (r.enabled && !p.fading.enabled) v.problem("reverberation", "\"lambert\" needs fading = \"sea\"");
 }
 
-void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
-  bus::choice(v, "model", p.model, kPropagationModels,
-              "rays where the bottom is known, or one straight path (the paper's)");
+void visit_rays(bus::ConfigVisitor& v, PropagationConfig& p) {
   visit_boundaries(v, p);
   v.text("solver", p.solver, {std::string(kAnySolver), "images", "snell", "arcs"},
          "rays: how paths are found, where that way can; auto: the simplest that is exact");
@@ -207,12 +238,22 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
            {0, acoustics::kDeepestWater, "m", "rays: of the water anywhere; more shortens the reach"});
   v.number("greatest_depth_m", p.greatest_depth_m,
            {0, acoustics::kDeepestWater, "m", "rays: of the water anywhere"});
-  v.boolean("reuse_for_packets", p.reuse_for_packets, "rays: packets share these searches, too");
+  v.when(p.reuse_distance_m > 0, "reuse_distance_m above 0", [&] {
+    v.boolean("reuse_for_packets", p.reuse_for_packets, "rays: packets share these searches, too");
+  });
   v.number("shadow_loss_db", p.shadow_loss_db,
            {0, 400, "dB", "rays: transmission loss in a shadow; 0: nothing is received"});
+}
+
+void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
+  bus::choice(v, "model", p.model, kPropagationModels,
+              "rays where the bottom is known, or one straight path (the paper's)");
+  with_rays(v, p, [&] { visit_rays(v, p); });
   visit_fading(v, p);
-  visit_reverberation(v, p);
-  v.boolean("coherent", p.coherent, "rays: add paths as phasors at the centre frequency, not their powers");
+  with_rays(v, p, [&] {
+    visit_reverberation(v, p);
+    v.boolean("coherent", p.coherent, "rays: add paths as phasors at the centre frequency, not their powers");
+  });
   visit_replay(v, p.replay);
 }
 

@@ -81,25 +81,35 @@ void visit_damping(ConfigVisitor& v, Damping& d) {
             {0, 1000, "s/m", "each falls with speed U as exp(-decay U)"});
 }
 
-void visit_lift_drag(ConfigVisitor& v, LiftDrag& l) {
-  v.number("reference_area_m2", l.reference_area_m2, {0, kMax, "m^2", "0: the effect is absent"});
+constexpr std::string_view kWithArea = "reference_area_m2 above 0";
+
+void visit_lift_coefficients(ConfigVisitor& v, LiftDrag& l) {
   v.number("zero_lift_drag", l.zero_lift_drag, {0, 1000, "", "drag coefficient at no angle"});
   v.number("lift_slope_per_rad", l.lift_slope_per_rad, {0, 1000, "1/rad", "of the angle of attack"});
   v.number("aspect_ratio", l.aspect_ratio, {1e-6, 1000, "", "for the induced drag"});
   v.number("oswald_efficiency", l.oswald_efficiency, {1e-6, 1, "", "for the induced drag"});
   bus::choice(v, "law", l.law, {"angle", "bounded"},
               "of the angle itself, jumping in reverse flow, or bounded and smooth at every angle");
-  v.number("x_m", l.x_m, {-1000, 1000, "m", "bounded: where it acts on the axis, negative aft"});
-  v.number("broadside_drag", l.broadside_drag,
-           {0, 1000, "", "bounded: drag coefficient added straight across; 0: by the induced drag's law"});
+  v.when(l.law == LiftLaw::kBounded, "law = \"bounded\"", [&] {
+    v.number("x_m", l.x_m, {-1000, 1000, "m", "bounded: where it acts on the axis, negative aft"});
+    v.number("broadside_drag", l.broadside_drag,
+             {0, 1000, "", "bounded: drag coefficient added straight across; 0: by the induced drag's law"});
+  });
+}
+
+void visit_lift_drag(ConfigVisitor& v, LiftDrag& l) {
+  v.number("reference_area_m2", l.reference_area_m2, {0, kMax, "m^2", "0: the effect is absent"});
+  v.when(l.reference_area_m2 > 0, kWithArea, [&] { visit_lift_coefficients(v, l); });
 }
 
 void visit_body_lift(ConfigVisitor& v, BodyLift& b) {
   v.number("reference_area_m2", b.reference_area_m2, {0, kMax, "m^2", "0: the effect is absent"});
-  v.number("axial_drag", b.axial_drag, {0, 1000, "", "drag coefficient along the hull"});
-  v.number("lift_slope_per_rad", b.lift_slope_per_rad, {0, 1000, "1/rad", "of sin(angle) cos(angle)"});
-  v.number("center_aft_m", b.center_aft_m,
-           {0, 1000, "m", "where the lift acts, behind the hull's middle as it moves"});
+  v.when(b.reference_area_m2 > 0, kWithArea, [&] {
+    v.number("axial_drag", b.axial_drag, {0, 1000, "", "drag coefficient along the hull"});
+    v.number("lift_slope_per_rad", b.lift_slope_per_rad, {0, 1000, "1/rad", "of sin(angle) cos(angle)"});
+    v.number("center_aft_m", b.center_aft_m,
+             {0, 1000, "m", "where the lift acts, behind the hull's middle as it moves"});
+  });
 }
 
 void visit_cross_flow(ConfigVisitor& v, CrossFlow& c) {
@@ -115,7 +125,9 @@ void visit_fins(ConfigVisitor& v, FinPair& f) {
   v.number("x_m", f.x_m, {-1000, 1000, "m", "place on the axis, negative aft of the hull's middle"});
   bus::choice(v, "law", f.law, {"deflection", "local-flow"},
               "force of the deflection alone, or of the flow at the fin");
-  v.number("normal_drag", f.normal_drag, {0, 1000, "", "local-flow: drag coefficient straight across"});
+  v.when(f.law == FinLaw::kLocalFlow, "law = \"local-flow\"", [&] {
+    v.number("normal_drag", f.normal_drag, {0, 1000, "", "local-flow: drag coefficient straight across"});
+  });
 }
 
 void visit_thruster(ConfigVisitor& v, Thruster& t) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle_sim/sensor_config.h"
 
+#include <functional>
+#include <initializer_list>
 #include <numbers>
 #include <string_view>
 
@@ -58,8 +60,9 @@ void visit_basic(ConfigVisitor& v, BasicSensor& sensor, const Unit& unit) {
   visit_errors(v, sensor.errors, unit);
 }
 
-void visit_dvl(ConfigVisitor& v, DvlSettings& dvl) {
-  visit_rate(v, dvl.period, 50, "pings a second; 0: it has none");
+constexpr std::string_view kWorking = "rate_hz above 0";
+
+void visit_working_dvl(ConfigVisitor& v, DvlSettings& dvl) {
   bus::degrees(v, "beam_angle_deg", dvl.beam_angle_rad,
                {1, 80, "deg", "of each beam out of the instrument's down axis"});
   v.number("range_m", dvl.range_m, {0.1, 1e4, "m", "greatest along a beam"});
@@ -72,50 +75,71 @@ void visit_dvl(ConfigVisitor& v, DvlSettings& dvl) {
   bus::degrees(v, "misalignment_deg", dvl.misalignment_rad, {-90, 90, "deg", "and not known to it"});
 }
 
+void visit_dvl(ConfigVisitor& v, DvlSettings& dvl) {
+  visit_rate(v, dvl.period, 50, "pings a second; 0: it has none");
+  v.when(dvl.period > SimDuration(), kWorking, [&] { visit_working_dvl(v, dvl); });
+}
+
 void visit_gps(ConfigVisitor& v, GpsSettings& gps) {
   visit_rate(v, gps.period, 50, "fixes a second at the surface; 0: it has none");
-  v.number("max_depth_m", gps.max_depth_m,
-           {-10, 10, "m", "of the antenna below the surface where it still has a fix"});
-  visit_noise(v, gps.errors, kMetres);
-  v.vector3("place_m", gps.place_m, kPlace);
+  v.when(gps.period > SimDuration(), kWorking, [&] {
+    v.number("max_depth_m", gps.max_depth_m,
+             {-10, 10, "m", "of the antenna below the surface where it still has a fix"});
+    visit_noise(v, gps.errors, kMetres);
+    v.vector3("place_m", gps.place_m, kPlace);
+  });
 }
 
 void visit_sonar(ConfigVisitor& v, SonarSettings& sonar) {
   visit_rate(v, sonar.period, 50, "fans a second; 0: it has none");
-  bus::integer_as(v, "rays", sonar.rays, {1, 512, "", "of a fan"});
-  bus::degrees(v, "sector_deg", sonar.sector_rad, {0, 360, "deg", "from the first ray to the last"});
-  bus::degrees(v, "tilt_deg", sonar.tilt_rad, {-90, 90, "deg", "of the fan below the forward axis"});
-  v.number("range_m", sonar.range_m, {0.1, 1e4, "m", "greatest of each ray"});
-  visit_noise(v, sonar.errors, kMetres);
-  v.vector3("place_m", sonar.place_m, kPlace);
+  v.when(sonar.period > SimDuration(), kWorking, [&] {
+    bus::integer_as(v, "rays", sonar.rays, {1, 512, "", "of a fan"});
+    bus::degrees(v, "sector_deg", sonar.sector_rad, {0, 360, "deg", "from the first ray to the last"});
+    bus::degrees(v, "tilt_deg", sonar.tilt_rad, {-90, 90, "deg", "of the fan below the forward axis"});
+    v.number("range_m", sonar.range_m, {0.1, 1e4, "m", "greatest of each ray"});
+    visit_noise(v, sonar.errors, kMetres);
+    v.vector3("place_m", sonar.place_m, kPlace);
+  });
 }
 
 void visit_usbl(ConfigVisitor& v, UsblSettings& usbl) {
   v.boolean("fitted", usbl.fitted, "measures where the sound of received packets comes from");
-  visit_noise(v, usbl.errors, kDegrees);
+  v.when(usbl.fitted, "fitted = true", [&] { visit_noise(v, usbl.errors, kDegrees); });
+}
+
+const std::vector<std::string> kFaultKinds{"stuck-rudder", "stuck-stern-planes", "lost-propeller",
+                                           "leak",         "dead-sensor",        "empty-battery"};
+
+// What a fault does, by its kind.
+void visit_damage(ConfigVisitor& v, Fault& f) {
+  const auto with = [&](std::initializer_list<FaultKind> kinds, const std::function<void()>& body) {
+    bus::when_one_of(v, "kind", f.kind, kFaultKinds, kinds, body);
+  };
+  with({FaultKind::kStuckRudder, FaultKind::kStuckSternPlanes}, [&] {
+    if (v.writing() ? !f.angle_rad.has_value() : !v.given("angle_deg")) return;
+    double angle_rad = f.angle_rad.value_or(0);
+    bus::degrees(v, "angle_deg", angle_rad, {-90, 90, "deg", "of stuck fins; not given: where they are"});
+    f.angle_rad = angle_rad;
+  });
+  with({FaultKind::kLeak}, [&] {
+    v.number("leak_kg_per_s", f.leak_rate_kg_s, {-100, 100, "kg/s", "of a leak; below 0 pumps out"});
+    v.number("leak_volume_m3", f.leak_volume_m3, {0, 100, "m^3", "water inside at most"});
+  });
+  with({FaultKind::kDeadSensor},
+       [&] { bus::choice(v, "sensor", f.sensor, bus::names_of(kSensorKinds), "that fails"); });
 }
 
 void visit_fault(ConfigVisitor& v, FaultEntry& entry) {
   Fault& f = entry.fault;
   double at_s = (f.from - SimTime()).seconds(), until_s = (entry.until - SimTime()).seconds();
   v.text("vehicle", entry.vehicle, {}, "name of one that the vehicle simulator moves or holds");
-  bus::choice(
-      v, "kind", f.kind,
-      {"stuck-rudder", "stuck-stern-planes", "lost-propeller", "leak", "dead-sensor", "empty-battery"},
-      "what breaks");
+  bus::choice(v, "kind", f.kind, kFaultKinds, "what breaks");
   v.number("at_s", at_s, {0, 1e7, "s", "simulation time from which it holds"});
   v.number("until_s", until_s, {0, 1e7, "s", "simulation time at which it is mended; 0: never"});
   if (until_s > 0 && until_s <= at_s) v.problem("until_s", "allowed is 0, or a time after at_s");
   f.from = SimTime::from_seconds(at_s);
   entry.until = SimTime::from_seconds(until_s);
-  if (v.writing() ? f.angle_rad.has_value() : v.given("angle_deg")) {
-    double angle_rad = f.angle_rad.value_or(0);
-    bus::degrees(v, "angle_deg", angle_rad, {-90, 90, "deg", "of stuck fins; not given: where they are"});
-    f.angle_rad = angle_rad;
-  }
-  v.number("leak_kg_per_s", f.leak_rate_kg_s, {-100, 100, "kg/s", "of a leak; below 0 pumps out"});
-  v.number("leak_volume_m3", f.leak_volume_m3, {0, 100, "m^3", "water inside at most"});
-  bus::choice(v, "sensor", f.sensor, bus::names_of(kSensorKinds), "that fails");
+  visit_damage(v, f);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -54,26 +56,38 @@ void visit_current(ConfigVisitor& v, CurrentSettings& c) {
   visit_depth_rows(v, c.by_depth);
   v.number("tide_amplitude_mps", c.tide.amplitude_mps,
            {0, kFastestCurrent, "m/s", "of a tide to and fro; 0: none"});
-  v.number("tide_period_s", c.tide.period_s,
-           {1, 1e9, "s", "of the tide; 44714 s is the principal lunar one"});
-  bus::degrees(v, "tide_phase_deg", c.tide.phase_rad, {-360, 360, "deg", "at time 0; 0: full speed"});
-  bus::degrees(v, "tide_toward_deg", c.tide.toward_rad,
-               {-360, 360, "deg", "where the tide runs to, clockwise from north"});
+  v.when(c.tide.amplitude_mps > 0, "tide_amplitude_mps above 0", [&] {
+    v.number("tide_period_s", c.tide.period_s,
+             {1, 1e9, "s", "of the tide; 44714 s is the principal lunar one"});
+    bus::degrees(v, "tide_phase_deg", c.tide.phase_rad, {-360, 360, "deg", "at time 0; 0: full speed"});
+    bus::degrees(v, "tide_toward_deg", c.tide.toward_rad,
+                 {-360, 360, "deg", "where the tide runs to, clockwise from north"});
+  });
   v.number("random_deviation_mps", c.random.deviation_mps,
            {0, kFastestCurrent, "m/s",
             "standard deviation of a Gauss-Markov current, north and east each; 0: none"});
-  v.number("random_time_s", c.random.time_s, {0.1, 1e6, "s", "its correlation time"});
+  v.when(c.random.deviation_mps > 0, "random_deviation_mps above 0", [&] {
+    v.number("random_time_s", c.random.time_s, {0.1, 1e6, "s", "its correlation time"});
+  });
 }
 
 void visit_waves(ConfigVisitor& v, WaveSettings& w) {
-  bus::choice(v, "sea", w.kind, {"calm", "regular", "pierson-moskowitz", "jonswap"}, "kind of sea");
-  v.number("height_m", w.height_m,
-           {0, 40, "m", "crest to trough of regular waves, significant height of a sea"});
-  v.number("period_s", w.period_s, {1, 30, "s", "of regular waves, of the peak of a sea"});
-  bus::degrees(v, "toward_deg", w.toward_rad,
-               {-360, 360, "deg", "where the waves run to, clockwise from north"});
-  v.number("peakedness", w.peakedness, {1, 10, "", "of jonswap"});
-  bus::integer_as(v, "components", w.components, {1, 1000, "", "sines that a sea is made of"});
+  const std::vector<std::string> kSeas{"calm", "regular", "pierson-moskowitz", "jonswap"};
+  const auto with_sea = [&](std::initializer_list<SeaKind> seas, const std::function<void()>& body) {
+    bus::when_one_of(v, "sea", w.kind, kSeas, seas, body);
+  };
+  bus::choice(v, "sea", w.kind, kSeas, "kind of sea");
+  with_sea({SeaKind::kRegular, SeaKind::kPiersonMoskowitz, SeaKind::kJonswap}, [&] {
+    v.number("height_m", w.height_m,
+             {0, 40, "m", "crest to trough of regular waves, significant height of a sea"});
+    v.number("period_s", w.period_s, {1, 30, "s", "of regular waves, of the peak of a sea"});
+    bus::degrees(v, "toward_deg", w.toward_rad,
+                 {-360, 360, "deg", "where the waves run to, clockwise from north"});
+  });
+  with_sea({SeaKind::kJonswap}, [&] { v.number("peakedness", w.peakedness, {1, 10, "", "of jonswap"}); });
+  with_sea({SeaKind::kPiersonMoskowitz, SeaKind::kJonswap}, [&] {
+    bus::integer_as(v, "components", w.components, {1, 1000, "", "sines that a sea is made of"});
+  });
 }
 
 // The longest time between two states by which all receivers know every vehicle. The keys belong to the receivers; here
@@ -97,10 +111,12 @@ void visit_state_rule(ConfigVisitor& v, StateRule& rule, SimDuration allowed) {
   v.number(
       "state_deviation_m", rule.deviation_m,
       {0, 1000, "m", "a tick has a STATE only where the last one, carried on, is off by more; 0: each has"});
-  bus::degrees(v, "state_deviation_deg", rule.deviation_rad,
-               {0.01, 180, "deg", "the same of the attitude, with state_deviation_m above 0"});
-  bus::seconds(v, "state_longest_silence_s", rule.longest_silence,
-               {0.01, 2, "s", "at most between two STATEs, with state_deviation_m above 0"});
+  v.when(rule.deviation_m > 0, "state_deviation_m above 0", [&] {
+    bus::degrees(v, "state_deviation_deg", rule.deviation_rad,
+                 {0.01, 180, "deg", "the same of the attitude, with state_deviation_m above 0"});
+    bus::seconds(v, "state_longest_silence_s", rule.longest_silence,
+                 {0.01, 2, "s", "at most between two STATEs, with state_deviation_m above 0"});
+  });
   if (v.writing() || rule.deviation_m == 0 || rule.longest_silence <= allowed) return;
   v.problem("state_longest_silence_s",
             "allowed is at most " + format_number(allowed.seconds()) +
@@ -192,6 +208,9 @@ void visit_vehicle_sensors(ConfigVisitor& root, ConfigVisitor& v, VehicleSensors
   if (!vehicle.own) return;
   v.section("sensors", "Where they differ from [sensors] and from the model's",
             [&](ConfigVisitor& section) { visit(section, vehicle.sensors); });
+  // Keys of [sensors] count, too, where this vehicle alone has the sensor at work.
+  SensorSettings with_common = vehicle.sensors;
+  if (!v.writing()) visit_common_sensors(root, with_common);
 }
 
 void visit_sensors(ConfigVisitor& v, VehicleSimConfig& config) {

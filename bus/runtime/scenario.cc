@@ -42,7 +42,10 @@ void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   v.vector3("start_ned_m", vehicle.start_ned_m, {-1e6, 1e6, "m", "position at the start: north, east, down"});
   degrees(v, "heading_deg", vehicle.heading_rad,
           {-360, 360, "deg", "heading at the start, clockwise from north"});
-  v.number("speed_mps", vehicle.speed_mps, {-5, 5, "m/s", "speed at the start, forward through the water"});
+  const bool is_moved = vehicle.model != "fixed" && vehicle.model != "external";
+  v.when(is_moved, "a model that moves", [&] {
+    v.number("speed_mps", vehicle.speed_mps, {-5, 5, "m/s", "speed at the start, forward through the water"});
+  });
   if (v.writing() ? !vehicle.battery.has_value() : !v.given("battery")) return;
   VehicleBattery battery = vehicle.battery.value_or(VehicleBattery());
   v.section("battery", "What it lives on; without this it has all the energy it needs",
@@ -65,14 +68,18 @@ void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {
   v.text("file", ocean.file, {},
          "CF netCDF with currents, or temperature and salinity, or both; empty: none");
   if (!ocean.file.empty() && !v.writing()) require_readable(v, "file", ocean.file);
-  v.text("start_date", ocean.start_date, {},
-         "of simulation time 0, as 2026-05-01T06:00:00Z; empty: the file's first time");
-  v.boolean("moves_vehicles", ocean.moves_vehicles,
-            "its currents are added to those of the vehicle simulator");
-  v.boolean("carries_sound", ocean.carries_sound,
-            "sound goes through its temperature and salinity, in place of the profile");
-  seconds(v, "sound_period_s", ocean.sound_period,
-          {1, 1e7, "s", "spans in each of which sound has the water of the span's middle"});
+  v.when(!ocean.file.empty(), "file = \"FILE\"", [&] {
+    v.text("start_date", ocean.start_date, {},
+           "of simulation time 0, as 2026-05-01T06:00:00Z; empty: the file's first time");
+    v.boolean("moves_vehicles", ocean.moves_vehicles,
+              "its currents are added to those of the vehicle simulator");
+    v.boolean("carries_sound", ocean.carries_sound,
+              "sound goes through its temperature and salinity, in place of the profile");
+    v.when(ocean.carries_sound, "carries_sound = true", [&] {
+      seconds(v, "sound_period_s", ocean.sound_period,
+              {1, 1e7, "s", "spans in each of which sound has the water of the span's middle"});
+    });
+  });
 }
 
 // Two vehicles with one name would publish on one channel; with one id, they would be one to all others.

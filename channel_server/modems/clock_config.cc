@@ -11,8 +11,10 @@ void visit_clock(bus::ConfigVisitor& v, ClockSettings& clock) {
   v.number("random_walk_s_per_sqrt_s", clock.random_walk,
            {0, 1e-3, "s/sqrt(s)", "random walk of its reading: after t seconds this times sqrt(t)"});
   v.boolean("set_by_gps", clock.is_set_by_gps, "each GPS fix of the vehicle sets it");
-  v.number("gps_residual_s", clock.gps_residual_s,
-           {0, 1, "s", "standard deviation of its error when GPS has set it"});
+  v.when(clock.is_set_by_gps, "set_by_gps = true", [&] {
+    v.number("gps_residual_s", clock.gps_residual_s,
+             {0, 1, "s", "standard deviation of its error when GPS has set it"});
+  });
 }
 
 }  // namespace halocline::channel_server

@@ -59,7 +59,9 @@ void visit_framing(bus::ConfigVisitor& v, acoustics::Modem& a) {
   bus::integer_as(v, "header_bits", layout.header_bits, {0, 1e6, "bits", "a coded block before the payload"});
   bus::integer_as(v, "tail_bits", layout.tail_bits, {0, 1e6, "bits", "that end each coded block"});
   bus::integer_as(v, "frame_bytes", layout.frame_bytes, {0, 32768, "bytes", "sent whole; 0: no frames"});
-  bus::integer_as(v, "max_frames", layout.max_frames, {0, 32, "", "of a packet with frames"});
+  v.when(layout.frame_bytes > 0, "frame_bytes above 0", [&] {
+    bus::integer_as(v, "max_frames", layout.max_frames, {0, 32, "", "of a packet with frames"});
+  });
   bus::integer_as(v, "mini_packet_bits", layout.mini_packet_bits,
                   {0, 1e6, "bits", "of a mini-packet, addresses and check included; 0: there are none"});
   bus::integer_as(v, "application_bits", layout.application_bits,
@@ -127,8 +129,10 @@ void visit_beam(bus::ConfigVisitor& v, acoustics::BeamPattern& beam) {
 void visit_listening(bus::ConfigVisitor& v, Listening& listening) {
   v.boolean("promiscuous", listening.promiscuous, "RECEIVE also of packets for other vehicles");
   v.boolean("events", listening.events, "publishes MODEM_EVENTs: transmissions, packets detected, carrier");
-  v.number("carrier_threshold_db", listening.carrier_threshold.value,
-           {0, 100, "dB", "events: carrier is sensed where the sound of others exceeds the noise by this"});
+  v.when(listening.events, "events = true", [&] {
+    v.number("carrier_threshold_db", listening.carrier_threshold.value,
+             {0, 100, "dB", "events: carrier is sensed where the sound of others exceeds the noise by this"});
+  });
 }
 
 // The values that rules on single keys cannot see.

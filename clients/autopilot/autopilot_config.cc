@@ -2,6 +2,8 @@
 #include "clients/autopilot/autopilot_config.h"
 
 #include <algorithm>
+#include <functional>
+#include <initializer_list>
 #include <sstream>
 
 #include "clients/autopilot/link_seeker.h"
@@ -67,22 +69,51 @@ void visit_glide(ConfigVisitor& v, GlideGains& g) {
   v.number("max_mass_m", g.max_mass_m, {0, 1000, "m", "of its place, either way"});
 }
 
+const std::vector<std::string> kKinds{"waypoints", "heading", "loiter",   "survey",
+                                      "follow",    "wait",    "seek_link"};
+
+// Visits the keys of some kinds alone.
+void with_kind(ConfigVisitor& v, const Behaviour& b, std::initializer_list<BehaviourKind> kinds,
+               const std::function<void()>& body) {
+  bus::when_one_of(v, "kind", b.kind, kKinds, kinds, body);
+}
+
+void visit_circle(ConfigVisitor& v, Behaviour& b) {
+  using Kind = BehaviourKind;
+  with_kind(v, b, {Kind::kLoiter, Kind::kSurvey, Kind::kSeekLink}, [&] {
+    v.number("center_north_m", b.center_north_m,
+             {-1e6, 1e6, "m", "middle of a loiter or a survey, or of the depths of seek_link"});
+    v.number("center_east_m", b.center_east_m,
+             {-1e6, 1e6, "m", "middle of a loiter or a survey, or of the depths of seek_link"});
+  });
+  with_kind(v, b, {Kind::kLoiter, Kind::kFollow, Kind::kSeekLink}, [&] {
+    v.number("radius_m", b.radius_m,
+             {1, 1e5, "m", "of a loiter, of seek_link, and of a follower's circle without its leader"});
+  });
+  with_kind(v, b, {Kind::kLoiter, Kind::kSeekLink}, [&] {
+    bus::choice(v, "sense", b.sense, {"clockwise", "counterclockwise"}, "of a loiter, seen from above");
+  });
+}
+
 void visit_where(ConfigVisitor& v, Behaviour& b) {
-  v.number("depth_m", b.depth_m, {-100, 12000, "m", "z of heading, loiter and survey"});
+  using Kind = BehaviourKind;
+  with_kind(v, b, {Kind::kHeading, Kind::kLoiter, Kind::kSurvey}, [&] {
+    v.number("depth_m", b.depth_m, {-100, 12000, "m", "z of heading, loiter and survey"});
+  });
   v.number("altitude_m", b.altitude_m, {0, 1000, "m", "above the ground instead of a depth; 0: not used"});
-  v.number("max_depth_m", b.max_depth_m, {0, 12000, "m", "z never passed on the way to an altitude"});
-  degrees(v, "heading_deg", b.heading_rad, {-360, 360, "deg", "of heading, and of a survey's first track"});
-  v.number("center_north_m", b.center_north_m,
-           {-1e6, 1e6, "m", "middle of a loiter or a survey, or of the depths of seek_link"});
-  v.number("center_east_m", b.center_east_m,
-           {-1e6, 1e6, "m", "middle of a loiter or a survey, or of the depths of seek_link"});
-  v.number("radius_m", b.radius_m,
-           {1, 1e5, "m", "of a loiter, of seek_link, and of a follower's circle without its leader"});
-  bus::choice(v, "sense", b.sense, {"clockwise", "counterclockwise"}, "of a loiter, seen from above");
-  v.number("length_m", b.length_m, {1, 1e5, "m", "of a survey's box, along its tracks"});
-  v.number("width_m", b.width_m, {0, 1e5, "m", "of a survey's box, across its tracks"});
-  v.number("track_spacing_m", b.track_spacing_m, {0.1, 1e4, "m", "of a survey"});
-  v.number("turn_m", b.turn_m, {0, 1e4, "m", "how far outside of the box a survey's tracks end"});
+  v.when(b.altitude_m > 0, "altitude_m above 0", [&] {
+    v.number("max_depth_m", b.max_depth_m, {0, 12000, "m", "z never passed on the way to an altitude"});
+  });
+  with_kind(v, b, {Kind::kHeading, Kind::kSurvey}, [&] {
+    degrees(v, "heading_deg", b.heading_rad, {-360, 360, "deg", "of heading, and of a survey's first track"});
+  });
+  visit_circle(v, b);
+  with_kind(v, b, {Kind::kSurvey}, [&] {
+    v.number("length_m", b.length_m, {1, 1e5, "m", "of a survey's box, along its tracks"});
+    v.number("width_m", b.width_m, {0, 1e5, "m", "of a survey's box, across its tracks"});
+    v.number("track_spacing_m", b.track_spacing_m, {0.1, 1e4, "m", "of a survey"});
+    v.number("turn_m", b.turn_m, {0, 1e4, "m", "how far outside of the box a survey's tracks end"});
+  });
 }
 
 void visit_formation(ConfigVisitor& v, Formation& f) {
@@ -97,12 +128,15 @@ void visit_formation(ConfigVisitor& v, Formation& f) {
   v.number("max_speed_mps", f.max_speed_mps, {0.01, 50, "m/s", "to catch up with"});
 }
 
-void visit_search(ConfigVisitor& v, LinkSearch& s) {
+void visit_search(ConfigVisitor& v, Behaviour& b) {
+  LinkSearch& s = b.search;
   v.text("listeners", s.listeners, {}, "vehicles that are to hear it, with spaces between");
-  v.number("shallowest_m", s.shallowest_m,
-           {0, 12000, "m", "z of the first depth, where there are no waypoints"});
-  v.number("deepest_m", s.deepest_m, {0, 12000, "m", "z of the last"});
-  v.number("step_m", s.step_m, {0.1, 1000, "m", "between them"});
+  v.when(b.waypoints.empty(), "no waypoints", [&] {
+    v.number("shallowest_m", s.shallowest_m,
+             {0, 12000, "m", "z of the first depth, where there are no waypoints"});
+    v.number("deepest_m", s.deepest_m, {0, 12000, "m", "z of the last"});
+    v.number("step_m", s.step_m, {0.1, 1000, "m", "between them"});
+  });
   v.number("period_s", s.period_s, {2, 1e5, "s", "between questions where it is best heard"});
   v.number("least_gain", s.least_gain, {0, 1, "", "of the delivery probability, for which it moves"});
 }
@@ -119,18 +153,26 @@ void check_search(ConfigVisitor& v, const Behaviour& b) {
 }
 
 void visit_behaviour(ConfigVisitor& v, Behaviour& b) {
-  bus::choice(v, "kind", b.kind, {"waypoints", "heading", "loiter", "survey", "follow", "wait", "seek_link"},
-              "what is done");
-  v.points("waypoints", b.waypoints,
-           {-1e6, 1e6, "m", "of waypoints, or the places of seek_link: north, east, down of each"});
-  v.number("duration_s", b.duration_s,
-           {0, 1e7, "s", "of heading, loiter, follow, wait and seek_link; 0: for ever"});
+  using Kind = BehaviourKind;
+  bus::choice(v, "kind", b.kind, kKinds, "what is done");
+  with_kind(v, b, {Kind::kWaypoints, Kind::kSeekLink}, [&] {
+    v.points("waypoints", b.waypoints,
+             {-1e6, 1e6, "m", "of waypoints, or the places of seek_link: north, east, down of each"});
+  });
+  with_kind(v, b, {Kind::kHeading, Kind::kLoiter, Kind::kFollow, Kind::kWait, Kind::kSeekLink}, [&] {
+    v.number("duration_s", b.duration_s,
+             {0, 1e7, "s", "of heading, loiter, follow, wait and seek_link; 0: for ever"});
+  });
   v.number("speed_mps", b.speed_mps, {0, 50, "m/s", "through the water; 0: the mission's"});
   visit_where(v, b);
-  v.section("formation", "kind = follow: the place beside a leader, kept by its acoustic reports",
-            [&](ConfigVisitor& formation) { visit_formation(formation, b.formation); });
-  v.section("search", "kind = seek_link: who is to hear it, and at which depths it may be",
-            [&](ConfigVisitor& search) { visit_search(search, b.search); });
+  with_kind(v, b, {Kind::kFollow}, [&] {
+    v.section("formation", "kind = follow: the place beside a leader, kept by its acoustic reports",
+              [&](ConfigVisitor& formation) { visit_formation(formation, b.formation); });
+  });
+  with_kind(v, b, {Kind::kSeekLink}, [&] {
+    v.section("search", "kind = seek_link: who is to hear it, and at which depths it may be",
+              [&](ConfigVisitor& search) { visit_search(search, b); });
+  });
   if (!v.writing() && b.kind == BehaviourKind::kSeekLink) check_search(v, b);
   if (!v.writing() && b.kind == BehaviourKind::kWaypoints && b.waypoints.empty())
     v.problem("waypoints", "at least one point [north, east, down], with kind = waypoints");
@@ -157,17 +199,43 @@ void visit_navigator(ConfigVisitor& v, PilotConfig& pilot) {
                {0, 60, "s", "how long a Doppler log's velocity is used; then the speed through the water"});
   v.text("usbl_beacons", pilot.usbl_beacons, {},
          "vehicles that do not move, with spaces between: by bearings of their stamped packets");
-  v.number("sound_speed_mps", fix.sound_speed_mps, {1300, 1700, "m/s", "mean, for ranges to beacons"});
-  bus::degrees(v, "heading_deviation_deg", fix.heading_deviation_rad,
-               {0, 90, "deg", "of the compass, for bearings of beacons"});
-  v.number("range_deviation", fix.range_deviation, {0, 1, "", "of a beacon's range, relative"});
+  v.when(!pilot.usbl_beacons.empty(), "usbl_beacons", [&] {
+    v.number("sound_speed_mps", fix.sound_speed_mps, {1300, 1700, "m/s", "mean, for ranges to beacons"});
+    bus::degrees(v, "heading_deviation_deg", fix.heading_deviation_rad,
+                 {0, 90, "deg", "of the compass, for bearings of beacons"});
+    v.number("range_deviation", fix.range_deviation, {0, 1, "", "of a beacon's range, relative"});
+  });
 }
 
 void visit_broadcast(ConfigVisitor& v, Broadcast& broadcast) {
   double period_s = broadcast.period.seconds(), start_s = broadcast.start.seconds();
   v.number("period_s", period_s, {0, 3600, "s", "between reports of 17 bytes; 0: none"});
-  v.number("start_s", start_s, {0, 1e7, "s", "simulation time of the first"});
+  v.when(period_s > 0, "period_s above 0", [&] {
+    v.number("start_s", start_s, {0, 1e7, "s", "simulation time of the first"});
+  });
   broadcast = {SimDuration::from_seconds(period_s), SimTime::from_seconds(start_s)};
+}
+
+const std::vector<std::string> kEnds{"loop", "hold", "stop", "surface"};
+const std::vector<std::string> kSteerings{"fins", "thrusters", "buoyancy"};
+
+// The gains of each steering; a glider's rudder is steered as fins are.
+void visit_control(ConfigVisitor& v, PilotConfig& pilot) {
+  const auto with = [&](std::initializer_list<Steering> steerings, const std::function<void()>& body) {
+    bus::when_one_of(v, "steering", pilot.steering, kSteerings, steerings, body);
+  };
+  with({Steering::kFins, Steering::kBuoyancy}, [&] {
+    v.section("gains", "Gains with fins; the defaults suit torpedo and remus100-pvs",
+              [&](ConfigVisitor& gains) { visit_gains(gains, pilot.gains); });
+  });
+  with({Steering::kThrusters}, [&] {
+    v.section("hover_gains", "Gains with thrusters; the defaults suit hover",
+              [&](ConfigVisitor& gains) { visit_hover_gains(gains, pilot.hover_gains); });
+  });
+  with({Steering::kBuoyancy}, [&] {
+    v.section("glide", "The sawtooth, with steering = buoyancy; the defaults suit glider",
+              [&](ConfigVisitor& glide) { visit_glide(glide, pilot.glide); });
+  });
 }
 
 void visit_mission(ConfigVisitor& v, PilotConfig& pilot) {
@@ -177,31 +245,30 @@ void visit_mission(ConfigVisitor& v, PilotConfig& pilot) {
             "north, east, down of each waypoint; without these and behaviours the vehicle is not piloted"});
   v.number("speed_mps", m.speed_mps, {0.01, 50, "m/s", "speed through the water"});
   bus::choice(
-      v, "at_end", m.at_end, {"loop", "hold", "stop", "surface"},
+      v, "at_end", m.at_end, kEnds,
       "after the last waypoint: start again, circle it (with thrusters: stay at it), stop, or stop and rise "
       "by buoyancy engine and drop weight");
   v.number("acceptance_radius_m", m.acceptance_radius_m,
            {0.1, 1e4, "m", "horizontal distance at which a waypoint counts as reached"});
-  v.number("hold_radius_m", m.hold_radius_m, {1, 1e5, "m", "radius of the circle round the last waypoint"});
+  bus::when_one_of(v, "at_end", m.at_end, kEnds, {AtEnd::kHold}, [&] {
+    v.number("hold_radius_m", m.hold_radius_m, {1, 1e5, "m", "radius of the circle round the last waypoint"});
+  });
   v.number("lookahead_m", m.lookahead_m, {0.1, 1e4, "m", "how far ahead on the leg the vehicle aims"});
   v.number("min_altitude_m", m.min_altitude_m,
            {0, 1000, "m", "least height above the seabed, where the altimeter sees it"});
   v.number("ground_ahead_m", pilot.ground_ahead_m, {0, 1000, "m", "how far ahead the ground is looked at"});
   bus::choice(
-      v, "steering", pilot.steering, {"fins", "thrusters", "buoyancy"},
+      v, "steering", pilot.steering, kSteerings,
       "what steers it: propeller and fins, thrusters as hover has them, or buoyancy, moving mass and rudder");
   bus::choice(v, "navigate_by", pilot.navigate_by, {"state", "sensors"},
               "source of its position: the true state, or dead reckoning by its own sensors");
-  v.section("navigator", "Uncertainty of dead reckoning, with navigate_by = sensors",
-            [&](ConfigVisitor& navigator) { visit_navigator(navigator, pilot); });
+  v.when(pilot.navigate_by == NavigateBy::kSensors, "navigate_by = \"sensors\"", [&] {
+    v.section("navigator", "Uncertainty of dead reckoning, with navigate_by = sensors",
+              [&](ConfigVisitor& navigator) { visit_navigator(navigator, pilot); });
+  });
   v.section("broadcast", "Its position reports, sent by modem to its followers",
             [&](ConfigVisitor& broadcast) { visit_broadcast(broadcast, pilot.broadcast); });
-  v.section("gains", "Gains with fins; the defaults suit torpedo and remus100-pvs",
-            [&](ConfigVisitor& gains) { visit_gains(gains, pilot.gains); });
-  v.section("hover_gains", "Gains with thrusters; the defaults suit hover",
-            [&](ConfigVisitor& gains) { visit_hover_gains(gains, pilot.hover_gains); });
-  v.section("glide", "The sawtooth, with steering = buoyancy; the defaults suit glider",
-            [&](ConfigVisitor& glide) { visit_glide(glide, pilot.glide); });
+  visit_control(v, pilot);
   visit_behaviours(v, pilot);
 }
 

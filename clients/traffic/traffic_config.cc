@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string_view>
 
 #include "core/check.h"
@@ -46,23 +47,38 @@ void visit_kind(ConfigVisitor& v, VehicleTraffic& t) {
   v.boolean("ack", t.ack, "the destination's modem acknowledges each packet by itself");
 }
 
-void visit_traffic(ConfigVisitor& v, VehicleTraffic& t) {
-  double period_s = t.period.seconds(), start_s = t.start.seconds();
-  v.number("period_s", period_s, {0, 1e6, "s", "simulated time between packets; 0: none are sent"});
-  v.number("start_s", start_s, {0, 1e7, "s", "simulation time of the first packet"});
-  t.period = SimDuration::from_seconds(period_s);
-  t.start = SimTime::from_seconds(start_s);
-  v.text("destination", t.destination, {}, "name of a vehicle, or all");
-  bus::integer_as(v, "payload_bytes", t.payload_bytes, {0, 32768, "", "bytes of each packet"});
-  visit_kind(v, t);
-  v.boolean("relay", t.relay.passes_on, "pass on packets of others that have transmissions left");
-  bus::integer_as(v, "hops", t.relay.hops,
+void visit_hops(ConfigVisitor& v, RelayRules& relay) {
+  bus::integer_as(v, "hops", relay.hops,
                   {1, RelayPacket::kMostHops, "",
                    "transmissions of its packets on their way; above 1 they go to all in range, with a "
                    "header of 14 bytes"});
-  v.boolean("confirmed", t.relay.confirmed, "with hops above 1: the destination sends a confirmation back");
-  bus::seconds(v, "relay_wait_s", t.relay.longest_wait,
-               {0, 3600, "s", "longest random wait before a packet is passed on"});
+  v.when(relay.hops > 1, "hops above 1", [&] {
+    v.boolean("confirmed", relay.confirmed, "with hops above 1: the destination sends a confirmation back");
+  });
+}
+
+void visit_traffic(ConfigVisitor& v, VehicleTraffic& t) {
+  double period_s = t.period.seconds(), start_s = t.start.seconds();
+  v.number("period_s", period_s, {0, 1e6, "s", "simulated time between packets; 0: none are sent"});
+  const auto when_it_sends = [&](const std::function<void()>& body) {
+    v.when(period_s > 0, "period_s above 0", body);
+  };
+  when_it_sends([&] {
+    v.number("start_s", start_s, {0, 1e7, "s", "simulation time of the first packet"});
+    v.text("destination", t.destination, {}, "name of a vehicle, or all");
+    visit_kind(v, t);
+    v.when(kind_of(t.kind).has_payload, "kind = \"data\" or \"janus-cargo\"", [&] {
+      bus::integer_as(v, "payload_bytes", t.payload_bytes, {0, 32768, "", "bytes of each packet"});
+    });
+  });
+  t.period = SimDuration::from_seconds(period_s);
+  t.start = SimTime::from_seconds(start_s);
+  v.boolean("relay", t.relay.passes_on, "pass on packets of others that have transmissions left");
+  when_it_sends([&] { visit_hops(v, t.relay); });
+  v.when(t.relay.passes_on || t.is_relayed(), "relay = true, or hops above 1", [&] {
+    bus::seconds(v, "relay_wait_s", t.relay.longest_wait,
+                 {0, 3600, "s", "longest random wait before a packet is passed on"});
+  });
 }
 
 void visit_vehicle(ConfigVisitor& v, VehicleTraffic& traffic) {

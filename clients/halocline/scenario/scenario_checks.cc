@@ -217,6 +217,7 @@ void check_missions(const ScenarioConfig& config, bus::ConfigFile& file) {
   check_modems(config, file);
   check_relays(config, file);
   check_pilots(config, file);
+  check_intent(config, file);
 }
 
 }  // namespace halocline::clients

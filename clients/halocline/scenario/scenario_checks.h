@@ -7,7 +7,8 @@
 // Refused: traffic that no modem carries, a pilot whose steering the model lacks or whose speed it does not hold, more
 // vehicles than are followed, names of no vehicle, a profile that cannot be read, a start out of the water
 // (vehicle_sim/start_checks.h), a waypoint, or a whole survey or circle, under ground or in the air.
-// Warned of: packets that last longer than their period, a terrain with posts without depth, missions that leave the
+// Warned of: keys without effect (ConfigVisitor::when), modems that never receive each other, places that look
+// like degrees, packets that last longer than their period, a terrain with posts without depth, missions that leave the
 // terrain or whose tracks the ground cuts.
 #pragma once
 
@@ -35,6 +36,10 @@ void check_water(const ScenarioConfig& config, bus::ConfigFile& file);
 
 // Pilots, of what the models have (pilot_checks.cc).
 void check_pilots(const ScenarioConfig& config, bus::ConfigFile& file);
+
+// What may hardly be meant: modems that never receive each other, degrees in the place of metres
+// (intent_checks.cc).
+void check_intent(const ScenarioConfig& config, bus::ConfigFile& file);
 
 // Pilots and traffic, as far as no terrain is needed.
 void check_missions(const ScenarioConfig& config, bus::ConfigFile& file);

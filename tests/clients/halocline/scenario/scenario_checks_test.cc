@@ -312,6 +312,127 @@ TEST_F(ScenarioChecks, AllThatMakesNoSenseIsFoundAtOnce) {
   EXPECT_EQ(errors.size(), 4u) << ::testing::PrintToString(errors);
 }
 
+// Of each choice of a scenario: keys that lack it, and the words of what they lack.
+struct IdleKey {
+  std::string toml, key, choice;
+};
+
+TEST_F(ScenarioChecks, KeysThatLackTheirChoiceAreWarnedOf) {
+  const std::string vehicle = vehicle_with("");
+  const std::vector<IdleKey> idle{
+      {"[environment]\nprofile_file = \"cast.csv\"\n", "environment.profile_file", "profile = \"file\""},
+      {"[environment]\nprofile = \"munk\"\nisovelocity_mps = 1490\n", "environment.isovelocity_mps",
+       "profile = \"isovelocity\""},
+      {"[environment]\nwater_rows = [[0, 10, 35]]\n", "environment.water_rows", "profile = \"water-table\""},
+      {"[environment]\nassumed_salinity_psu = 30\n", "environment.assumed_salinity_psu",
+       "profile = \"munk\" or \"isovelocity\" or \"speed-table\" or \"file\""},
+      {"[environment]\nnoise_spread_s = 3\n", "environment.noise_spread_s", "noise_spread_db above 0"},
+      {"[environment]\nimpulse_s = 3\n", "environment.impulse_s", "impulse_exponent above 0"},
+      {"[terrain.raster]\npath = \"gone.tif\"\n", "terrain.raster", "kind = \"raster\""},
+      {"[terrain.slope]\nslope = 0.1\n", "terrain.slope", "kind = \"slope\""},
+      {"[terrain]\nframe = \"enu\"\n", "terrain.frame", "kind = \"raster\", or a nested raster"},
+      {"[terrain.relief]\nhurst = 0.5\n", "terrain.relief.hurst", "rms_m above 0"},
+      {"[ocean]\ncarries_sound = false\n", "ocean.carries_sound", "file = \"FILE\""},
+      {"[propagation]\nmodel = \"straight\"\nsolver = \"arcs\"\n", "propagation.solver", "model = \"rays\""},
+      {"[propagation]\nbottom_density_ratio = 2\nsediment = \"MediumSand\"\n",
+       "propagation.bottom_density_ratio", "sediment = \"custom\""},
+      {"[propagation]\nfading = \"none\"\nrice_factor_db = 3\n", "propagation.rice_factor_db",
+       "fading = \"sea\""},
+      {"[propagation]\nbottom_scattering_db = -30\n", "propagation.bottom_scattering_db",
+       "reverberation = \"lambert\""},
+      {"[propagation]\nreplay_level = \"file\"\n", "propagation.replay_level",
+       "replay = \"FILE\" or a replay_pair"},
+      {"[channel_server]\nreach = \"none\"\nreach_below_noise_db = 9\n",
+       "channel_server.reach_below_noise_db", "reach = \"level\""},
+      {"[modem]\ncarrier_threshold_db = 3\n", "modem.carrier_threshold_db", "events = true"},
+      {"[vehicle_sim.waves]\nheight_m = 2\n", "vehicle_sim.waves.height_m",
+       "sea = \"regular\" or \"pierson-moskowitz\" or \"jonswap\""},
+      {"[vehicle_sim.current]\ntide_period_s = 9\n", "vehicle_sim.current.tide_period_s",
+       "tide_amplitude_mps above 0"},
+      {"[sensors.dvl]\nrate_hz = 0\nrange_m = 50\n", "sensors.dvl.range_m", "rate_hz above 0"},
+      {"[network]\ninterval_s = 9\n", "network.interval_s", "a mac"},
+      {"[network]\nmac = \"csma\"\nslot_s = 9\n", "network.slot_s", "mac = \"slotted-aloha\" or \"tdma\""},
+  };
+  for (const IdleKey& one : idle) {
+    const Findings found = findings_in(one.toml + vehicle);
+    EXPECT_THAT(found.errors, IsEmpty()) << one.toml;
+    EXPECT_THAT(found.warnings, ElementsAre(AllOf(HasSubstr("sea.toml:"), HasSubstr(": " + one.key + " is "),
+                                                  HasSubstr("counts only with " + one.choice))))
+        << one.toml;
+  }
+}
+
+TEST_F(ScenarioChecks, KeysOfAVehicleThatLackTheirChoiceAreWarnedOf) {
+  const std::vector<IdleKey> idle{
+      {"has_modem = false\n[vehicle.modem]\nsource_level_db = 180\n", "modem", "has_modem = true"},
+      {"[vehicle.clock]\nset_by_gps = false\ngps_residual_s = 0.1\n", "clock.gps_residual_s",
+       "set_by_gps = true"},
+      {"[vehicle.noise]\nvaries_with = \"nothing\"\nreference_rpm = 900\n", "noise.reference_rpm",
+       "varies_with = \"propeller\""},
+      {"[vehicle.traffic]\npayload_bytes = 9\n", "traffic.payload_bytes", "period_s above 0"},
+      {"[vehicle.mission]\nwaypoints = [[100, 0, 20]]\n[vehicle.mission.navigator]\nlog_drift_mps = 0.1\n",
+       "mission.navigator", "navigate_by = \"sensors\""},
+      {"[vehicle.mission]\nwaypoints = [[100, 0, 20]]\nat_end = \"stop\"\nhold_radius_m = 30\n",
+       "mission.hold_radius_m", "at_end = \"hold\""},
+      {"[vehicle.mission]\nwaypoints = [[100, 0, 20]]\n[vehicle.mission.glide]\nvolume_m3 = 0.1\n",
+       "mission.glide", "steering = \"buoyancy\""},
+      {"[[vehicle.mission.behaviour]]\nkind = \"loiter\"\ndepth_m = 20\nlength_m = 30\n",
+       "mission.behaviour[0].length_m", "kind = \"survey\""},
+      {"[[vehicle.mission.behaviour]]\nkind = \"survey\"\ndepth_m = 20\nradius_m = 30\n",
+       "mission.behaviour[0].radius_m", "kind = \"loiter\" or \"follow\" or \"seek_link\""},
+  };
+  for (const IdleKey& one : idle) {
+    EXPECT_THAT(findings_in(vehicle_with(one.toml)).warnings,
+                ElementsAre(AllOf(HasSubstr(": vehicle[0]." + one.key + " is "),
+                                  HasSubstr("counts only with " + one.choice))))
+        << one.toml;
+  }
+  EXPECT_THAT(findings_in(vehicle_with("speed_mps = 1\n", "fixed")).warnings,
+              ElementsAre(HasSubstr("vehicle[0].speed_mps is 1; it has no effect")));
+}
+
+// What [sensors] says holds for a vehicle that has the instrument of its own.
+TEST_F(ScenarioChecks, CommonKeysOfAnInstrumentCountWhereOneVehicleHasIt) {
+  EXPECT_THAT(
+      findings_in("[sensors.dvl]\nrange_m = 50\n" + vehicle_with("[vehicle.sensors.dvl]\nrate_hz = 1\n"))
+          .warnings,
+      IsEmpty());
+}
+
+TEST_F(ScenarioChecks, ModemsThatNeverReceiveEachOtherAreWarnedOf) {
+  const auto two_with = [](const std::string& first, const std::string& second) {
+    const std::string other = "[[vehicle]]\nname = \"b\"\nid = 2\nstart_ned_m = [9.0, 0.0, 20.0]\n";
+    return vehicle_with(first) + other + second;
+  };
+  const auto modem = [](const std::string& lines) { return "[vehicle.modem]\n" + lines; };
+  EXPECT_THAT(findings_in(two_with("", "")).warnings, IsEmpty());
+  EXPECT_THAT(
+      findings_in(two_with(modem("family = \"mine\"\n"), modem("family = \"yours\"\n"))).warnings,
+      ElementsAre(HasSubstr("vehicle[1].modem.family is 'yours'; b and auv never receive each other")));
+  EXPECT_THAT(findings_in(two_with("", modem("center_frequency_hz = 90000\nbandwidth_hz = 4000\n"))).warnings,
+              ElementsAre(HasSubstr("never receive each other")));
+  EXPECT_THAT(findings_in(two_with(modem("profile = \"micromodem-psk-1\"\n"),
+                                   modem("profile = \"micromodem-psk-5\"\n")))
+                  .warnings,
+              IsEmpty());
+  EXPECT_THAT(findings_in(two_with("", "has_modem = false\n")).warnings, IsEmpty());
+}
+
+TEST_F(ScenarioChecks, DegreesInThePlaceOfMetresAreAskedAbout) {
+  const std::string origin = "[scenario]\norigin_latitude_deg = 43.2\norigin_longitude_deg = 7.3\n";
+  const auto warnings_at = [&](const std::string& start, const std::string& more = "") {
+    return findings_in(origin + vehicle_with("start_ned_m = " + start + "\n" + more)).warnings;
+  };
+  EXPECT_THAT(
+      warnings_at("[43.21, 7.32, 20.0]"),
+      ElementsAre(AllOf(HasSubstr("sea.toml:8: vehicle[0].start_ned_m"), HasSubstr("are degrees meant?"))));
+  EXPECT_THAT(warnings_at("[7.32, 43.21, 20.0]"), ElementsAre(HasSubstr("are degrees meant?")));
+  EXPECT_THAT(warnings_at("[0.0, 0.0, 20.0]", "[vehicle.mission]\nwaypoints = [[43.2, 7.4, 20]]\n"),
+              ElementsAre(HasSubstr("vehicle[0].mission.waypoints")));
+  EXPECT_THAT(warnings_at("[60.0, -30.0, 20.0]"), IsEmpty());
+  EXPECT_THAT(findings_in(vehicle_with("start_ned_m = [1.5, 2.5, 20.0]\n")).warnings, IsEmpty());
+}
+
 TEST(LogEstimate, NamesSizesInTwoDigits) {
   EXPECT_EQ(size_text(512), "512 B");
   EXPECT_EQ(size_text(3.44e11), "344 GB");
