@@ -96,7 +96,17 @@ void Node::check_run(const Now& now) {
 
 // Publishes what `publish_all` does, after the state that follows from it is on disk.
 void Node::commit(const Now& now, const std::function<void()>& publish_all) {
-  if (!journal_ || !now.sim_known) return publish_all();
+  publish_after_journal(now, publish_all);
+  on_committed();
+}
+
+void Node::publish_after_journal(const Now& now, const std::function<void()>& publish_all) {
+  if (!journal_) return publish_all();
+  if (!now.sim_known) {
+    publish_all();
+    if (on_wants_commit()) write_journal(resumed_from_.value_or(SimTime()));
+    return;
+  }
   std::vector<std::pair<std::string, Bytes>> outputs;
   auto outbox = bus_.set_outbox([&outputs](std::string_view channel, const void* data, std::size_t size) {
     const auto* bytes = static_cast<const std::uint8_t*>(data);
@@ -104,7 +114,8 @@ void Node::commit(const Now& now, const std::function<void()>& publish_all) {
   });
   publish_all();
   bus_.set_outbox(std::move(outbox));
-  if (outputs.empty()) return;
+  const bool has_more = on_wants_commit();
+  if (outputs.empty() && !has_more) return;
   write_journal(now.sim);
   bus_.counters().sent -= static_cast<std::int64_t>(outputs.size());  // counted when they were collected
   for (const auto& [channel, bytes] : outputs) bus_.publish_bytes(channel, bytes.data(), bytes.size());

@@ -118,6 +118,10 @@ class Node {
   // What the next incarnation needs in order to go on from here, saved and loaded. After loading the first step may be
   // any time later.
   virtual void on_archive(Archive& /*a*/) {}
+  // True where a step that published nothing has changed what the journal is to hold before on_committed().
+  virtual bool on_wants_commit() { return false; }
+  // After a step: what follows from it is on disk. For what a node sends by other ways than the bus.
+  virtual void on_committed() {}
   // One line for a person, for STATUS.
   virtual std::string status_text() const = 0;
 
@@ -127,6 +131,7 @@ class Node {
  private:
   void publish_status(const Now& now, const std::string& text);
   void commit(const Now& now, const std::function<void()>& publish_all);
+  void publish_after_journal(const Now& now, const std::function<void()>& publish_all);
   void write_journal(SimTime now);
   void restore_published(std::span<const std::uint8_t> messages);
   void load(const StateJournal::Saved& saved);

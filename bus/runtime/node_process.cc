@@ -233,6 +233,9 @@ void catch_stop_signals() {
   action.sa_handler = on_stop_signal;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction before {};  // of a terminal that is closed; nohup ignores it
+  sigaction(SIGHUP, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
 }
 
 bool stop_requested() { return stop_signal_seen; }
@@ -247,6 +250,7 @@ Readable wait_for_bus(lcm::LCM& lcm, SimTime wake, int other_file) {
   sigemptyset(&blocked);
   sigaddset(&blocked, SIGINT);
   sigaddset(&blocked, SIGTERM);
+  sigaddset(&blocked, SIGHUP);
   sigprocmask(SIG_BLOCK, &blocked, &before);
   const timespec timeout{0, stop_requested() ? 0 : std::max<long>(left.nanoseconds(), 0)};
   const bool any = ppoll(files.data(), files.size(), &timeout, &before) > 0;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A node in a process of its own: command line, transport, time source, loop, and an orderly end.
-//
-// Each program's main describes itself in a NodeProgram and calls run_node_program. SIGINT and SIGTERM end the loop:
-// messages that the bus has delivered are handled, the node takes its last step and publishes a final STATUS; exit code
-// 0. A node in the middle of a step that takes longer ends there, 0.9 s after the signal: what it holds on disk serves as after
-// SIGKILL. An error of the user (configuration, command line) prints one line per problem; exit code 2. A network that cannot be used, or on which
-// another conductor runs: 69. Any other error: 1.
+// Each program's main describes itself in a NodeProgram and calls run_node_program. SIGINT, SIGTERM and
+// SIGHUP end the loop: messages that the bus has delivered are handled, the node takes its last step and
+// publishes a final STATUS; exit code 0. A node in the middle of a step that takes longer ends there, 0.9 s
+// after the signal: what it holds on disk serves as after SIGKILL. An error of the user (configuration,
+// command line) prints one line per problem; exit code 2. A network that cannot be used, or on which another
+// conductor runs: 69. Any other error: 1.
 #pragma once
 
 #include <cstdint>
@@ -84,7 +84,7 @@ inline constexpr int kExitConfiguration = 2, kExitNetwork = 69;
 void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop,
               ReceiveFilter* filter = nullptr);
 
-// From now on SIGINT and SIGTERM set a flag instead of ending the process.
+// From now on SIGINT, SIGTERM and, unless it is ignored, SIGHUP set a flag instead of ending the process.
 void catch_stop_signals();
 bool stop_requested();       // either came
 bool interrupt_requested();  // SIGINT came: Ctrl-C

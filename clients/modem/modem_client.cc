@@ -51,10 +51,9 @@ void ModemClient::listen(SimTime from, const ListenOptions& options) {
   bus_.publish(bus::channels::kListen.of(address_.vehicle), message);
 }
 
-std::int64_t ModemClient::send(SimTime steady, SimTime start, std::int32_t destination,
-                               std::span<const std::uint8_t> payload, SendOptions options) {
+modem_send_t ModemClient::message_of(std::int32_t destination, std::span<const std::uint8_t> payload,
+                                     SendOptions options) const {
   modem_send_t message{};
-  message.utime = start.to_utime();
   message.session = address_.session;
   message.packet_sequence = next_sequence_;
   message.source_id = address_.vehicle_id;
@@ -71,6 +70,18 @@ std::int64_t ModemClient::send(SimTime steady, SimTime start, std::int32_t desti
   message.num_frames = static_cast<std::int32_t>(message.frame_bytes.size());
   message.payload_size = static_cast<std::int32_t>(payload.size());
   message.payload.assign(payload.begin(), payload.end());
+  return message;
+}
+
+std::string ModemClient::problem_with(std::int32_t destination, std::span<const std::uint8_t> payload,
+                                      const SendOptions& options) const {
+  return bus::problem_in(message_of(destination, payload, options));
+}
+
+std::int64_t ModemClient::send(SimTime steady, SimTime start, std::int32_t destination,
+                               std::span<const std::uint8_t> payload, SendOptions options) {
+  modem_send_t message = message_of(destination, payload, std::move(options));
+  message.utime = start.to_utime();
   const std::string problem = bus::problem_in(message);
   require(problem.empty(), "no packet of this modem: " + problem);
   ++next_sequence_;

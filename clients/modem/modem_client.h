@@ -120,6 +120,9 @@ class ModemClient {
   // the receipt. Throws InvalidArgument otherwise, and for options that contradict each other.
   std::int64_t send(SimTime steady, SimTime start, std::int32_t destination,
                     std::span<const std::uint8_t> payload, SendOptions options = {});
+  // Reason why no modem sends such a packet; empty where there is none.
+  std::string problem_with(std::int32_t destination, std::span<const std::uint8_t> payload,
+                           const SendOptions& options) const;
   // A PING without payload. What comes back, if it does, is a RECEIVE of kind PING_REPLY with this
   // packet_sequence, which holds the travel time out and back.
   std::int64_t ping(SimTime steady, SimTime start, std::int32_t destination) {
@@ -162,6 +165,8 @@ class ModemClient {
   // Session, source, kind, sequence: a PING_REPLY has session and sequence of its ping.
   using PacketName = std::tuple<std::int64_t, std::int32_t, std::int8_t, std::int64_t>;
 
+  modem_send_t message_of(std::int32_t destination, std::span<const std::uint8_t> payload,
+                          SendOptions options) const;
   // Takes the waiting answer of that kind to a packet of ours.
   std::optional<modem_receive_t> take_answer(std::int64_t packet_sequence, std::int8_t kind);
   void take_receipt(const modem_receipt_t& receipt);

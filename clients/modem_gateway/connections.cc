@@ -47,11 +47,16 @@ void Connections::watch(int operation, int fd, std::uint64_t mark, std::uint32_t
 }
 
 std::size_t Connections::add(const Place& place) {
-  Door door{place, place.is_tcp ? listen_tcp(place) : open_pty(place.path)};
+  Door door;
+  door.place = place;
   if (place.is_tcp) {
+    door.listening = listen_tcp(place);
     watch(EPOLL_CTL_ADD, door.listening.get(), kDoorMark | doors_.size(), EPOLLIN);
     door.place.port = port_of(door.listening);
   } else {
+    SerialLine line = open_pty(place.path);
+    door.listening = std::move(line.terminal);
+    door.link = std::move(line.link);
     door.is_waiting_pty = true;
     next_look_ = SimTime();
   }
@@ -162,6 +167,11 @@ void Connections::write(std::size_t door, ClientId client, std::string_view byte
   for (auto& [id, each] : clients_) {
     if (each.door == door) write_to(id, each, bytes);
   }
+}
+
+void Connections::disconnect(ClientId client) {
+  const auto found = clients_.find(client);
+  if (found != clients_.end()) shutdown(found->second.connection.get(), SHUT_RDWR);
 }
 
 void Connections::send_datagram(ClientId client, std::uint16_t port, std::string_view bytes) {

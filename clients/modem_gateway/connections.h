@@ -52,6 +52,9 @@ class Connections {
   // To a host, or with kAllClients to all of the door.
   void write(std::size_t door, ClientId client, std::string_view bytes);
 
+  // Ends a connection on TCP: take() reports it as closed.
+  void disconnect(ClientId client);
+
   // By UDP, to that port of the machine that a host on TCP is on; what the network does not take at once is lost.
   void send_datagram(ClientId client, std::uint16_t port, std::string_view bytes);
 
@@ -68,6 +71,7 @@ class Connections {
   struct Door {
     Place place;
     File listening;  // or the pseudo-terminal
+    Link link;       // to the latter
     std::size_t num_clients = 0;
     bool is_waiting_pty = false;  // that nobody has open
   };

@@ -32,30 +32,28 @@ clients::ModemAddress address_of(const bus::Bus& bus, const DoorConfig& door) {
           bus::session_of(entropy, door.vehicle + "=" + door.kind + ":" + door.place.text())};
 }
 
-// Simulation time is exact to the microsecond on the bus: a packet is not to start before it was asked for.
-SimTime whole_microsecond_from(SimTime time) {
-  return SimTime::from_utime((time + SimDuration::from_nanoseconds(499)).to_utime());
-}
-
 }  // namespace
 
 Door::Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway,
            const channel_server::VehicleClocks& clocks, AddressBook& addresses, SoundField* sound,
-           Writer writer, DatagramWriter datagram_writer, Trace trace)
+           Writer writer, DatagramWriter datagram_writer, Disconnect disconnect, Trace trace)
     : bus_(bus),
       clocks_(clocks),
       writer_(std::move(writer)),
       datagram_writer_(std::move(datagram_writer)),
+      disconnect_(std::move(disconnect)),
       trace_(std::move(trace)),
       modem_(bus, address_of(bus, config)),
+      queue_(modem_),
       vehicles_(gateway.vehicles),
       client_name_("door-" +
                    std::to_string(static_cast<std::uint64_t>(modem_.address().session) % 1'000'000'000'000)) {
-  protocol_ = make_protocol(
-      config.kind, {*this, addresses, config.vehicle_id, DoorOptions(config.options), gateway.vehicles,
-                    gateway.origin_latitude_deg, gateway.origin_longitude_deg, sound});
-  listens_ = protocol_->listening();
-  next_listen_ = listens_ ? SimTime() : SimTime::never();
+  make_protocol_ = [this, config, &addresses, sound, latitude_deg = gateway.origin_latitude_deg,
+                    longitude_deg = gateway.origin_longitude_deg] {
+    return make_protocol(config.kind, {*this, addresses, config.vehicle_id, DoorOptions(config.options),
+                                       vehicles_, latitude_deg, longitude_deg, sound});
+  };
+  make_modem();
   modem_.on_receipt([this](const modem_receipt_t& receipt) { happenings_.emplace_back(receipt); });
   modem_.on_receive([this](const modem_receive_t& packet) { happenings_.emplace_back(packet); });
   if (listens_) modem_.on_event([this](const modem_event_t& event) { happenings_.emplace_back(event); });
@@ -73,6 +71,12 @@ Door::Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway
   bus.subscribe<vehicle_state_t>(
       bus::channels::kState.of(config.vehicle), [this](const vehicle_state_t& s) { state_ = s; },
       bus::Wakeup::kStoreOnly);
+}
+
+void Door::make_modem() {
+  protocol_ = make_protocol_();
+  listens_ = protocol_->listening();
+  next_listen_ = listens_ ? SimTime() : SimTime::never();
 }
 
 bool Door::ask_paths(std::int32_t from_vehicle) {
@@ -105,7 +109,7 @@ void Door::store(const packet_outcome_t& outcome) {
 
 bus::Due Door::due() const {
   if (!happenings_.empty()) return {.sim = SimTime::at_once()};
-  return {.sim = std::min(next_listen_, protocol_->next()), .steady = modem_.next_resend()};
+  return {.sim = std::min({next_listen_, protocol_->next(), queue_.next()}), .steady = modem_.next_resend()};
 }
 
 void Door::begin_step(const bus::Now& now) {
@@ -117,23 +121,32 @@ void Door::begin_step(const bus::Now& now) {
     next_listen_ = now.sim + kListenPeriod;
   }
   for (const Happening& happening : std::exchange(happenings_, {})) hand_over(happening);
+  send_due();
+}
+
+void Door::send_due() {
+  if (const auto refusal = queue_.step(now_)) protocol_->on_receipt(*refusal);
+}
+
+void Door::hand_over_receipt(const modem_receipt_t& receipt) {
+  trace('*', "receipt packet=" + std::to_string(receipt.packet_sequence) +
+                 " result=" + std::to_string(receipt.receipt_result));
+  if (const auto of_protocol = queue_.take(receipt, now_)) protocol_->on_receipt(*of_protocol);
 }
 
 void Door::hand_over(const Happening& happening) {
   if (const auto* receipt = std::get_if<modem_receipt_t>(&happening)) {
-    trace('*', "receipt packet=" + std::to_string(receipt->packet_sequence) +
-                   " result=" + std::to_string(receipt->receipt_result));
-    protocol_->on_receipt(*receipt);
+    hand_over_receipt(*receipt);
   } else if (const auto* packet = std::get_if<modem_receive_t>(&happening)) {
     trace('*', "received source=" + std::to_string(packet->source_id) +
                    " packet=" + std::to_string(packet->packet_sequence));
-    protocol_->on_packet(*packet);
+    protocol_->on_packet(numbered(*packet));
   } else if (const auto* bearing = std::get_if<vehicle_usbl_t>(&happening)) {
-    protocol_->on_bearing(*bearing);
+    protocol_->on_bearing(numbered(*bearing));
   } else if (const auto* paths = std::get_if<link_reply_t>(&happening)) {
     protocol_->on_paths(*paths);
   } else if (const auto* event = std::get_if<modem_event_t>(&happening)) {
-    protocol_->on_event(*event);
+    protocol_->on_event(numbered(*event));
     const bool is_loss = event->modem_event == modem_event_t::PACKET_ENDED &&
                          event->packet_outcome != packet_outcome_t::RECEIVED;
     if (is_loss) keep(lost_events_, *event);
@@ -164,26 +177,48 @@ void Door::pair_losses() {
   }
 }
 
-void Door::on_opened(ClientId client) { protocol_->on_opened(client); }
+void Door::on_opened(ClientId client) {
+  hosts_.insert(client);
+  protocol_->on_opened(client);
+}
 
 void Door::on_bytes(ClientId client, std::string_view bytes) {
   trace('<', bytes);
   protocol_->on_bytes(client, bytes);
 }
 
-void Door::on_closed(ClientId client) { protocol_->on_closed(client); }
+void Door::on_closed(ClientId client) {
+  hosts_.erase(client);
+  protocol_->on_closed(client);
+}
 
 void Door::end_step() {
   if (now_.sim_known && now_.sim >= protocol_->next()) protocol_->step();
   modem_.resend(now_.steady);
+  send_due();
 }
 
 void Door::restart() {
   happenings_.clear();
   lost_events_.clear();
   lost_outcomes_.clear();
-  next_listen_ = listens_ ? SimTime() : SimTime::never();
-  if (listens_) listens_->wakes = {};
+  queue_.clear();
+  make_modem();
+  stored_changes_ = -1;
+  for (const ClientId host : hosts_) protocol_->on_opened(host);
+}
+
+void Door::archive(Archive& a) {
+  std::string name = client_name_;  // of vehicle, kind and place
+  a(name);
+  require(name == client_name_, "the journal is of another door than that of " + vehicle());
+  a(modem_);
+  protocol_->archive(a);
+}
+
+bool Door::take_stored() {
+  const std::int64_t before = std::exchange(stored_changes_, protocol_->stored_changes());
+  return stored_changes_ != before;
 }
 
 void Door::write(ClientId client, std::string_view bytes) {
@@ -191,21 +226,18 @@ void Door::write(ClientId client, std::string_view bytes) {
   writer_(client, bytes);
 }
 
-std::int64_t Door::send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
+std::int64_t Door::send(StartRule start, std::int32_t destination, std::span<const std::uint8_t> payload,
                         clients::SendOptions options) {
-  // Twice what a modem's queue holds (docs/packets.md): a host that commands more waits for the receipts.
-  constexpr std::size_t kMostUnanswered = 32;
-  if (modem_.num_pending() >= kMostUnanswered) {
-    note("too-many-sends", "unanswered=" + std::to_string(modem_.num_pending()));
+  if (unsent() >= kMaxUnsent) {
+    note("too-many-sends", "unsent=" + std::to_string(unsent()));
     return kNotSent;
   }
-  try {
-    return modem_.send(now_.steady, whole_microsecond_from(std::max(start, now_.sim)), destination, payload,
-                       std::move(options));
-  } catch (const InvalidArgument& problem) {
-    note("send-impossible", problem.what());
+  if (const std::string problem = modem_.problem_with(destination, payload, options); !problem.empty()) {
+    note("send-impossible", problem);
     return kNotSent;
   }
+  return queue_.add({std::move(start), destination, {payload.begin(), payload.end()}, std::move(options)},
+                    now_);
 }
 
 void Door::note(std::string_view event, std::string_view details) {

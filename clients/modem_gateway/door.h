@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +26,8 @@
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
+#include "clients/modem_gateway/send_queue.h"
+#include "core/archive.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
@@ -34,6 +37,7 @@ class Door : private ProtocolPort {
   // To hosts of this door, by Connections.
   using Writer = std::function<void(ClientId client, std::string_view bytes)>;
   using DatagramWriter = std::function<void(ClientId client, std::uint16_t port, std::string_view bytes)>;
+  using Disconnect = std::function<void(ClientId client)>;
   // Of everything that passes, for a person: `direction` is '<' from a host, '>' to it, '*' of the bus. May be empty.
   using Trace = std::function<void(char direction, std::string_view text)>;
 
@@ -41,7 +45,7 @@ class Door : private ProtocolPort {
   // `clocks` must outlive it, and `sound`, which may be null where the kind needs none.
   Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway,
        const channel_server::VehicleClocks& clocks, AddressBook& addresses, SoundField* sound, Writer writer,
-       DatagramWriter datagram_writer, Trace trace);
+       DatagramWriter datagram_writer, Disconnect disconnect, Trace trace);
 
   const std::string& vehicle() const { return modem_.address().vehicle; }
   std::int32_t vehicle_id() const { return modem_.address().vehicle_id; }
@@ -58,8 +62,15 @@ class Door : private ProtocolPort {
   void end_step();
 
   bus::Due due() const;
-  // Another run has begun: what was received of the old one is discarded.
+  // Another run has begun: what was received of the old one is discarded, and the modem is as the scenario
+  // has it.
   void restart();
+
+  // Passes what the next incarnation goes on from: the modem's non-volatile memory and the numbers of its
+  // packets. Loading throws InvalidArgument for what another door saved.
+  void archive(Archive& a);
+  // True where the modem's non-volatile memory has changed since the last call.
+  bool take_stored();
 
   const clients::ModemCounters& counters() const { return modem_.counters(); }
   std::int64_t losses() const { return losses_; }
@@ -77,8 +88,10 @@ class Door : private ProtocolPort {
   void send_datagram(ClientId client, std::uint16_t port, std::string_view bytes) override {
     datagram_writer_(client, port, bytes);
   }
-  std::int64_t send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
+  void disconnect(ClientId client) override { disconnect_(client); }
+  std::int64_t send(StartRule start, std::int32_t destination, std::span<const std::uint8_t> payload,
                     clients::SendOptions options) override;
+  std::size_t unsent() const override { return queue_.size(); }
   bool is_own(std::int64_t send_session) const override { return send_session == modem_.address().session; }
   const vehicle_sensors_t* sensors() const override { return sensors_ ? &*sensors_ : nullptr; }
   const vehicle_state_t* state() const override { return state_ ? &*state_ : nullptr; }
@@ -89,16 +102,30 @@ class Door : private ProtocolPort {
   void trace(char direction, std::string_view text) const {
     if (trace_) trace_(direction, text);
   }
+  // Own packets bear the numbers that send() returned.
+  template <class Message>
+  Message numbered(Message message) const {
+    if (is_own(message.send_session)) message.packet_sequence = queue_.number_of(message.packet_sequence);
+    return message;
+  }
+  void make_modem();
+  void send_due();
   void hand_over(const Happening& happening);
+  void hand_over_receipt(const modem_receipt_t& receipt);
   void pair_losses();
 
   bus::Bus& bus_;
   const channel_server::VehicleClocks& clocks_;
   Writer writer_;
   DatagramWriter datagram_writer_;
+  Disconnect disconnect_;
   Trace trace_;
   clients::ModemClient modem_;
+  SendQueue queue_;
+  std::function<std::unique_ptr<Protocol>()> make_protocol_;
   std::unique_ptr<Protocol> protocol_;
+  std::int64_t stored_changes_ = 0;
+  std::set<ClientId> hosts_;
   std::optional<clients::ListenOptions> listens_;
   SimTime next_listen_;
   bus::Now now_;

@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
+#include <string_view>
+#include <utility>
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -62,7 +65,21 @@ File accept_connection(const File& listening) {
   return connection;
 }
 
-File open_pty(const std::string& path) {
+Link::Link(std::string path, std::string target) : path_(std::move(path)), target_(std::move(target)) {
+  struct stat there {};
+  if (lstat(path_.c_str(), &there) == 0 && S_ISLNK(there.st_mode)) unlink(path_.c_str());
+  require_done(symlink(target_.c_str(), path_.c_str()) == 0, "a door cannot make the link " + path_);
+}
+
+Link::~Link() {
+  if (path_.empty()) return;
+  std::array<char, 128> target{};
+  const ssize_t size = readlink(path_.c_str(), target.data(), target.size());
+  if (size >= 0 && std::string_view(target.data(), static_cast<std::size_t>(size)) == target_)
+    unlink(path_.c_str());
+}
+
+SerialLine open_pty(const std::string& path) {
   int ours = -1, theirs = -1;
   std::array<char, 128> name{};
   require_done(openpty(&ours, &theirs, name.data(), nullptr, nullptr) == 0, "no pseudo-terminal for " + path);
@@ -74,10 +91,7 @@ File open_pty(const std::string& path) {
   tcsetattr(theirs, TCSANOW, &settings);
   fcntl(ours, F_SETFL, O_NONBLOCK);
   fcntl(ours, F_SETFD, FD_CLOEXEC);
-  struct stat there {};
-  if (lstat(path.c_str(), &there) == 0 && S_ISLNK(there.st_mode)) unlink(path.c_str());
-  require_done(symlink(name.data(), path.c_str()) == 0, "a door cannot make the link " + path);
-  return pty;
+  return {std::move(pty), Link(path, name.data())};
 }
 
 bool is_pty_open(const File& pty) {

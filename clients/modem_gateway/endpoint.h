@@ -37,9 +37,35 @@ std::uint16_t port_of(const File& listening);
 // The next connection that waits; none (-1) when none does.
 File accept_connection(const File& listening);
 
-// Our side of a pseudo-terminal; hosts open the other as a serial port, raw, by the link at `path`, which is replaced if it is
-// a link already. Throws InvalidArgument where the link cannot be made.
-File open_pty(const std::string& path);
+// Owns a symbolic link: removes it at the end, where it still points to the target that it was made with.
+class Link {
+ public:
+  Link() = default;
+  // Replaces a symbolic link and nothing else. Throws InvalidArgument where the link cannot be made.
+  Link(std::string path, std::string target);
+  Link(Link&& other) noexcept
+      : path_(std::exchange(other.path_, "")), target_(std::exchange(other.target_, "")) {}
+  Link& operator=(Link&& other) noexcept {
+    std::swap(path_, other.path_);
+    std::swap(target_, other.target_);
+    return *this;
+  }
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+  ~Link();
+
+ private:
+  std::string path_, target_;  // empty: none
+};
+
+// Our side of a pseudo-terminal; hosts open the other side as a serial port by the link, raw from the
+// beginning.
+struct SerialLine {
+  File terminal;
+  Link link;
+};
+// Makes the link at `path`. Throws InvalidArgument where that is impossible.
+SerialLine open_pty(const std::string& path);
 // Whether a host has the other side open.
 bool is_pty_open(const File& pty);
 

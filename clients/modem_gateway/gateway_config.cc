@@ -32,9 +32,11 @@ class NoPort : public ProtocolPort {
   SimTime clock_at(SimTime time) const override { return time; }
   void sleep_until(SimTime) override {}
   void write(ClientId, std::string_view) override {}
-  std::int64_t send(SimTime, std::int32_t, std::span<const std::uint8_t>, clients::SendOptions) override {
+  void disconnect(ClientId) override {}
+  std::int64_t send(StartRule, std::int32_t, std::span<const std::uint8_t>, clients::SendOptions) override {
     return 0;
   }
+  std::size_t unsent() const override { return 0; }
   bool is_own(std::int64_t) const override { return false; }
   const vehicle_sensors_t* sensors() const override { return nullptr; }
   const vehicle_state_t* state() const override { return nullptr; }

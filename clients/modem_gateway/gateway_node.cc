@@ -2,6 +2,7 @@
 #include "clients/modem_gateway/gateway_node.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <string_view>
 #include <utility>
 
@@ -16,13 +17,15 @@ GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Gatewa
                          SimDuration look_period, const std::string& trace_path,
                          const SoundFieldMaker& make_sound)
     : Node(lcm, std::move(identity)),
+      config_(config),
       clocks_(config.clocks, config.seed, config.state_lag),
       look_period_(look_period),
       next_look_(look_period == SimDuration() ? SimTime::never() : SimTime()) {
   if (!trace_path.empty()) trace_ = std::make_unique<TraceLog>(trace_path);
   if (config.rate != 1)
     bus().log().warning("rate", "rate=" + std::to_string(config.rate) + ": hosts keep wall time");
-  for (const DoorConfig& door : config.doors) add_door(config, door, make_sound);
+  assign_all_addresses();
+  for (const DoorConfig& door : config.doors) add_door(door, make_sound);
   if (clocks_.need_fixes()) {
     bus().subscribe<vehicle_gps_t>(
         bus::channels::kGps,
@@ -38,14 +41,18 @@ GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Gatewa
                                     [this](const packet_outcome_t& outcome) { take_outcome(outcome); });
 }
 
-void GatewayNode::add_door(const GatewayConfig& config, const DoorConfig& door,
-                           const SoundFieldMaker& make_sound) {
+// The books stay where they are: doors refer to them.
+void GatewayNode::assign_all_addresses() {
+  for (const DoorConfig& door : config_.doors) addresses_[door.kind] = AddressBook();
+  for (const DoorConfig& door : config_.doors)
+    assign_addresses(addresses_[door.kind], door.addresses, config_.vehicles);
+}
+
+void GatewayNode::add_door(const DoorConfig& door, const SoundFieldMaker& make_sound) {
   if (needs_sound(door.kind) && !sound_) {
     require(make_sound != nullptr, "a door of kind '" + door.kind + "' needs the water of a scenario");
     sound_ = make_sound(bus());
   }
-  AddressBook& addresses = addresses_[door.kind];
-  assign_addresses(addresses, door.addresses, config.vehicles);
   const std::size_t number = connections_.add(door.place);
   Door::Trace trace;
   if (trace_) {
@@ -54,12 +61,14 @@ void GatewayNode::add_door(const GatewayConfig& config, const DoorConfig& door,
     };
   }
   doors_.push_back(std::make_unique<Door>(
-      bus(), door, config, clocks_, addresses, sound_.get(),
-      [this, number](ClientId client, std::string_view bytes) { connections_.write(number, client, bytes); },
+      bus(), door, config_, clocks_, addresses_[door.kind], sound_.get(),
+      [this, number](ClientId client, std::string_view bytes) {
+        written_.push_back({number, client, std::string(bytes)});
+      },
       [this](ClientId client, std::uint16_t port, std::string_view bytes) {
         connections_.send_datagram(client, port, bytes);
       },
-      std::move(trace)));
+      [this](ClientId client) { connections_.disconnect(client); }, std::move(trace)));
   bus().log().info("door", "vehicle=" + door.vehicle + " kind=" + door.kind + " place=" + place_of(number));
 }
 
@@ -110,9 +119,25 @@ void GatewayNode::serve_hosts(SimTime steady) {
 }
 
 void GatewayNode::on_restart(const bus::Now& now) {
+  assign_all_addresses();
   for (const auto& door : doors_) door->restart();
   clocks_.clear();
   if (look_period_ > SimDuration()) next_look_ = now.sim;
+}
+
+void GatewayNode::on_archive(Archive& a) {
+  for (const auto& door : doors_) a(*door);
+}
+
+bool GatewayNode::on_wants_commit() {
+  bool wants = false;
+  for (const auto& door : doors_) wants = door->take_stored() || wants;
+  return wants;
+}
+
+void GatewayNode::on_committed() {
+  for (const Written& written : std::exchange(written_, {}))
+    connections_.write(written.door, written.client, written.bytes);
 }
 
 std::string GatewayNode::status_text() const {

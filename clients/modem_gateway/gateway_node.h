@@ -7,7 +7,7 @@
 // are meant for rate 1.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
@@ -20,8 +20,10 @@
 #include "clients/modem_gateway/door.h"
 #include "clients/modem_gateway/gateway_config.h"
 #include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
 #include "clients/modem_gateway/trace_log.h"
+#include "core/archive.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
@@ -48,19 +50,32 @@ class GatewayNode : public bus::Node {
   bus::Due on_due() const override;
   void on_step(const bus::Now& now) override;
   void on_restart(const bus::Now& now) override;
+  void on_archive(Archive& a) override;
+  bool on_wants_commit() override;
+  void on_committed() override;
   std::string status_text() const override;
 
  private:
-  void add_door(const GatewayConfig& config, const DoorConfig& door, const SoundFieldMaker& make_sound);
+  void add_door(const DoorConfig& door, const SoundFieldMaker& make_sound);
+  void assign_all_addresses();
   void take_outcome(const packet_outcome_t& outcome);
   void serve_hosts(SimTime steady);
 
+  // Bytes for hosts, which get them once what they tell of is on disk.
+  struct Written {
+    std::size_t door;
+    ClientId client;
+    std::string bytes;
+  };
+
+  GatewayConfig config_;
   channel_server::VehicleClocks clocks_;
   SimDuration look_period_;
   SimTime next_look_;  // at hosts, simulation time; with a look_period
   Connections connections_;
   std::unique_ptr<TraceLog> trace_;
   SimTime now_;
+  std::vector<Written> written_;
   std::map<std::string, AddressBook> addresses_;  // by kind
   std::unique_ptr<SoundField> sound_;             // where a door needs it
   std::vector<std::unique_ptr<Door>> doors_;

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   program.program = "halocline-modem-gateway";
   program.purpose = "Lets hosts talk to simulated modems as to real ones, over TCP and serial lines.";
   program.node_name = "modem-gateway";
+  program.keeps_state = true;
   program.interface =
       "receives:  CLOCK, RECEIPT.<vehicle>, RECEIVE.<vehicle>, MODEM_EVENT.<vehicle>, OUTCOME, "
       "USBL.<vehicle>,\n"

@@ -37,11 +37,14 @@ class Port : public ProtocolPort {
   SimTime now() const override { return at; }
   SimTime clock_at(SimTime time) const override { return time + SimDuration::from_milliseconds(250); }
   void write(ClientId, std::string_view bytes) override { written += bytes.size(); }
-  std::int64_t send(SimTime start, std::int32_t, std::span<const std::uint8_t>,
+  void disconnect(ClientId) override {}
+  std::int64_t send(StartRule start, std::int32_t, std::span<const std::uint8_t>,
                     clients::SendOptions) override {
-    started = std::max(at, start);
+    started = std::max(at, start());
     return next_packet++;
   }
+  // All counts of packets that wait come in turn.
+  std::size_t unsent() const override { return static_cast<std::size_t>(next_packet % 20); }
   void sleep_until(SimTime) override {}
   bool is_own(std::int64_t send_session) const override { return send_session == kSession; }
   const vehicle_sensors_t* sensors() const override { return measured ? &*measured : nullptr; }

@@ -5,11 +5,14 @@
 //   content: source, destination, type, status, sequence number, length, payload; of what was received a footer of 6: power, rssi, bit
 //   errors, gain mean, least, greatest
 //
-// Types 0 to 7E are data, 7F acknowledgements, 80 to FE commands, FF confirmations: each frame of the host is confirmed at once. Status 1
-// asks the receiver for an acknowledgement, 2 for one with the two-way time (us, four bytes, high byte first). Type and sequence number go
-// with the data, so a frame holds up to 126 bytes. Commands: 84 the modem's address, 85 the battery (mV, two bytes); of all others the
-// parameters are kept and returned. Footer: power is the level in dB re 1 uPa, rssi the SNR in dB + 128, gain 170 dB less the level.
-// Options: none.
+// Types 0 to 7E are data, 7F acknowledgements, 80 to FD commands. The modem answers each frame of the host at
+// once: FF confirms, FE refuses what is malformed, an unknown command, more than 126 bytes (type and sequence
+// number go with the data), and data while one packet waits behind the one on air. A confirmed packet that
+// cannot be sent afterwards is refused then. Status is bits, which the receiver's host sees as they were
+// sent: 1 asks for an acknowledgement, 2 for one with the two-way time (us, four bytes, high byte first).
+// Commands: 84 the modem's address, 85 the battery (mV, two bytes), 87 reset; of the others the parameters
+// are kept and returned. Address and gains are in non-volatile memory. Footer: power is the level in dB re 1
+// uPa, rssi the SNR in dB + 128, gain 170 dB less the level. Options: none.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,6 +32,7 @@
 #include "clients/modem_gateway/protocols/fields.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
+#include "core/archive.h"
 #include "core/names.h"
 
 namespace halocline::modem_gateway {
@@ -37,14 +41,29 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint8_t kEscape = 0x10, kBegin = 0x02, kEnd = 0x03, kAll = 0xff;
-constexpr std::uint8_t kAcknowledgement = 0x7f, kId = 0x84, kBattery = 0x85, kConfirmation = 0xff;
+constexpr std::uint8_t kAcknowledgement = 0x7f, kId = 0x84, kBattery = 0x85, kReset = 0x87;
+constexpr std::uint8_t kRefusal = 0xfe, kConfirmation = 0xff;
 constexpr std::uint8_t kWantsAck = 1, kWantsRange = 2;
 constexpr std::size_t kHeaderBytes = 6, kMaxPayload = 128, kWithData = 2, kMaxAsked = 64;
+// One on air and one behind it.
+constexpr std::size_t kMaxSending = 2;
+// Gain control on or off, of two stages, of sending and of receiving.
+constexpr std::array<std::uint8_t, 4> kGains{0x98, 0x99, 0x9a, 0x9e};
+// Commands of the public hosts besides id, battery and reset, as ranges.
+constexpr std::array<std::pair<std::uint8_t, std::uint8_t>, 6> kKnown{
+    {{0x80, 0x83}, {0x88, 0x9e}, {0xa0, 0xa1}, {0xa8, 0xa9}, {0xb1, 0xb9}, {0xc0, 0xc7}}};
+
+bool is_command(std::uint8_t type) {
+  if (type == kId || type == kBattery || type == kReset) return true;
+  return std::any_of(kKnown.begin(), kKnown.end(),
+                     [&](const auto& range) { return type >= range.first && type <= range.second; });
+}
 constexpr double kFull_mv = 12'000, kEmpty_mv = 9'600, kReference_db = 170;
 
 struct AhoiFrame {
   std::uint8_t source = 0, destination = 0, type = 0, status = 0, number = 0;
   Bytes payload;
+  bool is_malformed = false;  // too long, or of another length than it states
 };
 
 std::string encoded(const AhoiFrame& frame, std::span<const std::uint8_t> footer = {}) {
@@ -60,7 +79,7 @@ std::string encoded(const AhoiFrame& frame, std::span<const std::uint8_t> footer
   return bytes + static_cast<char>(kEscape) + static_cast<char>(kEnd);
 }
 
-// Frames out of the bytes of a host; what is none is skipped.
+// Frames out of the bytes of a host; what has no header is skipped.
 class FrameReader {
  public:
   // The frame that this byte completes.
@@ -76,23 +95,22 @@ class FrameReader {
     }
     if (was_escaped && byte == kEnd) return finish();
     if (was_escaped && byte != kEscape) content_.reset();
-    if (content_ && content_->size() < kHeaderBytes + kMaxPayload)
-      content_->push_back(byte);
-    else
-      content_.reset();
+    if (content_ && content_->size() <= kHeaderBytes + kMaxPayload) content_->push_back(byte);
     return std::nullopt;
   }
 
  private:
   std::optional<AhoiFrame> finish() {
     const auto content = std::exchange(content_, std::nullopt);
-    if (!content || content->size() < kHeaderBytes || content->size() != kHeaderBytes + (*content)[5])
-      return std::nullopt;
+    if (!content || content->size() < kHeaderBytes) return std::nullopt;
+    const bool is_whole =
+        content->size() == kHeaderBytes + (*content)[5] && content->size() <= kHeaderBytes + kMaxPayload;
     return AhoiFrame{(*content)[0], (*content)[1], (*content)[2],
-                     (*content)[3], (*content)[4], {content->begin() + kHeaderBytes, content->end()}};
+                     (*content)[3], (*content)[4], {content->begin() + kHeaderBytes, content->end()},
+                     !is_whole};
   }
 
-  std::optional<Bytes> content_;  // of the frame that has begun
+  std::optional<Bytes> content_;  // of the frame that has begun, one byte more than the longest at most
   bool is_escaped_ = false;
 };
 
@@ -120,13 +138,23 @@ class Ahoi : public Protocol {
   }
   void on_closed(ClientId client) override { readers_.erase(client); }
 
+  void on_receipt(const modem_receipt_t& receipt) override {
+    const auto asked = asked_.find(receipt.packet_sequence);
+    if (asked == asked_.end()) return;
+    if (!is_accepted(receipt)) {
+      port_.note("send-refused", "result=" + std::to_string(receipt.receipt_result));
+      answer(kAllClients, kRefusal, asked->second.number);
+    }
+    if (!is_accepted(receipt) || !wants_ack(asked->second.status)) asked_.erase(asked);
+  }
+
   void on_packet(const modem_receive_t& packet) override {
     if (packet.packet_kind == modem_receive_t::ACK && port_.is_own(packet.send_session))
       return report_ack(packet);
     const bool is_for_us = packet.destination_id == vehicle_id_ || packet.destination_id == kBroadcastId;
     if (packet.packet_kind != modem_receive_t::DATA || !is_for_us || packet.payload.size() < kWithData)
       return;
-    const std::uint8_t status = packet.wants_ack ? kWantsAck : 0;
+    const auto status = static_cast<std::uint8_t>(packet.header_number);
     const AhoiFrame frame{address_of(packet.source_id),
                           address_of(packet.destination_id),
                           packet.payload[0],
@@ -136,8 +164,14 @@ class Ahoi : public Protocol {
     port_.write(kAllClients, encoded(frame, footer_of(packet)));
   }
 
+  void archive(Archive& a) override {
+    std::uint8_t address = address_of(vehicle_id_);
+    a(address, gains_);
+    if (a.is_loading()) addresses_.assign(vehicle_id_, address);
+  }
+
  private:
-  // A frame whose acknowledgement may come.
+  // A frame whose receipt or acknowledgement may come.
   struct Asked {
     std::uint8_t number, status;
   };
@@ -148,42 +182,63 @@ class Ahoi : public Protocol {
                : static_cast<std::uint8_t>(addresses_.address_of(vehicle_id).value_or(0));
   }
 
-  void obey(ClientId client, const AhoiFrame& frame) {
-    if (frame.type == kConfirmation) return;
-    port_.write(client, encoded({address_of(vehicle_id_), kAll, kConfirmation, 0, frame.number, {}}));
-    if (frame.type < kAcknowledgement) return send(frame);
-    if (frame.type == kAcknowledgement) return;
-    AhoiFrame answer{0, kAll, frame.type, 0, frame.number, answer_to(frame)};
-    answer.source = address_of(vehicle_id_);  // which the command may have set
-    port_.write(client, encoded(answer));
+  static bool wants_ack(std::uint8_t status) { return (status & (kWantsAck | kWantsRange)) != 0; }
+
+  void answer(ClientId client, std::uint8_t type, std::uint8_t number, Bytes payload = {}) {
+    port_.write(client, encoded({address_of(vehicle_id_), kAll, type, 0, number, std::move(payload)}));
   }
 
-  void send(const AhoiFrame& frame) {
-    if (frame.payload.size() > kMaxPayload - kWithData)
-      return port_.note("too-large", "bytes=" + std::to_string(frame.payload.size()));
+  void obey(ClientId client, const AhoiFrame& frame) {
+    if (frame.type >= kRefusal) return;
+    const bool is_data = frame.type < kAcknowledgement;
+    const bool is_taken = !frame.is_malformed && (is_data ? send(frame) : is_command(frame.type));
+    answer(client, is_taken ? kConfirmation : kRefusal, frame.number);
+    if (!is_taken || is_data) return;
+    Bytes value = answer_to(frame);  // which may set the address
+    answer(client, frame.type, frame.number, std::move(value));
+  }
+
+  // True where the modem sends it.
+  bool send(const AhoiFrame& frame) {
+    if (frame.payload.size() > kMaxPayload - kWithData || port_.unsent() >= kMaxSending) return false;
     const std::int32_t to =
         frame.destination == kAll ? kBroadcastId : addresses_.vehicle_of(frame.destination);
     Bytes packet{frame.type, frame.number};
     packet.insert(packet.end(), frame.payload.begin(), frame.payload.end());
-    const bool wants_ack = (frame.status == kWantsAck || frame.status == kWantsRange) && to != kBroadcastId;
-    const auto sequence = port_.send(port_.now(), to, packet, {.wants_ack = wants_ack});
-    if (!wants_ack) return;
+    const auto sequence = port_.send(
+        port_.now(), to, packet,
+        {.wants_ack = wants_ack(frame.status) && to != kBroadcastId, .header_number = frame.status});
+    if (sequence == kNotSent) return false;
     asked_[sequence] = {frame.number, frame.status};
     if (asked_.size() > kMaxAsked) asked_.erase(asked_.begin());
+    return true;
   }
 
   Bytes answer_to(const AhoiFrame& command) {
-    if (command.type == kId) {
-      if (!command.payload.empty() && command.payload[0] != kAll)
-        addresses_.assign(vehicle_id_, command.payload[0]);
-      return {address_of(vehicle_id_)};
-    }
+    if (command.type == kId) return set_address(command.payload);
     if (command.type == kBattery) {
       const auto mv = static_cast<std::uint32_t>(battery_mv());
       return {static_cast<std::uint8_t>(mv >> 8), static_cast<std::uint8_t>(mv & 255)};
     }
-    if (!command.payload.empty()) parameters_[command.type] = command.payload;
-    return parameters_[command.type];
+    if (command.type == kReset) {
+      parameters_.clear();
+      return {};
+    }
+    const bool is_gain = std::find(kGains.begin(), kGains.end(), command.type) != kGains.end();
+    auto& parameters = is_gain ? gains_ : parameters_;
+    if (!command.payload.empty()) {
+      parameters[command.type] = command.payload;
+      if (is_gain) note_stored();
+    }
+    return parameters[command.type];
+  }
+
+  Bytes set_address(const Bytes& wanted) {
+    if (!wanted.empty() && wanted[0] != kAll) {
+      addresses_.assign(vehicle_id_, wanted[0]);
+      note_stored();
+    }
+    return {address_of(vehicle_id_)};
   }
 
   double battery_mv() const {
@@ -198,7 +253,7 @@ class Ahoi : public Protocol {
     if (asked == asked_.end() || packet.payload.empty() || (packet.payload[0] & 1) == 0) return;
     AhoiFrame ack{
         address_of(packet.source_id), address_of(vehicle_id_), kAcknowledgement, 0, asked->second.number, {}};
-    if (asked->second.status == kWantsRange) {
+    if ((asked->second.status & kWantsRange) != 0) {
       const auto us = static_cast<std::uint32_t>(std::llround(packet.two_way_travel_time_s * 1e6));
       for (const int shift : {24, 16, 8, 0})
         ack.payload.push_back(static_cast<std::uint8_t>(us >> shift & 255));
@@ -211,8 +266,8 @@ class Ahoi : public Protocol {
   AddressBook& addresses_;
   std::int32_t vehicle_id_;
   std::map<ClientId, FrameReader> readers_;
-  std::map<std::int64_t, Asked> asked_;  // by packet_sequence
-  std::map<std::uint8_t, Bytes> parameters_;
+  std::map<std::int64_t, Asked> asked_;               // by packet_sequence
+  std::map<std::uint8_t, Bytes> gains_, parameters_;  // by command: in non-volatile memory, and until a reset
 };
 
 }  // namespace

@@ -8,9 +8,10 @@
 //   $U00805hello   $U00805            to one
 //   $M00805hello   $M00805, then #R008T12345 or #TO within 4 s
 //   anything else  E
-// Received: #B00705hello (source), #U05hello (none). A command may end in T and 14 digits, within the same piece of bytes: send when
-// the counter of the modem, 24 MHz, has come so far. With the option `timestamps` what is received bears the counter at its arrival, T and
-// 10 digits.
+// While the modem sends or awaits an answer each command that sends is refused. The address is in
+// non-volatile memory. Received: #B00705hello (source), #U05hello (none). A command may end in T and 14
+// digits, within the same piece of bytes: send when the counter of the modem, 24 MHz, has come so far. With
+// the option `timestamps` what is received bears the counter at its arrival, T and 10 digits.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,6 +30,7 @@
 #include "clients/modem_gateway/protocols/fields.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
+#include "core/archive.h"
 #include "core/names.h"
 #include "core/sim_time.h"
 
@@ -38,6 +40,7 @@ namespace {
 constexpr std::size_t kAddressDigits = 3, kLengthDigits = 2, kTimeDigits = 14;
 constexpr std::int64_t kHighestAddress = 255, kMinBytes = 2, kMaxBytes = 64;
 constexpr double kTick_s = 31.25e-6, kSupply_v = 12, kSupplyScale_v = 15;
+const std::string kError = "E\r\n";
 constexpr SimDuration kReplyWithin = SimDuration::from_milliseconds(4000);
 // Nanoseconds in three ticks of the 24 MHz counter.
 constexpr std::int64_t kThreeTicksNs = 125;
@@ -155,13 +158,25 @@ class Nm3 : public Protocol {
       if (command.at) command.at = port_.instant_of(*command.at);
       const bool is_too_far = command.at && *command.at > port_.now() + kMaxAhead;
       if (result == CommandReader::Result::kWrong || is_too_far) {
-        port_.write(client, "E\r\n");
+        port_.write(client, kError);
       } else {
         obey(client, command);
       }
     }
   }
   void on_closed(ClientId client) override { readers_.erase(client); }
+
+  // A ping or message that is not sent is one without an answer.
+  void on_receipt(const modem_receipt_t& receipt) override {
+    if (is_accepted(receipt)) {
+      if (waiting_ && receipt.packet_sequence == waiting_->sequence)
+        waiting_->until = SimTime::from_utime(receipt.start_utime) + kReplyWithin;
+      return;
+    }
+    port_.note("send-refused", "result=" + std::to_string(receipt.receipt_result));
+    if (waiting_ && receipt.packet_sequence == waiting_->sequence) return report_no_answer();
+    port_.write(kAllClients, kError);
+  }
 
   void on_packet(const modem_receive_t& packet) override {
     switch (packet.packet_kind) {
@@ -179,9 +194,13 @@ class Nm3 : public Protocol {
 
   SimTime next() const override { return waiting_ ? waiting_->until : SimTime::never(); }
   void step() override {
-    if (!waiting_ || port_.now() < waiting_->until) return;
-    waiting_.reset();
-    port_.write(kAllClients, "#TO\r\n");
+    if (waiting_ && port_.now() >= waiting_->until) report_no_answer();
+  }
+
+  void archive(Archive& a) override {
+    std::int32_t address = own_address();
+    a(address);
+    if (a.is_loading()) addresses_.assign(vehicle_id_, address);
   }
 
  private:
@@ -195,41 +214,50 @@ class Nm3 : public Protocol {
   std::int32_t own_address() const { return addresses_.address_of(vehicle_id_).value_or(0); }
 
   void obey(ClientId client, const Command& command) {
+    if (command.letter == '?')
+      return port_.write(client, fmt::format("#A{:03}V{:05}\r\n", own_address(),
+                                             std::llround(kSupply_v / kSupplyScale_v * 65536)));
+    if (command.letter == 'A') {
+      addresses_.assign(vehicle_id_, command.address);
+      note_stored();
+      return port_.write(client, fmt::format("#A{:03}\r\n", command.address));
+    }
+    port_.write(client, send(command) ? echo_of(command) : kError);
+  }
+
+  static std::string echo_of(const Command& command) {
     switch (command.letter) {
-      case '?':
-        return port_.write(client, fmt::format("#A{:03}V{:05}\r\n", own_address(),
-                                               std::llround(kSupply_v / kSupplyScale_v * 65536)));
-      case 'A':
-        addresses_.assign(vehicle_id_, command.address);
-        return port_.write(client, fmt::format("#A{:03}\r\n", command.address));
+      case 'P':
+        return fmt::format("$P{:03}\r\n", command.address);
       case 'B':
-        port_.write(client, fmt::format("$B{:02}\r\n", command.data.size()));
-        return void(send(command, kBroadcastId, {}));
-      case 'U':
-        port_.write(client, fmt::format("$U{:03}{:02}\r\n", command.address, command.data.size()));
-        return void(send(command, addresses_.vehicle_of(command.address), {}));
+        return fmt::format("$B{:02}\r\n", command.data.size());
       default:
-        return ask(client, command);
+        return fmt::format("${}{:03}{:02}\r\n", command.letter, command.address, command.data.size());
     }
   }
 
-  // A ping, or a message with acknowledgement: one at a time.
-  void ask(ClientId client, const Command& command) {
-    const std::int32_t destination = addresses_.vehicle_of(command.address);
-    if (waiting_ || destination == vehicle_id_) return port_.write(client, "E\r\n");
-    const bool is_ping = command.letter == 'P';
-    port_.write(client, is_ping ? fmt::format("$P{:03}\r\n", command.address)
-                                : fmt::format("$M{:03}{:02}\r\n", command.address, command.data.size()));
-    const clients::SendOptions options =
-        is_ping ? clients::SendOptions{.kind = modem_send_t::PING} : clients::SendOptions{.wants_ack = true};
-    const auto sequence = destination == kBroadcastId ? kNotSent : send(command, destination, options);
-    const SimTime start = std::max(port_.now(), command.at.value_or(SimTime()));
-    waiting_ = {sequence, command.address, start + kReplyWithin};
+  // True where the modem sends it.
+  bool send(const Command& command) {
+    const std::int32_t destination =
+        command.letter == 'B' ? kBroadcastId : addresses_.vehicle_of(command.address);
+    const bool wants_answer = command.letter == 'P' || command.letter == 'M';
+    const bool is_to_other = destination != vehicle_id_ && destination != kBroadcastId;
+    if (waiting_ || port_.unsent() > 0 || (wants_answer && !is_to_other)) return false;
+    const clients::SendOptions options = command.letter == 'P'
+                                             ? clients::SendOptions{.kind = modem_send_t::PING}
+                                             : clients::SendOptions{.wants_ack = wants_answer};
+    const auto sequence =
+        port_.send(command.at.value_or(port_.now()), destination, as_bytes(command.data), options);
+    if (sequence != kNotSent && wants_answer) {
+      const SimTime start = std::max(port_.now(), command.at.value_or(SimTime()));
+      waiting_ = {sequence, command.address, start + kReplyWithin};
+    }
+    return sequence != kNotSent;
   }
 
-  std::int64_t send(const Command& command, std::int32_t destination, clients::SendOptions options) {
-    return port_.send(command.at.value_or(port_.now()), destination, as_bytes(command.data),
-                      std::move(options));
+  void report_no_answer() {
+    waiting_.reset();
+    port_.write(kAllClients, "#TO\r\n");
   }
 
   void report_range(const modem_receive_t& packet) {

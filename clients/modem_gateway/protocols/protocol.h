@@ -8,11 +8,14 @@
 // A protocol of one's own: docs/modem_gateway.md.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bus/messages.h"
@@ -20,6 +23,7 @@
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
+#include "core/archive.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
@@ -28,10 +32,9 @@ namespace halocline::modem_gateway {
 using ClientId = std::int64_t;
 inline constexpr ClientId kAllClients = 0;
 
-// In the place of a packet_sequence.
-inline constexpr std::int64_t kNotSent = -1;
-// A packet without a receipt by then was never sent.
-inline constexpr SimDuration kReceiptWithin = SimDuration::from_milliseconds(15'000);
+// In the place of a packet_sequence: a packet that was never sent, and one that a modem's earlier incarnation
+// sent.
+inline constexpr std::int64_t kNotSent = -1, kForgotten = -2;
 // The channel server refuses transmissions that are further ahead than ten seconds.
 inline constexpr SimDuration kMaxAhead = SimDuration::from_milliseconds(9000);
 
@@ -50,10 +53,26 @@ class ProtocolPort {
   virtual void write(ClientId client, std::string_view bytes) = 0;
   // By UDP, to a port of the machine that a host is on.
   virtual void send_datagram(ClientId /*client*/, std::uint16_t /*port*/, std::string_view /*bytes*/) {}
-  // Sends a packet at `start`, or now where that has passed; returns its packet_sequence, which its receipt, events and answers bear.
-  // `payload` and `options`: as ModemClient::send. kNotSent, and no receipt, for what no modem sends.
-  virtual std::int64_t send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
+  // Ends the connection of a host that cannot be answered otherwise; a serial line stays.
+  virtual void disconnect(ClientId client) = 0;
+  // Earliest start of a packet: asked when its turn has come.
+  using StartRule = std::function<SimTime()>;
+  // Most packets that wait for their turn or sound, as many as a modem's own queue holds (docs/packets.md).
+  static constexpr std::size_t kMaxUnsent = 16;
+
+  // Takes a packet to be sent: packets go out one after the other, each at `start` or later, and again where
+  // the modem was busy with an answer of its own. Returns the number that its receipt, events and answers
+  // bear as packet_sequence. One on_receipt() follows, a refusal also where the channel server never
+  // answered. `payload` and `options`: as ModemClient::send. kNotSent, and no receipt, for what no modem
+  // sends and beyond kMaxUnsent.
+  virtual std::int64_t send(StartRule start, std::int32_t destination, std::span<const std::uint8_t> payload,
                             clients::SendOptions options) = 0;
+  std::int64_t send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
+                    clients::SendOptions options) {
+    return send([start] { return start; }, destination, payload, std::move(options));
+  }
+  // Number of packets given to send() whose sound has not ended.
+  virtual std::size_t unsent() const = 0;
   // From now on the modem acquires nothing, until that instant.
   virtual void sleep_until(SimTime wakes) = 0;
   // Whether (session, packet_sequence) names a packet of this door.
@@ -100,7 +119,8 @@ class Protocol {
   virtual void on_bytes(ClientId client, std::string_view bytes) = 0;
   virtual void on_closed(ClientId /*client*/) {}
 
-  // The answer to a send(): accepted with start and duration, or refused.
+  // The answer to a send(): accepted with start and duration, or refused. A host whose command was confirmed
+  // is told of a refusal.
   virtual void on_receipt(const modem_receipt_t& /*receipt*/) {}
   // A packet received, whole or in part; answers to own packets among them.
   virtual void on_packet(const modem_receive_t& /*packet*/) {}
@@ -120,6 +140,23 @@ class Protocol {
   // When step() is due by simulation time.
   virtual SimTime next() const { return SimTime::never(); }
   virtual void step() {}
+
+  // The modem's non-volatile memory: settings that outlive the process. A factory reset clears it, a new run
+  // begins without.
+  virtual void archive(Archive& /*a*/) {}
+  // Increases with each change of that memory.
+  std::int64_t stored_changes() const { return stored_changes_; }
+
+ protected:
+  void note_stored() { ++stored_changes_; }
+
+ private:
+  std::int64_t stored_changes_ = 0;
 };
+
+inline bool is_accepted(const modem_receipt_t& receipt) {
+  return receipt.receipt_result == modem_receipt_t::ACCEPTED ||
+         receipt.receipt_result == modem_receipt_t::QUEUED;
+}
 
 }  // namespace halocline::modem_gateway

@@ -88,13 +88,48 @@ TEST(Ahoi, AnswersCommands) {
   EXPECT_TRUE(bench.port.sent.empty());
 }
 
+TEST(Ahoi, RefusesWhatIsMalformedUnknownOrTooMuch) {
+  AhoiBench bench;
+  EXPECT_EQ(bench.say("10020102000009051003"), "100201FFFE0009001003")
+      << "five bytes are stated, none is there";
+  EXPECT_EQ(bench.say("100201020000092C" + hex_of(std::vector<std::uint8_t>(300, 0x41)) + "1003"),
+            "100201FFFE0009001003");
+  EXPECT_EQ(bench.say("100201020000097F" + hex_of(std::vector<std::uint8_t>(127, 0x41)) + "1003"),
+            "100201FFFE0009001003");
+  EXPECT_EQ(bench.say("100200FFF0000A001003"), "100201FFFE000A001003") << "an unknown command";
+  EXPECT_EQ(bench.say("100201027F000B001003"), "100201FFFE000B001003") << "acknowledgements are the modem's";
+  EXPECT_TRUE(bench.port.sent.empty());
+}
+
+TEST(Ahoi, RefusesAThirdPacketAndTellsWhatCouldNotBeSent) {
+  AhoiBench bench;
+  const std::string frame =
+      "10020102000005024142"
+      "1003";
+  bench.port.unsent_packets = 1;
+  EXPECT_EQ(bench.say(frame), "100201FFFF0005001003");
+  bench.port.unsent_packets = 2;
+  EXPECT_EQ(bench.say(frame), "100201FFFE0005001003");
+  ASSERT_EQ(bench.port.sent.size(), 1u);
+  EXPECT_EQ(hex_of(as_bytes(bench.refuse(modem_receipt_t::REFUSED_NO_MODEM))), "100201FFFE0005001003");
+}
+
+TEST(Ahoi, TheReceiverSeesTheStatusAsItWasSent) {
+  AhoiBench bench;
+  bench.say(
+      "1002010200060500"
+      "1003");
+  EXPECT_TRUE(bench.port.sent.at(0).options.wants_ack);
+  modem_receive_t packet = bench.packet_from(2, 1, bench.port.sent.at(0).payload);
+  packet.header_number = bench.port.sent.at(0).options.header_number;
+  EXPECT_EQ(bench.hear(packet).substr(4, 10), "0201000605");
+}
+
 TEST(Ahoi, SkipsWhatIsNoFrame) {
   AhoiBench bench;
   EXPECT_EQ(bench.say("00411003"
-                      "1002010200000905"
-                      "1003"
-                      "1002" +
-                      hex_of(std::vector<std::uint8_t>(500, 0x41)) + "1003"),
+                      "1002010200"
+                      "1003"),
             "");
   EXPECT_EQ(bench.say("10020102"
                       "10020102000005001003"),

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/modem_gateway/connections.h"
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <termios.h>
 
 #include "bus/runtime/node_process.h"
 #include "core/check.h"
@@ -77,6 +81,71 @@ TEST(Connections, ASerialLineIsOpenedUsedClosedAndOpenedAgain) {
     ASSERT_TRUE(work_until([&] { echo.work(); }, [&] { return echo.closed == times; }));
     echo.connections.write(0, kAllClients, "nobody reads this");
   }
+}
+
+TEST(Connections, ASerialLineIsRawWhenAHostOpensIt) {
+  const halocline::testing::TemporaryFolder folder;
+  Connections connections;
+  connections.add(place_of("pty:modem"));
+  const File line(open("modem", O_RDWR | O_NOCTTY | O_CLOEXEC));
+  termios settings{};
+  ASSERT_EQ(tcgetattr(line.get(), &settings), 0);
+  EXPECT_EQ(settings.c_lflag & (ICANON | ECHO | ISIG | IEXTEN), 0u);
+  EXPECT_EQ(settings.c_iflag & (ICRNL | INLCR | IXON | ISTRIP), 0u);
+  EXPECT_EQ(settings.c_oflag & OPOST, 0u);
+}
+
+TEST(Connections, TheLinkToASerialLineGoesWithIt) {
+  const halocline::testing::TemporaryFolder folder;
+  {
+    Connections connections;
+    connections.add(place_of("pty:modem"));
+    EXPECT_TRUE(std::filesystem::is_symlink("modem"));
+    EXPECT_THROW(connections.add(place_of("pty:/nowhere/at/all")), InvalidArgument);
+    for (int i = 0; i < 10; ++i)
+      connections.add(place_of("pty:other" + std::to_string(i)));  // which move the first
+    EXPECT_TRUE(std::filesystem::is_symlink("modem"));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty("."));
+}
+
+TEST(Connections, ALinkThatAnotherHasMadeSinceStays) {
+  const halocline::testing::TemporaryFolder folder;
+  {
+    auto first = std::make_unique<Connections>();
+    first->add(place_of("pty:modem"));
+    Connections second;
+    second.add(place_of("pty:modem"));  // replaces it
+    first.reset();
+    EXPECT_TRUE(std::filesystem::exists("modem"));
+    std::filesystem::remove("modem");
+    std::filesystem::create_symlink("elsewhere", "modem");
+  }
+  EXPECT_EQ(std::filesystem::read_symlink("modem"), "elsewhere");
+}
+
+TEST(Connections, OnlyASymbolicLinkIsReplaced) {
+  const halocline::testing::TemporaryFolder folder;
+  std::ofstream("file") << "mine";
+  std::filesystem::create_directory("folder");
+  std::filesystem::create_symlink("gone", "dangling");
+  Connections connections;
+  for (const auto* place : {"pty:file", "pty:folder"})
+    EXPECT_THROW(connections.add(place_of(place)), InvalidArgument) << place;
+  connections.add(place_of("pty:dangling"));
+  EXPECT_TRUE(std::filesystem::is_regular_file("file"));
+  EXPECT_TRUE(std::filesystem::is_directory("folder"));
+  EXPECT_TRUE(std::filesystem::is_character_file("dangling"));
+}
+
+TEST(Connections, AHostThatIsDisconnectedIsReportedAsClosed) {
+  Echo echo;
+  const auto door = echo.add("tcp:0");
+  Host host(echo.connections.place_of(door));
+  ASSERT_TRUE(work_until([&] { echo.work(); }, [&] { return echo.opened == 1; }));
+  echo.connections.disconnect(1);
+  EXPECT_TRUE(
+      work_until([&] { echo.work(), host.read(); }, [&] { return echo.closed == 1 && !host.is_open(); }));
 }
 
 TEST(Connections, AHostThatNeverReadsLosesWholeWritesAndNobodyElseAny) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +23,7 @@
 #include "bus/message_codec.h"
 #include "bus/runtime/lockstep_runner.h"
 #include "clients/halocline/scenario/composition.h"
+#include "clients/halocline/waveform/live_sea.h"
 #include "clients/modem_gateway/gateway_node.h"
 #include "core/sim_time.h"
 
@@ -78,7 +80,9 @@ class DoorMission {
     std::ofstream(path) << text << doors;
     config_ = clients::load_scenario(path, {});
     std::filesystem::remove(path);
-    nodes_ = std::make_unique<clients::Composition>(lcm_, config_, clients::Composition::kRun);
+    nodes_ = std::make_unique<clients::Composition>(
+        lcm_, config_, clients::Composition::kRun, nullptr, std::nullopt,
+        clients::live_sea_maker(config_, clients::make_terrain(config_)));
     for (bus::Node* node : nodes_->nodes()) {
       if (auto* gateway = dynamic_cast<GatewayNode*>(node)) gateway_ = gateway;
     }

@@ -14,9 +14,11 @@
 namespace halocline::modem_gateway {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::kHardBytes;
 using testing::kQuality;
+using ::testing::Not;
 using testing::ProtocolBench;
 using testing::S2cBench;
 using ::testing::StartsWith;
@@ -236,10 +238,17 @@ TEST(Evologics, ListsItsSettingsAndItsStatusUpToAnEmptyLine) {
     EXPECT_THAT(lines, HasSubstr(": ")) << command;
     EXPECT_TRUE(lines.ends_with("\r\n\r\n")) << command;
   }
-  EXPECT_EQ(bench.say("AT&W"), "OK\r\n");
   bench.say("AT!L3");
+  bench.say("AT!AL9");
+  EXPECT_THAT(bench.say("AT&V"), AllOf(HasSubstr("[*]!L: 3\r\n"), HasSubstr("[*]Local Address: 9\r\n")));
+  EXPECT_EQ(bench.say("AT&W"), "OK\r\n");
+  EXPECT_THAT(bench.say("AT&V"), Not(HasSubstr("[*]")));
+  bench.say("AT!L2");
+  EXPECT_EQ(bench.say("ATZ0"), "OK\r\n");
+  EXPECT_EQ(bench.say("AT?L"), "3\r\n") << "as stored";
   EXPECT_EQ(bench.say("AT&F"), "OK\r\n");
   EXPECT_EQ(bench.say("AT?L"), "0\r\n");
+  EXPECT_EQ(bench.say("AT?AL"), "1\r\n");
   EXPECT_EQ(bench.say("ATN"), "INITIATION NOISE\r\n");
   EXPECT_EQ(bench.say("ATA"), "INITIATION LISTEN\r\n");
   EXPECT_EQ(bench.say("ATD"), "INITIATION DEAF\r\n");

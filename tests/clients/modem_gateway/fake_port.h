@@ -47,12 +47,14 @@ class FakePort : public ProtocolPort {
   void send_datagram(ClientId, std::uint16_t to, std::string_view b) override {
     datagrams.emplace_back(to, b);
   }
-  std::int64_t send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
+  void disconnect(ClientId client) override { disconnected.push_back(client); }
+  std::int64_t send(StartRule start, std::int32_t destination, std::span<const std::uint8_t> payload,
                     clients::SendOptions options) override {
     const auto sequence = static_cast<std::int64_t>(sent.size());
-    sent.push_back({start, destination, std::string(as_text(payload)), std::move(options), sequence});
+    sent.push_back({start(), destination, std::string(as_text(payload)), std::move(options), sequence});
     return sequence;
   }
+  std::size_t unsent() const override { return unsent_packets; }
   bool is_own(std::int64_t send_session) const override { return send_session == kSession; }
   const vehicle_sensors_t* sensors() const override { return measured ? &*measured : nullptr; }
   const vehicle_state_t* state() const override { return place ? &*place : nullptr; }
@@ -61,7 +63,7 @@ class FakePort : public ProtocolPort {
     paths_asked.push_back(from_vehicle);
     return true;
   }
-  void note(std::string_view, std::string_view) override { ++notes; }
+  void note(std::string_view, std::string_view) override {}
   // What was written since the last call.
   std::string take() {
     written_to.clear();
@@ -72,14 +74,14 @@ class FakePort : public ProtocolPort {
   SimDuration clock_ahead;  // of the vehicle's clock
   SimTime sleeps_until;
   std::string written;
-  std::vector<ClientId> written_to;
+  std::vector<ClientId> written_to, disconnected;
+  std::size_t unsent_packets = 0;
   std::vector<Sent> sent;
   std::vector<std::pair<std::uint16_t, std::string>> datagrams;
   std::optional<vehicle_sensors_t> measured;
   std::optional<vehicle_state_t> place;
   std::optional<vehicle_battery_t> charge;
   std::vector<std::int32_t> paths_asked;
-  int notes = 0;
 };
 
 // The door of vehicle 1, and messages for it.
@@ -134,17 +136,6 @@ class ProtocolBench {
     receipt.packet_sequence = port.sent.back().sequence;
     receipt.receipt_result = result;
     protocol->on_receipt(receipt);
-    return port.take();
-  }
-  // An own transmission, the last packet sent, began or ended.
-  std::string own_event(std::int8_t event) {
-    modem_event_t message{};
-    message.utime = port.at.to_utime();
-    message.event_ns = port.at.nanoseconds();
-    message.modem_event = event;
-    message.send_session = FakePort::kSession;
-    message.packet_sequence = port.sent.back().sequence;
-    protocol->on_event(message);
     return port.take();
   }
   std::string receive(const modem_receive_t& packet) {

@@ -33,7 +33,7 @@ class GatewayNodeTest : public ::testing::Test {
     }
     const SimTime steady = bus::steady_now();
     node_.note_due_changed();
-    node_.step({SimTime::from_seconds(10), steady, true});
+    node_.step({SimTime::from_seconds(sim_s_), steady, true});
   }
   std::string read(Host& host, std::size_t size) {
     std::string text;
@@ -41,6 +41,7 @@ class GatewayNodeTest : public ::testing::Test {
     return text;
   }
 
+  double sim_s_ = 10;
   lcm::LCM lcm_{"memq://"};
   clients::testing::FakeServer server_{lcm_, "auv-1"};
   GatewayNode node_{lcm_, {"modem-gateway", 5}, two_doors(), SimDuration()};
@@ -88,7 +89,7 @@ TEST_F(GatewayNodeTest, IsDueAtOnceWhenAHostHasWritten) {
 TEST_F(GatewayNodeTest, WhatNoModemSendsIsNotSentAndHarmsNothing) {
   Host host(node_.place_of(0));
   host.write("$P000$U00002ab$M00002ab");
-  EXPECT_EQ(read(host, 19), "$P000\r\n$U00002\r\nE\r\n");
+  EXPECT_EQ(read(host, 13), "$P000\r\nE\r\nE\r\n");
   host.write("$?");
   EXPECT_EQ(read(host, 13), "#A001V52429\r\n");
   for (const auto& send : server_.sends) EXPECT_NE(send.destination_id, 0);
@@ -110,16 +111,43 @@ TEST_F(GatewayNodeTest, HostsThatMisbehaveDisturbNobodyElse) {
 }
 
 // Nobody answers its SENDs.
-TEST_F(GatewayNodeTest, AHostThatCommandsWithoutEndHasThirtyTwoPacketsWithoutReceipt) {
+TEST_F(GatewayNodeTest, OfAHostThatCommandsWithoutEndWhatIsNotRefusedIsSent) {
   Host host(node_.place_of(0));
   std::string commands;
   for (int i = 0; i < 500; ++i) commands += "$B05hello";
   host.write(commands);
-  EXPECT_EQ(read(host, 6 * 500).size(), 6u * 500);
+  EXPECT_EQ(read(host, 6 + 3 * 499).size(), 6u + 3 * 499) << "one confirmed, all others refused";
   work();
   std::set<std::int64_t> packets;
   for (const auto& send : server_.sends) packets.insert(send.packet_sequence);
-  EXPECT_EQ(packets.size(), 32u);
+  EXPECT_EQ(packets.size(), 1u);
+}
+
+// As the modem is while it sends an acknowledgement of its own.
+TEST_F(GatewayNodeTest, APacketThatABusyModemRefusesIsSentAgainAndItsAnswerIsKnown) {
+  Host host(node_.place_of(0));
+  host.write("$M00902ab");
+  EXPECT_EQ(read(host, 9), "$M00902\r\n");
+  ASSERT_TRUE(work_until([&] { work(); }, [&] { return server_.sends.size() == 1; }));
+  server_.answer(server_.sends[0], modem_receipt_t::REFUSED_BUSY);
+  ASSERT_TRUE(work_until([&] { sim_s_ += 0.001, work(); }, [&] { return server_.sends.size() == 2; }));
+  EXPECT_NE(server_.sends[1].packet_sequence, server_.sends[0].packet_sequence);
+  EXPECT_EQ(server_.sends[1].payload, server_.sends[0].payload);
+  EXPECT_GE(server_.sends[1].utime - server_.sends[0].utime, 100'000);
+  server_.accept(server_.sends[1]);
+  work();
+  server_.reply_to_ping(server_.sends[1], 9, 0.5);
+  EXPECT_EQ(read(host, 13), "#R009T08000\r\n");
+}
+
+TEST_F(GatewayNodeTest, ANewRunBeginsWithTheModemsOfTheScenario) {
+  Host host(node_.place_of(0));
+  host.write("$A077$P009");
+  EXPECT_EQ(read(host, 14), "#A077\r\n$P009\r\n");
+  node_.restart({SimTime::from_seconds(1), bus::steady_now(), true});
+  sim_s_ = 1;
+  host.write("$?$P009");
+  EXPECT_EQ(read(host, 20), "#A001V52429\r\n$P009\r\n");
 }
 
 }  // namespace

@@ -4,11 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,7 +54,7 @@ TEST(GatewayProgram, ServesDoorsOfItsCommandLineBeforeASimulationRuns) {
   line.write("$?");
   EXPECT_EQ(answer_of(line, 13), "#A002V52429\r\n");
   gateway.signal(SIGTERM);
-  EXPECT_EQ(gateway.wait(std::chrono::milliseconds(1000)), 0) << gateway.output();
+  EXPECT_EQ(gateway.wait(), 0) << gateway.output();
   std::stringstream trace;
   trace << std::ifstream("trace.txt").rdbuf();
   EXPECT_THAT(trace.str(), HasSubstr("0.000000 auv-1 nm3 < $?\n0.000000 auv-1 nm3 > #A001V52429\\r\\n\n"));
@@ -68,6 +70,69 @@ TEST(GatewayProgram, NamesWhatIsWrongWithADoor) {
     EXPECT_EQ(gateway.wait(), 2) << door;
     EXPECT_THAT(gateway.output(), HasSubstr(problem));
   }
+}
+
+constexpr auto kFour =
+    "[[vehicle]]\nname = \"a\"\nid = 1\n[[vehicle]]\nname = \"b\"\nid = 2\n"
+    "[[vehicle]]\nname = \"c\"\nid = 3\n[[vehicle]]\nname = \"d\"\nid = 4\n";
+
+// Killed at once after it has answered: each modem has what its kind keeps, and nothing else.
+TEST(GatewayProgram, AModemHasItsSettingsAfterItsGatewayWasKilled) {
+  const halocline::testing::TemporaryFolder folder;
+  std::ofstream("s.toml") << kFour;
+  const std::vector<std::string> command{kProgram,    "s.toml",
+                                         "--journal", "journal",
+                                         "--door",    "a=nm3:tcp:9611",
+                                         "--door",    "b=evologics:tcp:9612",
+                                         "--door",    "c=micromodem:tcp:9613",
+                                         "--door",    "d=ahoi:tcp:9614"};
+  const auto wait_for_start = [] {
+    return work_until([] { std::this_thread::sleep_for(std::chrono::milliseconds(10)); },
+                      [] { return Host("tcp:9614").is_open(); });
+  };
+  const auto ask = [](int port, const std::string& text, std::size_t size) {
+    Host host("tcp:" + std::to_string(port));
+    host.write(text);
+    return answer_of(host, size);
+  };
+  const std::string set_id("\x10\x02\x04\xff\x84\x00\x01\x01\x09\x10\x03", 11);
+  const std::string ask_id("\x10\x02\x04\xff\x84\x00\x01\x00\x10\x03", 10);
+  {
+    halocline::testing::Process gateway(command);
+    ASSERT_TRUE(wait_for_start()) << gateway.output();
+    EXPECT_EQ(ask(9612, "AT!L2\nAT!AL7\nAT&W\nAT!L1\n", 16), "OK\r\nOK\r\nOK\r\nOK\r\n");
+    EXPECT_THAT(ask(9613, "$CCCFG,SRC,8\r\n$CCCFG,AGN,77\r\n", 34), HasSubstr("$CACFG,AGN,77*"));
+    EXPECT_EQ(ask(9614, set_id, 21).size(), 21u);
+    EXPECT_EQ(ask(9611, "$A077", 7), "#A077\r\n");
+    gateway.signal(SIGKILL);
+    gateway.wait();
+  }
+  halocline::testing::Process gateway(command);
+  ASSERT_TRUE(wait_for_start()) << gateway.output();
+  EXPECT_EQ(ask(9611, "$?", 13), "#A077V52429\r\n");
+  EXPECT_EQ(ask(9612, "AT?L\nAT?AL\n", 6), "2\r\n7\r\n") << "as AT&W stored it";
+  EXPECT_THAT(ask(9613, "$CCCFQ,SRC\r\n$CCCFQ,AGN\r\n", 34),
+              ::testing::AllOf(HasSubstr("$CACFG,SRC,8*"), HasSubstr("$CACFG,AGN,77*")));
+  EXPECT_EQ(ask(9614, ask_id, 21).substr(18), std::string("\x09\x10\x03"));
+  ask(9612, "AT&F\n", 4);
+  EXPECT_EQ(ask(9612, "AT?L\nAT?AL\n", 6), "0\r\n2\r\n");
+}
+
+TEST(GatewayProgram, TheLinkOfASerialLineIsGoneAfterEachEnd) {
+  const halocline::testing::TemporaryFolder folder;
+  std::ofstream("s.toml") << kFour;
+  const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(10)); };
+  for (const int number : {SIGTERM, SIGINT, SIGHUP}) {
+    halocline::testing::Process gateway({kProgram, "s.toml", "--door", "a=nm3:pty:line"});
+    ASSERT_TRUE(work_until(pause, [] { return std::filesystem::exists("line"); }));
+    gateway.signal(number);
+    EXPECT_EQ(gateway.wait(), 0) << gateway.output();
+    EXPECT_FALSE(std::filesystem::is_symlink("line")) << number;
+  }
+  halocline::testing::Process refused(
+      {kProgram, "s.toml", "--door", "a=nm3:pty:line", "--door", "b=nm3:pty:/nowhere/at/all"});
+  EXPECT_EQ(refused.wait(), 2) << refused.output();
+  EXPECT_FALSE(std::filesystem::is_symlink("line"));
 }
 
 // A buoy and a lander 750 m apart: the sound that one plays at an instant comes to the other half a second later.
@@ -128,7 +193,7 @@ place = "tcp:9702"
   EXPECT_GT(delay_s, 750.0 / 1550);
   EXPECT_LT(delay_s, 750.0 / 1450);
   gateway.signal(SIGTERM);
-  EXPECT_EQ(gateway.wait(std::chrono::milliseconds(1500)), 0) << gateway.output();
+  EXPECT_EQ(gateway.wait(), 0) << gateway.output();
 }
 
 }  // namespace

@@ -20,9 +20,10 @@ using testing::GobyReception;
 class Goby : public ::testing::TestWithParam<const char*>, public testing::DoorDialogue {
  protected:
   Goby()
-      : DoorDialogue({{"one", 1, "micromodem-psk-1", 0, 0, "micromodem", "lbl=3 " + std::string(GetParam())},
-                      {"two", 2, "micromodem-psk-1", 1000, 0, "micromodem", GetParam()},
-                      {"transponder", 3, "micromodem-psk-1", 0, 750, "", "", testing::kTransponder}}) {
+      : DoorDialogue(
+            {{"one", 1, "micromodem-psk-1", 0, 0, "micromodem", "lbl=3 pps=yes " + std::string(GetParam())},
+             {"two", 2, "micromodem-psk-1", 1000, 0, "micromodem", "pps=yes " + std::string(GetParam())},
+             {"transponder", 3, "micromodem-psk-1", 0, 750, "", "", testing::kTransponder}}) {
     one.start({"ALL,0"});
     two.start({"ALL,0", "AGN,0", "psk.packet.mod_hdr_version,0"});
     run(16);

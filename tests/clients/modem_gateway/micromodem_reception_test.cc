@@ -37,7 +37,7 @@ modem_receive_t three_frames(const Bench& bench) {
 }
 
 TEST(Micromodem, ReportsAPacketFrameByFrameAndItsStatisticsLast) {
-  Bench bench;
+  Bench bench("pps=yes");
   const auto lines = bench.hear(three_frames(bench));
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_EQ(lines[0], "CACYC,0,2,1,1,0,3");
@@ -52,7 +52,7 @@ TEST(Micromodem, ReportsAPacketFrameByFrameAndItsStatisticsLast) {
 }
 
 TEST(Micromodem, TheFirstGenerationHasTheOlderStatistics) {
-  Bench bench(kFirstGeneration);
+  Bench bench(kFirstGeneration + std::string(" pps=yes"));
   const auto lines = bench.hear(three_frames(bench));
   EXPECT_THAT(lines.back(), StartsWith("CACST,1,000139.7500,2,33,30,30,120,250,"));
   EXPECT_EQ(fields_of(lines.back(), ',').size(), 30u);  // the id and 29 fields
@@ -186,7 +186,7 @@ TEST(Micromodem, FramedPacketsHaveAMiniFrameAndData) {
 }
 
 TEST(Micromodem, FirmwareFrom3OnHasLongerStatistics) {
-  Bench newest("revision=3.0.0"), older("revision=2.0.20000");
+  Bench newest("revision=3.0.0 pps=yes"), older("revision=2.0.20000 pps=yes");
   const auto lines = newest.hear(three_frames(newest));
   EXPECT_THAT(lines.back(), StartsWith("CACST,8,1,19700101000139.750000,12,"));
   EXPECT_THAT(lines.back(), ::testing::EndsWith(",25000,5000,0,-1,-1,00"));
@@ -220,7 +220,7 @@ TEST(Micromodem, AnotherIsAskedForDataByACyclePacketAndAsksItsHost) {
 }
 
 TEST(Micromodem, ATransmissionStartsOnAWholeSecondWhereSynchronised) {
-  Bench bench;
+  Bench bench("pps=yes");
   bench.port.at = SimTime::from_seconds(100.3);
   bench.say("CCCFG,SNV,1");
   bench.say("CCCLK,2026,11,24,10,30,06");

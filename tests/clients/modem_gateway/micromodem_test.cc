@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sentences of the Micromodem that hosts write, one by one: commands, settings, data cycles.
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "clients/modem_gateway/protocols/micromodem/nmea.h"
+#include "clients/modem_gateway/protocols/protocol.h"
 #include "core/names.h"
 #include "core/sim_time.h"
 #include "tests/clients/modem_gateway/micromodem_bench.h"
@@ -115,7 +117,7 @@ TEST(Micromodem, AnotherIsToldToSleepByAMiniPacket) {
 }
 
 TEST(Micromodem, ItsClockIsTheVehicles) {
-  Bench bench;
+  Bench bench("pps=yes");
   bench.port.clock_ahead = SimDuration::from_milliseconds(30);
   EXPECT_THAT(bench.say("CCTMQ,0"), ElementsAre("CATMQ,1970-01-01T00:01:40Z,NONE,EXT"));
   bench.port.at = SimTime::from_seconds(100.98);
@@ -128,7 +130,7 @@ TEST(Micromodem, ItsClockIsTheVehicles) {
 }
 
 TEST(Micromodem, ItsClockIsSetFromTheNextPulse) {
-  Bench bench;
+  Bench bench("pps=yes");
   bench.port.at = SimTime::from_seconds(100.07);
   // The host asks for the second that comes; a pulse later it holds. It compares the answer with its clock when that has come.
   EXPECT_THAT(bench.say("CCCLK,2026,11,24,10,30,06"), ElementsAre("CACLK,2026,11,24,10,30,06"));
@@ -140,7 +142,7 @@ TEST(Micromodem, ItsClockIsSetFromTheNextPulse) {
 }
 
 TEST(Micromodem, ADataCycleOfTwoFramesWithAcknowledgement) {
-  Bench bench;
+  Bench bench("pps=yes");
   EXPECT_THAT(bench.say("CCCYC,0,1,2,1,1,2"), ElementsAre("CACYC,0,1,2,1,1,2", "CADRQ,000140,1,2,1,64,1"));
   EXPECT_THAT(bench.say("CCTXD,1,2,1,68656C6C6F"), ElementsAre("CATXD,1,2,1,5", "CADRQ,000140,1,2,1,64,2"));
   EXPECT_THAT(bench.say("CCTXD,1,2,1,000A0D2B2CFF"), ElementsAre("CATXD,1,2,1,6"));
@@ -198,12 +200,14 @@ TEST(Micromodem, FramesThatCameBeforeTheirCycleAreNotAskedFor) {
   EXPECT_EQ(bench.port.sent[0].payload, "ab" + std::string(kHardBytes));
   EXPECT_EQ(bench.port.sent[0].options.frame_bytes, (std::vector<std::int32_t>{2, 6}));
   EXPECT_TRUE(bench.port.sent[0].options.wants_ack);
-  // Too large for the rate: dropped. Eight wait at most.
+  // Too large for the rate: reported. Eight wait at most.
   for (int i = 0; i < 8; ++i)
     EXPECT_THAT(bench.say("CCTXD,1,2,0," + std::string(130, '6')), ElementsAre("CATXD,1,2,0,65"));
   EXPECT_THAT(bench.say("CCTXD,1,2,0,61"), ElementsAre(HasSubstr(",NMEA,3,")));
-  EXPECT_THAT(bench.say("CCCYC,0,1,2,1,0,1"), ElementsAre("CACYC,0,1,2,1,0,1", "CADRQ,000140,1,2,0,64,1"));
-  EXPECT_EQ(bench.port.notes, 8);
+  const auto lines = bench.say("CCCYC,0,1,2,1,0,1");
+  EXPECT_EQ(lines.front(), "CACYC,0,1,2,1,0,1");
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), "CAERR,000140,DATA,65,frame too large for the cycle"), 8);
+  EXPECT_EQ(lines.back(), "CADRQ,000140,1,2,0,64,1");
 }
 
 TEST(Micromodem, ACyclePacketThatIsNotSentEndsItsCycle) {
@@ -223,7 +227,7 @@ TEST(Micromodem, GivesUpACycleWhoseDataDoesNotCome) {
 }
 
 TEST(Micromodem, AtRateZeroACyclePacketGoesBeforeTheData) {
-  Bench bench("revision=0.94.0.00");
+  Bench bench("revision=0.94.0.00 pps=yes");
   bench.say("CCCFG,XST,1");
   EXPECT_THAT(bench.say("CCCYC,0,1,2,0,0,1"), ElementsAre("CACYC,0,1,2,0,0,1"));
   ASSERT_EQ(bench.port.sent.size(), 1u);
@@ -245,10 +249,35 @@ TEST(Micromodem, AtRateZeroACyclePacketGoesBeforeTheData) {
 TEST(Micromodem, ARefusedTransmissionIsReportedAsInhibited) {
   Bench bench;
   bench.say("CCMUC,1,2,0042");
-  EXPECT_EQ(bench.refuse(modem_receipt_t::REFUSED_BUSY), "");
-  const auto lines = bench.after(0);
+  const auto lines = bodies(bench.refuse(modem_receipt_t::REFUSED_NO_MODEM));
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(field(lines[0], 5), "3");  // after the version: date, time, clock mode, transmit mode
+  Bench first(kFirstGeneration);       // which reports no transmissions until it is told
+  first.say("CCMUC,1,2,0042");
+  EXPECT_THAT(bodies(first.refuse(modem_receipt_t::REFUSED_NO_MODEM)),
+              ElementsAre("CAERR,000140,XMIT,3,not sent"));
+}
+
+TEST(Micromodem, RefusesWhatItCannotQueueAndTakesDataAllTheSame) {
+  Bench bench;
+  bench.port.unsent_packets = ProtocolPort::kMaxUnsent;
+  for (const auto* command :
+       {"CCMUC,1,2,0042", "CCMPC,1,2", "CCCMD,PNG,1,2,1,0,0", "CCTDP,2,1,0,0,61", "CCTFP,2,1,1,0,0,61,62",
+        "CCCYC,0,1,2,1,0,1", "CCMEC,1,2,1,1,1", "CCMSC,1,2,5", "CCPDT,1,1,0,0,3000,1,0,0,0"})
+    EXPECT_THAT(bench.say(command), ElementsAre(HasSubstr(",NMEA,4,"))) << command;
+  EXPECT_THAT(bench.say("CCTXD,1,2,0,61"), ElementsAre("CATXD,1,2,0,1"));
+  EXPECT_TRUE(bench.port.sent.empty());
+}
+
+TEST(Micromodem, HasNoPulseASecondUnlessItIsGivenOne) {
+  Bench bench;
+  EXPECT_THAT(bench.say("CCTMQ,0"), ElementsAre("CATMQ,1970-01-01T00:01:40Z,NONE,NONE"));
+  bench.say("CCTMS,2027-01-02T03:04:05Z,1");
+  EXPECT_THAT(bench.say("CCTMQ,0"), ElementsAre("CATMQ,2027-01-02T03:04:05Z,USER,NONE"));
+  Bench first(kFirstGeneration);
+  first.say("CCCLK,2027,1,2,3,4,5");
+  const auto lines = first.hear(first.packet_from(2, 1, "hi"));
+  EXPECT_EQ(field(lines.back(), 3), "1");  // clock mode: set, without PPS
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ using testing::DoorMission;
 using testing::DoorVehicle;
 using testing::Host;
 
-const std::vector<DoorVehicle> kFleet{{"micro-1", 1, "micromodem-psk-1", 0, 0, "micromodem"},
-                                      {"micro-2", 2, "micromodem-psk-1", 1000, 0, "micromodem"},
+const std::vector<DoorVehicle> kFleet{{"micro-1", 1, "micromodem-psk-1", 0, 0, "micromodem", "pps=yes"},
+                                      {"micro-2", 2, "micromodem-psk-1", 1000, 0, "micromodem", "pps=yes"},
                                       {"s2c-1", 3, "s2c-im", 0, 300, "evologics"},
                                       {"s2c-2", 4, "s2c-im", 700, 300, "evologics"},
                                       {"unet-1", 5, "unet-data", 0, 600, "unet"},

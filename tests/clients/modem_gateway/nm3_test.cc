@@ -119,9 +119,33 @@ TEST(Nm3, KeepsTheBytesOfHostsApart) {
   bench.protocol->on_bytes(2, "$P008");
   bench.protocol->on_bytes(1, "02ab");
   EXPECT_EQ(bench.port.written_to, (std::vector<ClientId>{2, 1}));
+  EXPECT_EQ(bench.port.take(), "$P008\r\nE\r\n");  // while it awaits the answer
   bench.protocol->on_bytes(3, "$B64half");
   bench.protocol->on_closed(3);
+  EXPECT_EQ(bench.port.sent.size(), 1u);
+}
+
+TEST(Nm3, RefusesToSendWhileItSendsOrAwaitsAnAnswer) {
+  ProtocolBench bench("nm3");
+  bench.port.unsent_packets = 1;
+  for (const auto* command : {"$P008", "$B02ab", "$U00802ab", "$M00802ab"})
+    EXPECT_EQ(bench.ask(command), "E\r\n") << command;
+  EXPECT_EQ(bench.ask("$?"), "#A001V52429\r\n");
+  bench.port.unsent_packets = 0;
+  bench.ask("$M00802ab");
+  bench.accept();
+  EXPECT_EQ(bench.ask("$B02ab"), "E\r\n");
+  bench.wait(4.1);
+  EXPECT_EQ(bench.ask("$B02ab"), "$B02\r\n");
   EXPECT_EQ(bench.port.sent.size(), 2u);
+}
+
+TEST(Nm3, TellsWhatWasConfirmedAndCouldNotBeSent) {
+  ProtocolBench bench("nm3");
+  bench.ask("$B02ab");
+  EXPECT_EQ(bench.refuse(modem_receipt_t::REFUSED_NO_MODEM), "E\r\n");
+  bench.ask("$P008");
+  EXPECT_EQ(bench.refuse(modem_receipt_t::REFUSED_NO_MODEM), "#TO\r\n");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "clients/modem_gateway/protocols/address_book.h"
@@ -12,9 +13,13 @@
 #include "clients/modem_gateway/protocols/fields.h"
 #include "clients/modem_gateway/protocols/line_reader.h"
 #include "core/check.h"
+#include "tests/clients/modem_gateway/fake_port.h"
 
 namespace halocline::modem_gateway {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 TEST(AddressBook, AVehicleHasItsIdUntilItIsGivenAnAddress) {
   AddressBook book;
@@ -108,6 +113,54 @@ TEST(LineReader, DiscardsALineThatIsTooLongAndGoesOn) {
   EXPECT_EQ(lines.lines, (std::vector<std::string>{"next"}));
   lines.take(std::string(LineReader::kMaxLine, 'y') + "\n");
   EXPECT_EQ(lines.lines.size(), 2u);
+}
+
+TEST(LineReader, KeepsTheBeginningAndTheEndOfALineThatIsTooLong) {
+  LineReader reader(10);
+  std::string beginning, last;
+  for (const auto* piece : {"abc", "defghijkl", "mn\nnext\n"}) {
+    reader.take(
+        piece, [](std::string_view) {}, [] {},
+        [&](std::string_view first, std::string_view end) { beginning = first, last = end; });
+  }
+  EXPECT_EQ(beginning, "abcdefghij");
+  EXPECT_EQ(last, "klmn");
+}
+
+std::string datagram_of(std::size_t bytes, bool data_first) {
+  std::string data = R"("data":[1)";
+  while (data.size() < bytes) data += ",1";
+  data += "]";
+  const std::string names = R"("msgID":"m7","sender":"gateway-7","recipient":"phy")";
+  return R"({"action":"send","message":{"clazz":"org.arl.unet.DatagramReq","data":{)" +
+         (data_first ? data + "," + names : names + "," + data) + "}}}\n";
+}
+
+TEST(Unet, ARequestOf300KilobytesIsReadAndOneBeyondAMegabyteRefused) {
+  testing::ProtocolBench bench("unet");
+  EXPECT_THAT(bench.ask(datagram_of(300'000, true)), HasSubstr("data too long"));
+  for (const bool data_first : {false, true}) {
+    EXPECT_THAT(bench.ask(datagram_of(1'100'000, data_first)),
+                AllOf(HasSubstr("org.arl.unet.RefuseRsp"), HasSubstr("longer than 1048576 bytes"),
+                      HasSubstr(R"("inReplyTo":"m7")"), HasSubstr(R"("recipient":"gateway-7")")));
+  }
+  EXPECT_TRUE(bench.port.disconnected.empty());
+  bench.ask(std::string(1'100'000, 'x') + "\n");
+  EXPECT_EQ(bench.port.disconnected, std::vector<ClientId>{testing::ProtocolBench::kHost})
+      << "nobody to answer";
+}
+
+TEST(Unet, DeepNestingHarmsNothing) {
+  testing::ProtocolBench bench("unet");
+  for (const std::string open : {"[", "{\"a\":"}) {
+    std::string deep = R"({"action":"send","message":{"clazz":"DatagramReq","data":{"msgID":"m",)"
+                       R"("sender":"g","recipient":"phy","x":)";
+    for (int i = 0; i < 200'000; ++i) deep += open;
+    bench.ask(deep + "\n");
+    deep += std::string(200'000, open == "[" ? ']' : '}');
+    bench.ask(deep + "}}}\n");
+  }
+  EXPECT_THAT(bench.ask("{\"action\":\"agents\",\"id\":\"1\"}\n"), HasSubstr("agentIDs"));
 }
 
 }  // namespace

@@ -33,6 +33,7 @@
 #include "clients/modem_gateway/protocols/micromodem/nmea.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
+#include "core/archive.h"
 #include "core/check.h"
 #include "core/names.h"
 #include "core/sim_time.h"
@@ -45,7 +46,7 @@ using Kind = MicromodemTransmitter::Kind;
 class Micromodem : public Protocol {
  public:
   explicit Micromodem(ProtocolContext context)
-      : core_(context),
+      : core_(context, [this] { note_stored(); }),
         port_(context.port),
         housekeeping_(core_),
         lbl_(core_, context.addresses),
@@ -97,6 +98,8 @@ class Micromodem : public Protocol {
 
   std::vector<std::int32_t> transponders() const override { return lbl_.transponders(); }
 
+  void archive(Archive& a) override { core_.archive(a); }
+
   SimTime next() const override { return std::min({housekeeping_.next(), lbl_.next(), transmitter_.next()}); }
   void step() override {
     housekeeping_.step();
@@ -109,16 +112,17 @@ class Micromodem : public Protocol {
   struct Named {
     std::string_view id;
     Command command;
+    bool sends;  // refused while all that can wait to be sent waits
   };
   static constexpr std::array<Named, 8> commands() {
-    return {{{"CCCYC", &Micromodem::begin_cycle},
-             {"CCTXD", &Micromodem::take_hex},
-             {"CCTXA", &Micromodem::take_text},
-             {"CCMUC", &Micromodem::send_mini},
-             {"CCMPC", &Micromodem::ping},
-             {"CCCMD", &Micromodem::command},
-             {"CCTDP", &Micromodem::send_flexible},
-             {"CCTFP", &Micromodem::send_framed}}};
+    return {{{"CCCYC", &Micromodem::begin_cycle, true},
+             {"CCTXD", &Micromodem::take_hex, false},
+             {"CCTXA", &Micromodem::take_text, false},
+             {"CCMUC", &Micromodem::send_mini, true},
+             {"CCMPC", &Micromodem::ping, true},
+             {"CCCMD", &Micromodem::command, true},
+             {"CCTDP", &Micromodem::send_flexible, true},
+             {"CCTFP", &Micromodem::send_framed, true}}};
   }
 
   void take_line(ClientId client, std::string_view line) {
@@ -128,7 +132,10 @@ class Micromodem : public Protocol {
     if (sentence.problem == NmeaSentence::Problem::kChecksum)
       return core_.refuse(client, NmeaError::kChecksum, "bad checksum");
     for (const Named& named : commands()) {
-      if (named.id == sentence.id) return (this->*named.command)(client, sentence);
+      if (named.id != sentence.id) continue;
+      if (named.sends && !core_.can_send())
+        return core_.refuse(client, NmeaError::kBusy, "transmit queue full");
+      return (this->*named.command)(client, sentence);
     }
     if (remote_.obey(client, sentence) || lbl_.obey(client, sentence)) return;
     if (!housekeeping_.obey(client, sentence)) core_.refuse(client, NmeaError::kUnknown, "unknown command");

@@ -2,6 +2,7 @@
 #include "clients/modem_gateway/protocols/micromodem/micromodem_core.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,11 +19,13 @@ constexpr int kFirstOfVersion8 = 3;  // first number of the revision
 
 }  // namespace
 
-MicromodemCore::MicromodemCore(ProtocolContext& context)
+MicromodemCore::MicromodemCore(ProtocolContext& context, std::function<void()> on_stored)
     : port_(context.port),
       addresses_(context.addresses),
       vehicle_id_(context.vehicle_id),
-      clock_(context.options.take_flag("pps", true)) {
+      delivered_address_(own_address()),
+      on_stored_(std::move(on_stored)),
+      clock_(context.options.take_flag("pps", false)) {
   DoorOptions& options = context.options;
   revision_ = options.take("revision", "2.0.31000");
   std::vector<std::int64_t> parts;
@@ -35,6 +38,17 @@ MicromodemCore::MicromodemCore(ProtocolContext& context)
   has_clock_sources_ = parts >= std::vector<std::int64_t>{2, 0, 26'038};
   broadcast_ = static_cast<std::int32_t>(options.take_number("broadcast", 0, 0, kHighestAddress));
   has_newer_lines_ = options.take_flag("newer_lines", false);
+}
+
+void MicromodemCore::reset_settings() {
+  settings_.reset();
+  if (delivered_address_ > 0) take_address(delivered_address_);
+}
+
+void MicromodemCore::archive(Archive& a) {
+  std::int32_t address = own_address();
+  a(settings_, clock_, address);
+  if (a.is_loading()) take_address(address);
 }
 
 std::int32_t MicromodemCore::vehicle_of(std::int64_t address) const {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "clients/modem_gateway/protocols/micromodem/modem_clock.h"
 #include "clients/modem_gateway/protocols/micromodem/nmea.h"
 #include "clients/modem_gateway/protocols/protocol.h"
+#include "core/archive.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
@@ -27,8 +29,9 @@ class MicromodemCore {
  public:
   static constexpr std::int64_t kHighestAddress = 127;
 
-  // Takes the options revision, pps, broadcast and newer_lines.
-  explicit MicromodemCore(ProtocolContext& context);
+  // Takes the options revision, pps, broadcast and newer_lines. `on_stored`: the modem's non-volatile memory
+  // has changed.
+  MicromodemCore(ProtocolContext& context, std::function<void()> on_stored);
 
   ProtocolPort& port() const { return port_; }
   SimTime now() const { return port_.now(); }
@@ -44,12 +47,19 @@ class MicromodemCore {
 
   std::int32_t own_address() const { return addresses_.address_of(vehicle_id_).value_or(0); }
   void take_address(std::int32_t address) { addresses_.assign(vehicle_id_, address); }
+  // Settings, address and clock are in non-volatile memory: to be called after each change of them.
+  void note_stored() const { on_stored_(); }
+  // All as the modem was delivered, but for the clock.
+  void reset_settings();
+  void archive(Archive& a);
   // kBroadcastId for the addresses of all.
   std::int32_t vehicle_of(std::int64_t address) const;
   Listener listener() const;
   ReporterState state() const;
-  // Of a transmission that is asked for now: on a whole second where the modem is synchronised.
+  // Start of a transmission whose turn has come: on a whole second where the modem is synchronised.
   SimTime start_of_transmission() const;
+  // True while one more packet can wait to be sent.
+  bool can_send() const { return port_.unsent() < ProtocolPort::kMaxUnsent; }
   bool reports_transmissions() const { return is_second_generation() || settings_.is_on("XST"); }
 
   // A sentence to one host, or to all.
@@ -64,7 +74,8 @@ class MicromodemCore {
  private:
   ProtocolPort& port_;
   AddressBook& addresses_;
-  std::int32_t vehicle_id_;
+  std::int32_t vehicle_id_, delivered_address_;
+  std::function<void()> on_stored_;
   MicromodemSettings settings_;
   ModemClock clock_;
   std::string revision_;

@@ -56,17 +56,20 @@ bool MicromodemHousekeeping::obey(ClientId client, const NmeaSentence& sentence)
 
 void MicromodemHousekeeping::configure(ClientId client, const NmeaSentence& sentence) {
   const std::string_view name = sentence.field(0), value = sentence.field(1);
-  if (name.empty() || sentence.fields.size() != 2) return core_.refuse_argument(client, sentence);
+  MicromodemSettings& settings = core_.settings();
+  const bool has_room = settings.all().size() < kMaxSettings || settings.all().contains(name);
+  if (name.empty() || sentence.fields.size() != 2 || !has_room)
+    return core_.refuse_argument(client, sentence);
   if (name == "SRC") {
     const auto address = integer_in(value, 0, MicromodemCore::kHighestAddress);
     if (!address) return core_.refuse_argument(client, sentence);
     core_.take_address(static_cast<std::int32_t>(*address));
   }
-  MicromodemSettings& settings = core_.settings();
   if (name == "ALL")
-    settings.reset();
-  else if (settings.all().size() < kMaxSettings || settings.all().contains(name))
+    core_.reset_settings();
+  else
     settings.set(name, value);
+  core_.note_stored();
   if (name == "REV") next_revision_ = core_.now() + kRevisionPeriod;
   core_.echo(client, sentence);
 }
@@ -98,6 +101,7 @@ void MicromodemHousekeeping::set_clock(ClientId client, const NmeaSentence& sent
   const auto time = n ? calendar_seconds((*n)[0], (*n)[1], (*n)[2], (*n)[3], (*n)[4], (*n)[5]) : std::nullopt;
   if (!time) return core_.refuse_argument(client, sentence);
   core_.clock().set(core_.reading(), *time);
+  core_.note_stored();
   // As it will be with the next pulse: hosts compare it with their own clock, a second later.
   core_.say(client, "CACLK," + ModemClock::comma_separated_of(*time));
 }
@@ -110,6 +114,7 @@ void MicromodemHousekeeping::set_time(ClientId client, const NmeaSentence& sente
   const auto time = calendar_seconds(sentence.field(0));
   if (!time) return core_.refuse_argument(client, sentence);
   core_.clock().set(core_.reading(), *time);
+  core_.note_stored();
   core_.say(client, "CATMS,0," + std::string(sentence.field(0)));
 }
 

@@ -76,8 +76,8 @@ bool MicromodemLbl::obey(ClientId client, const NmeaSentence& sentence) {
     core_.refuse_argument(client, sentence);
     return true;
   }
-  if (is_busy()) {
-    core_.refuse(client, NmeaError::kBusy, "ranging under way");
+  if (is_busy_ || !core_.can_send()) {
+    core_.refuse(client, NmeaError::kBusy, is_busy_ ? "ranging under way" : "transmit queue full");
     return true;
   }
   core_.echo(client, sentence, "SN");
@@ -91,24 +91,24 @@ bool MicromodemLbl::obey(ClientId client, const NmeaSentence& sentence) {
   sequence_ = asks ? core_.port().send(core_.now(), kBroadcastId, {},
                                        {.kind = modem_send_t::PING, .stamped = false, .rate_number = 0})
                    : kNotSent;
-  until_ = core_.now() + (asks ? kReceiptWithin : timeout_);
+  is_busy_ = true;
+  until_ = asks && sequence_ != kNotSent ? SimTime::never() : core_.now() + timeout_;
   return true;
 }
 
 bool MicromodemLbl::takes(const modem_receipt_t& receipt) {
-  if (!is_busy() || receipt.packet_sequence != sequence_) return false;
-  const bool accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
-                        receipt.receipt_result == modem_receipt_t::QUEUED;
+  if (!is_busy_ || receipt.packet_sequence != sequence_) return false;
   const SimDuration duration = SimDuration::from_seconds(receipt.duration_s);
   // The answer takes as long as the ping.
-  until_ = accepted ? SimTime::from_utime(receipt.start_utime) + duration + duration + kTurnaround + timeout_
-                    : core_.now();
+  until_ = is_accepted(receipt)
+               ? SimTime::from_utime(receipt.start_utime) + duration + duration + kTurnaround + timeout_
+               : core_.now();
   return true;
 }
 
 bool MicromodemLbl::takes(const modem_receive_t& packet) {
   if (packet.packet_sequence != sequence_ || packet.packet_kind != modem_receive_t::PING_REPLY) return false;
-  if (!is_busy()) return true;
+  if (!is_busy_) return true;
   bool is_done = true;
   for (std::size_t i = 0; i < kTransponders; ++i) {
     if (asked_[i] == packet.source_id) times_[i] = packet.two_way_travel_time_s / 2;
@@ -119,6 +119,7 @@ bool MicromodemLbl::takes(const modem_receive_t& packet) {
 }
 
 void MicromodemLbl::report() {
+  is_busy_ = false;
   until_ = SimTime::never();
   std::string body = "SNTTA";
   for (const auto& time : times_) body += time ? fmt::format(",{:.4f}", *time) : ",";
@@ -126,7 +127,7 @@ void MicromodemLbl::report() {
 }
 
 void MicromodemLbl::step() {
-  if (is_busy() && core_.now() >= until_) report();
+  if (core_.now() >= until_) report();
 }
 
 }  // namespace halocline::modem_gateway

@@ -51,7 +51,6 @@ class MicromodemLbl {
     std::string code = "";
   };
 
-  bool is_busy() const { return until_ != SimTime::never(); }
   std::optional<std::int32_t> named(std::string_view field, std::size_t place, bool by_code) const;
   void report();
 
@@ -62,7 +61,8 @@ class MicromodemLbl {
   std::array<std::optional<double>, kTransponders> times_;        // one-way, s; none where not heard
   SimDuration timeout_;
   std::int64_t sequence_ = kNotSent;  // of the last ping
-  SimTime until_ = SimTime::never();  // it waits for answers
+  bool is_busy_ = false;
+  SimTime until_ = SimTime::never();  // it waits for answers; never() before the ping's receipt
 };
 
 }  // namespace halocline::modem_gateway

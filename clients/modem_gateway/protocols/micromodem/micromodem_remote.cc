@@ -24,6 +24,13 @@ bool MicromodemRemote::obey(ClientId client, const NmeaSentence& sentence) {
   return true;
 }
 
+// Refuses what would have to go to another modem and cannot.
+bool MicromodemRemote::is_too_busy(ClientId client, std::int64_t destination) const {
+  if (destination == core_.own_address() || core_.can_send()) return false;
+  core_.refuse(client, NmeaError::kBusy, "transmit queue full");
+  return true;
+}
+
 // CCMEC,source,destination,line,mode,argument
 void MicromodemRemote::set_line(ClientId client, const NmeaSentence& sentence) {
   const auto n = sentence.numbers<5>();
@@ -31,6 +38,7 @@ void MicromodemRemote::set_line(ClientId client, const NmeaSentence& sentence) {
   const auto [source, destination, line, mode, argument] = *n;
   if (line > kMaxControlLine || mode > kMaxControlMode || argument > kMaxControlArgument)
     return core_.refuse_argument(client, sentence);
+  if (is_too_busy(client, destination)) return;
   core_.echo(client, sentence);
   auto packet = control_packet(line, mode, argument);
   if (destination != core_.own_address())
@@ -43,8 +51,9 @@ void MicromodemRemote::sleep(ClientId client, const NmeaSentence& sentence) {
   const auto n = sentence.numbers<2>();
   const auto asked = integer_in(sentence.field(2), -1, kMaxMinutes);
   if (!n || !asked) return core_.refuse_argument(client, sentence);
-  core_.echo(client, sentence);
   const auto [source, destination] = *n;
+  if (is_too_busy(client, destination)) return;
+  core_.echo(client, sentence);
   const std::int64_t minutes = *asked < 0 ? kMaxMinutes : *asked;
   if (destination == core_.own_address()) return housekeeping_.sleep(minutes);
   send(MicromodemKind::kSleep, destination,

@@ -31,6 +31,7 @@ class MicromodemRemote {
   void follow(const modem_receive_t& packet);
 
  private:
+  bool is_too_busy(ClientId client, std::int64_t destination) const;
   void set_line(ClientId client, const NmeaSentence& sentence);
   void sleep(ClientId client, const NmeaSentence& sentence);
   void send(MicromodemKind kind, std::int64_t address, std::vector<std::uint8_t> payload);

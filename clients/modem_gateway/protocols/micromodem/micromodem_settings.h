@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/archive.h"
+
 namespace halocline::modem_gateway {
 
 class MicromodemSettings {
@@ -22,6 +24,7 @@ class MicromodemSettings {
   std::int64_t number(std::string_view name) const;
   bool is_on(std::string_view name) const { return number(name) != 0; }
   const std::map<std::string, std::string, std::less<>>& all() const { return values_; }
+  void archive(Archive& a) { a(values_); }
 
  private:
   std::map<std::string, std::string, std::less<>> values_;

@@ -39,9 +39,11 @@ clients::SendOptions mini_packet(MicromodemKind kind) {
 void MicromodemTransmitter::begin(const MicromodemCycle& cycle, std::int32_t to, bool has_cycle_packet) {
   cycle_ = Cycle{.wanted = cycle, .to = to};
   if (!has_cycle_packet) return ask_for_data();
-  cycle_->announcement = send_at(core_.start_of_transmission(),
-                                 {Kind::kCycle, to, cycle.destination, cycle_packet(cycle, std::nullopt)},
-                                 mini_packet(MicromodemKind::kCycle));
+  const std::int64_t sequence =
+      transmit({Kind::kCycle, to, cycle.destination, cycle_packet(cycle, std::nullopt)},
+               mini_packet(MicromodemKind::kCycle));
+  cycle_->announcement = sequence;
+  if (sequence == kNotSent) cycle_.reset();
 }
 
 std::size_t MicromodemTransmitter::frame_size() const {
@@ -53,7 +55,8 @@ void MicromodemTransmitter::ask_for_data() {
     Frame frame = std::move(waiting_.front());
     waiting_.pop_front();
     if (frame.bytes.size() <= frame_size()) return take_data(std::move(frame.bytes), frame.wants_ack);
-    core_.port().note("frame-dropped", "bytes=" + std::to_string(frame.bytes.size()));
+    core_.say_all(fmt::format("CAERR,{},DATA,{},frame too large for the cycle",
+                              core_.clock().hhmmss(core_.reading()), frame.bytes.size()));
   }
   const MicromodemCycle& wanted = cycle_->wanted;
   cycle_->asked = core_.now();
@@ -84,18 +87,18 @@ void MicromodemTransmitter::take_data(std::vector<std::uint8_t> bytes, bool want
 void MicromodemTransmitter::complete() {
   const Cycle cycle = *std::exchange(cycle_, std::nullopt);
   if (cycle.frame_bytes.empty()) return;
-  send_at(core_.start_of_transmission(), {Kind::kData, cycle.to, cycle.wanted.destination, cycle.payload},
-          {.wants_ack = cycle.wants_ack && cycle.to != kBroadcastId,
-           .rate_number = static_cast<std::int32_t>(cycle.wanted.rate),
-           .frame_bytes = cycle.frame_bytes});
+  transmit({Kind::kData, cycle.to, cycle.wanted.destination, cycle.payload},
+           {.wants_ack = cycle.wants_ack && cycle.to != kBroadcastId,
+            .rate_number = static_cast<std::int32_t>(cycle.wanted.rate),
+            .frame_bytes = cycle.frame_bytes});
 }
 
 void MicromodemTransmitter::send(Transmission transmission, clients::SendOptions options) {
-  send_at(core_.start_of_transmission(), std::move(transmission), std::move(options));
+  transmit(std::move(transmission), std::move(options));
 }
 
-std::int64_t MicromodemTransmitter::send_at(SimTime start, Transmission transmission,
-                                            clients::SendOptions options) {
+// kNotSent where the modem cannot take it, which is reported.
+std::int64_t MicromodemTransmitter::transmit(Transmission transmission, clients::SendOptions options) {
   OnItsWay sent;
   sent.report.rate = options.rate_number.value_or(0);
   sent.report.source = core_.own_address();
@@ -105,10 +108,13 @@ std::int64_t MicromodemTransmitter::send_at(SimTime start, Transmission transmis
       std::max<int>(1, static_cast<int>(options.frame_bytes.size()));
   sent.report.type = type_of(transmission.packet, sent.report.rate);
   sent.report.bytes = static_cast<int>(transmission.payload.size());
-  const std::int64_t sequence =
-      core_.port().send(start, transmission.to, transmission.payload, std::move(options));
+  const std::int64_t sequence = core_.port().send([&core = core_] { return core.start_of_transmission(); },
+                                                  transmission.to, transmission.payload, std::move(options));
+  if (sequence == kNotSent) {
+    report_not_sent(sent.report);
+    return sequence;
+  }
   sent.transmission = std::move(transmission);
-  sent.forgotten = start + kRemembered;
   sent_[sequence] = std::move(sent);
   return sequence;
 }
@@ -127,20 +133,31 @@ void MicromodemTransmitter::end_announcement(std::int64_t sequence, bool was_sen
   ask_for_data();
 }
 
+// Its CAXST, or where the host gets none an error.
+void MicromodemTransmitter::report_not_sent(TransmissionReport report) const {
+  report.mode = TransmissionReport::Mode::kInhibited;
+  report.frames_sent = 0;
+  report.at = core_.reading();
+  core_.say_all(core_.reports_transmissions()
+                    ? caxst(core_.state(), report)
+                    : fmt::format("CAERR,{},XMIT,{},not sent", core_.clock().hhmmss(core_.reading()),
+                                  static_cast<int>(report.mode)));
+}
+
 void MicromodemTransmitter::on_receipt(const modem_receipt_t& receipt) {
   const auto found = sent_.find(receipt.packet_sequence);
   if (found == sent_.end()) return;
   OnItsWay& sent = found->second;
-  sent.has_receipt = true;
-  sent.is_accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
-                     receipt.receipt_result == modem_receipt_t::QUEUED;
-  sent.begins = sent.is_accepted ? SimTime::from_utime(receipt.start_utime) : core_.now();
-  sent.ends = sent.begins + SimDuration::from_seconds(receipt.duration_s);
-  if (!sent.is_accepted) {
-    sent.report.mode = TransmissionReport::Mode::kInhibited;
-    sent.report.frames_sent = 0;
+  if (!is_accepted(receipt)) {
     core_.port().note("send-refused", "result=" + std::to_string(receipt.receipt_result));
+    report_not_sent(sent.report);
+    end_announcement(found->first, false);
+    sent_.erase(found);
+    return;
   }
+  sent.begins = SimTime::from_utime(receipt.start_utime);
+  sent.ends = sent.begins + SimDuration::from_seconds(receipt.duration_s);
+  sent.forgotten = sent.ends + kRemembered;
 }
 
 SimTime MicromodemTransmitter::data_due() const {
@@ -161,14 +178,8 @@ void MicromodemTransmitter::step() {
                               cycle_->frame_bytes.size() + 1));
     cycle_.reset();
   }
-  for (auto it = sent_.begin(); it != sent_.end();) {
-    if (advance(it->first, it->second)) {
-      ++it;
-      continue;
-    }
-    end_announcement(it->first, false);  // of one that had no receipt
-    it = sent_.erase(it);
-  }
+  for (auto it = sent_.begin(); it != sent_.end();)
+    it = advance(it->first, it->second) ? ++it : sent_.erase(it);
 }
 
 // Writes what has happened to it by now; false when it may be forgotten.
@@ -176,13 +187,13 @@ bool MicromodemTransmitter::advance(std::int64_t sequence, OnItsWay& sent) {
   const SimTime now = core_.now();
   if (now >= sent.begins) {
     sent.report.at = core_.port().clock_at(std::exchange(sent.begins, SimTime::never()));
-    if (sent.is_accepted) core_.say_all(fmt::format("CATXP,{}", sent.report.bytes));
+    core_.say_all(fmt::format("CATXP,{}", sent.report.bytes));
   }
   if (now >= sent.ends) {
     sent.ends = SimTime::never();
-    if (sent.is_accepted) core_.say_all(fmt::format("CATXF,{}", sent.report.bytes));
+    core_.say_all(fmt::format("CATXF,{}", sent.report.bytes));
     if (core_.reports_transmissions()) core_.say_all(caxst(core_.state(), sent.report));
-    end_announcement(sequence, sent.is_accepted);
+    end_announcement(sequence, true);
   }
   return now < sent.forgotten;
 }

@@ -48,7 +48,7 @@ class MicromodemTransmitter {
   // The next frame, which can be taken; an empty one ends the data.
   void take_data(std::vector<std::uint8_t> bytes, bool wants_ack);
 
-  // One packet, from the modem's next start on.
+  // One packet, at the modem's next start, or after those before it.
   void send(Transmission transmission, clients::SendOptions options);
   // What was sent with that number; none where it is forgotten.
   std::optional<Kind> sent_as(std::int64_t packet_sequence) const;
@@ -75,7 +75,6 @@ class MicromodemTransmitter {
     Transmission transmission;
     TransmissionReport report;
     SimTime begins = SimTime::never(), ends = SimTime::never(), forgotten = SimTime::never();
-    bool has_receipt = false, is_accepted = false;
   };
 
   // When the cycle is given up for want of data; never() without one.
@@ -83,7 +82,8 @@ class MicromodemTransmitter {
   std::size_t frame_size() const;
   void ask_for_data();
   void complete();
-  std::int64_t send_at(SimTime start, Transmission transmission, clients::SendOptions options);
+  std::int64_t transmit(Transmission transmission, clients::SendOptions options);
+  void report_not_sent(TransmissionReport report) const;
   void end_announcement(std::int64_t sequence, bool was_sent);
   bool advance(std::int64_t sequence, OnItsWay& sent);
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/archive.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
@@ -37,6 +38,7 @@ class ModemClock {
   static std::string comma_separated_of(std::int64_t calendar_s);  // yyyy,mm,dd,hh,mm,ss
   std::string iso(SimTime time) const;                             // yyyy-mm-ddThh:mm:ssZ
   std::string iso_us(SimTime time) const;                          // yyyy-mm-ddThh:mm:ss.ffffff
+  void archive(Archive& a) { a(is_set_, offset_us_); }
 
  private:
   bool has_pps_;

@@ -30,6 +30,7 @@
 #include "clients/modem_gateway/protocols/s2c/s2c_reader.h"
 #include "clients/modem_gateway/protocols/s2c/s2c_sender.h"
 #include "clients/modem_gateway/protocols/s2c/s2c_settings.h"
+#include "core/archive.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/names.h"
@@ -56,7 +57,7 @@ class Evologics : public Protocol {
       : core_(context, [this](const std::string& body) { tell_all(body); }),
         port_(context.port),
         sender_(core_),
-        settings_(core_, sender_) {
+        settings_(core_, sender_, [this] { note_stored(); }) {
     const std::string mode = context.options.take("mode", "net");
     require(mode == "net" || mode == "data", "option mode is '" + mode + "'; allowed are net and data");
     begins_in_data_mode_ = mode == "data";
@@ -133,6 +134,8 @@ class Evologics : public Protocol {
                        std::lround(1000 * elementary::exp10((path.path_level_db - strongest_db) / 20))});
     answer_paths(std::move(shown));
   }
+
+  void archive(Archive& a) override { core_.archive(a); }
 
   SimTime next() const override { return std::min({sender_.next(), stream_due_, paths_due_}); }
   void step() override {

@@ -12,6 +12,7 @@
 #include "bus/messages.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/protocol.h"
+#include "core/archive.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
@@ -53,10 +54,17 @@ class S2cCore {
   std::int32_t address_of(std::int32_t vehicle_id) const;
 
   // A setting by its sign and letters (!RI, @ZX).
-  std::int64_t setting(std::string_view name) const;
+  std::int64_t setting(std::string_view name) const { return setting_in(settings_, name); }
   void set(std::string_view name, std::int64_t value) { settings_[std::string(name)] = value; }
   const std::map<std::string, std::int64_t, std::less<>>& settings() const { return settings_; }
+  // Settings and the own address: those of the modem as it was delivered, which clears its non-volatile
+  // memory; to that memory; from it.
   void reset_settings();
+  void store_settings();
+  void recall_settings();
+  bool is_stored(std::string_view name) const { return setting(name) == setting_in(stored_.settings, name); }
+  bool is_address_stored() const { return own_address() == stored_.address; }
+  void archive(Archive& a);
 
   // What the vehicle's clock shows, which is the modem's.
   SimTime reading() const { return port_.clock_at(now()); }
@@ -73,12 +81,21 @@ class S2cCore {
 
  private:
   static constexpr std::int64_t kAll = 255;
+  using Settings = std::map<std::string, std::int64_t, std::less<>>;
+  struct Memory {
+    Settings settings;
+    std::int32_t address = 0;
+    void archive(Archive& a) { a(settings, address); }
+  };
+
+  static std::int64_t setting_in(const Settings& settings, std::string_view name);
 
   ProtocolPort& port_;
   AddressBook& addresses_;
   std::int32_t vehicle_id_;
   Tell tell_;
-  std::map<std::string, std::int64_t, std::less<>> settings_;
+  Settings settings_;
+  Memory delivered_, stored_;
 };
 
 }  // namespace halocline::modem_gateway

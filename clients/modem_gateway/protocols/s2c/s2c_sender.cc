@@ -127,7 +127,7 @@ void S2cSender::clear() {
 
 void S2cSender::begin(std::optional<OnItsWay>& place, S2cMessage message, SimTime start) {
   const bool is_burst = message.type == S2cMessage::Type::kBurst;
-  place = OnItsWay{std::move(message), -1, core_.setting(is_burst ? "!RC" : "!RI"), start};
+  place = OnItsWay{std::move(message), kNotSent, core_.setting(is_burst ? "!RC" : "!RI"), start};
   OnItsWay& sent = *place;
   if (sent.message.wants_ack) sent.message.payload.number = next_number(is_burst, sent.message.address);
   if (start >= core_.now() &&
@@ -152,7 +152,7 @@ void S2cSender::transmit(OnItsWay& sent) {
                                      .rate_number = is_burst ? kS2cBurstRate : kS2cImRate,
                                      .header_number = message.payload.header_number()});
   sent.ends = SimTime::never();
-  sent.until = std::max(sent.start, core_.now()) + kReceiptWithin;
+  sent.until = sent.sequence == kNotSent ? core_.now() : SimTime::never();
 }
 
 std::optional<S2cSender::OnItsWay>* S2cSender::place_of(std::int64_t sequence) {
@@ -165,12 +165,9 @@ std::optional<S2cSender::OnItsWay>* S2cSender::place_of(std::int64_t sequence) {
 void S2cSender::on_receipt(const modem_receipt_t& receipt) {
   auto* place = place_of(receipt.packet_sequence);
   if (place == nullptr) return;
-  const bool accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
-                        receipt.receipt_result == modem_receipt_t::QUEUED;
-  if (accepted)
-    on_sent(**place, receipt);
-  else
-    on_refused(*place, receipt);
+  if (is_accepted(receipt)) return on_sent(**place, receipt);
+  core_.port().note("send-refused", "result=" + std::to_string(receipt.receipt_result));
+  cancel(*place);
 }
 
 void S2cSender::on_sent(OnItsWay& sent, const modem_receipt_t& receipt) {
@@ -183,18 +180,14 @@ void S2cSender::on_sent(OnItsWay& sent, const modem_receipt_t& receipt) {
                               std::max<std::int64_t>(0, receipt.start_utime - core_.now().to_utime())));
 }
 
-void S2cSender::on_refused(std::optional<OnItsWay>& place, const modem_receipt_t& receipt) {
-  const bool is_busy = receipt.receipt_result == modem_receipt_t::REFUSED_BUSY ||
-                       receipt.receipt_result == modem_receipt_t::REFUSED_QUEUE_FULL;
-  if (!is_busy) core_.port().note("send-refused", "result=" + std::to_string(receipt.receipt_result));
-  if (place->message.type != S2cMessage::Type::kBurst) {
-    core_.tell(fmt::format("CANCELED{},{}", name_of(place->message.type), place->message.address));
-    return place.reset();
-  }
-  if (!is_busy) return finish(place, false);
-  bursts_.push_front(std::move(place->message));
+// Reports that a message was not sent.
+void S2cSender::cancel(std::optional<OnItsWay>& place) {
+  const S2cMessage& message = place->message;
+  if (message.type == S2cMessage::Type::kBurst) return finish(place, false);
+  const bool is_late = message.type == S2cMessage::Type::kSynchronous && place->start < core_.now();
+  core_.tell(
+      fmt::format("{}{},{}", is_late ? "EXPIRED" : "CANCELED", name_of(message.type), message.address));
   place.reset();
-  burst_due_ = core_.now() + kBusyWait;
 }
 
 void S2cSender::on_ack(const modem_receive_t& ack) {
@@ -279,11 +272,7 @@ void S2cSender::step(std::optional<OnItsWay>& place) {
     sent.until = now + SimDuration::from_milliseconds(core_.setting("!RT"));
   }
   if (now < sent.until) return;
-  if (sent.sequence < 0) {  // was not begun: too late, or kept by a reception
-    core_.tell(fmt::format("{}{},{}", sent.start < now ? "EXPIRED" : "CANCELED", name_of(message.type),
-                           message.address));
-    return place.reset();
-  }
+  if (sent.sequence == kNotSent) return cancel(place);  // too late, or kept by a reception
   if (sent.tries_left-- <= 0 || !message.wants_ack) return finish(place, false);
   sent.start = now;
   transmit(sent);

@@ -61,7 +61,7 @@ class S2cSender {
  private:
   struct OnItsWay {
     S2cMessage message;
-    std::int64_t sequence = -1;
+    std::int64_t sequence = kNotSent;
     std::int64_t tries_left = 0;
     SimTime start, ends = SimTime::never(), until = SimTime::never();
   };
@@ -71,7 +71,7 @@ class S2cSender {
   void begin(std::optional<OnItsWay>& place, S2cMessage message, SimTime start);
   std::optional<OnItsWay>* place_of(std::int64_t sequence);
   void on_sent(OnItsWay& sent, const modem_receipt_t& receipt);
-  void on_refused(std::optional<OnItsWay>& place, const modem_receipt_t& receipt);
+  void cancel(std::optional<OnItsWay>& place);
   void step(std::optional<OnItsWay>& place);
   void finish(std::optional<OnItsWay>& place, bool delivered);
   void next_burst();

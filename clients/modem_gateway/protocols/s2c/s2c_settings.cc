@@ -43,12 +43,17 @@ std::optional<std::string> S2cSettings::answer(const S2cCommand& command) {
   if (name.starts_with('?')) return query(name);
   if (name == "&V") return all_settings();
   if (name == "&W" || name == "&F") {
-    if (name == "&F") core_.reset_settings();
+    if (name == "&W")
+      core_.store_settings();
+    else
+      core_.reset_settings();
+    on_stored_();
     return "OK";
   }
   if (name == "I") return std::string(command.parameters == "0" ? kFirmware : kVersions);
   if (name == "Z") {
     sender_.clear();
+    if (command.parameters.empty() || command.parameters == "0") core_.recall_settings();  // a reboot
     return "OK";
   }
   if (name == "H") return "OK";
@@ -89,10 +94,14 @@ std::optional<std::string> S2cSettings::query(const std::string& name) const {
   return "ERROR UNKNOWN COMMAND";
 }
 
-// Closed by an empty line; the end of the last is that of every answer.
+// Closed by an empty line; the end of the last is that of every answer. [*] marks what was changed and not
+// stored.
 std::string S2cSettings::all_settings() const {
-  std::string text = fmt::format("Local Address: {}\r\n", core_.own_address());
-  for (const auto& [name, value] : core_.settings()) text += fmt::format("{}: {}\r\n", name, value);
+  const auto mark = [](bool is_stored) { return is_stored ? "" : "[*]"; };
+  std::string text =
+      fmt::format("{}Local Address: {}\r\n", mark(core_.is_address_stored()), core_.own_address());
+  for (const auto& [name, value] : core_.settings())
+    text += fmt::format("{}{}: {}\r\n", mark(core_.is_stored(name)), name, value);
   return text;
 }
 

@@ -2,6 +2,7 @@
 // The commands of an EvoLogics modem that set, ask and reset: !, @, ?, &, Z, I and the like.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,8 +15,9 @@ namespace halocline::modem_gateway {
 
 class S2cSettings {
  public:
-  // Both must outlive it.
-  S2cSettings(S2cCore& core, S2cSender& sender) : core_(core), sender_(sender) {}
+  // Both must outlive it. `on_stored`: the modem's non-volatile memory has changed.
+  S2cSettings(S2cCore& core, S2cSender& sender, std::function<void()> on_stored)
+      : core_(core), sender_(sender), on_stored_(std::move(on_stored)) {}
 
   // The body of the answer; none for a command that is none of these.
   std::optional<std::string> answer(const S2cCommand& command);
@@ -31,6 +33,7 @@ class S2cSettings {
 
   S2cCore& core_;
   S2cSender& sender_;
+  std::function<void()> on_stored_;
   std::string position_;
 };
 

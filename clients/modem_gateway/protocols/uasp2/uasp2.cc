@@ -43,8 +43,6 @@ namespace {
 
 using nlohmann::json;
 
-// A unit of 65535 samples in base 64, and what stands around it.
-constexpr std::size_t kMaxLine = 384 * 1024;
 constexpr std::size_t kHeaderBytes = 16, kSampleBytes = 4;
 constexpr std::size_t kMaxBuffer = 2'880'000;  // samples
 constexpr std::int64_t kBlock = 256;           // samples of a unit: 1040 bytes
@@ -90,11 +88,12 @@ class Uasp2 : public Protocol {
   }
 
   void on_bytes(ClientId client, std::string_view bytes) override {
-    readers_.try_emplace(client, kMaxLine)
+    readers_.try_emplace(client, LineReader::kMaxJson)
         .first->second.take(
             bytes, [&](std::string_view line) { take_line(client, line); },
-            [&] {
-              say(client, {{"error", "line too long"}});
+            [&] { port_.note("line-too-long", "client=" + std::to_string(client)); },
+            [&](std::string_view beginning, std::string_view end) {
+              refuse_long_line(client, beginning, end);
             });
   }
   void on_closed(ClientId client) override {
@@ -139,8 +138,16 @@ class Uasp2 : public Protocol {
   std::int64_t microseconds(SimTime time) const { return (time - origin_).nanoseconds() / 1000; }
   void say(ClientId client, const json& text) { port_.write(client, text.dump() + "\n"); }
 
+  void refuse_long_line(ClientId client, std::string_view beginning, std::string_view end) {
+    json answer{{"error", "line too long"}};
+    json id = value_in_piece(beginning, "id");
+    if (id.is_null()) id = value_in_piece(end, "id");
+    if (!id.is_null()) answer["id"] = id;
+    say(client, answer);
+  }
+
   void take_line(ClientId client, std::string_view line) {
-    const json request = json::parse(line, nullptr, /*allow_exceptions=*/false);
+    const json request = json_of(line);
     json answer = request.is_object() ? obey(client, request) : json{{"error", "no JSON object"}};
     if (answer.is_null()) return;
     if (request.is_object() && request.contains("id")) answer["id"] = request["id"];

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // UnetStack gateway: JSON lines of fjage, agents node, arp, phy, ranging and uwlink.
 //
-// A frame's protocol number goes in its header. Frames are sent one after the other; up to 16 wait. With `reliability` a frame is
-// acknowledged by the receiver's modem and repeated twice. A frame is reported when it is detected (RxFrameStartNtf) and when it ends
-// (RxFrameNtf, BadFrameNtf or CollisionNtf). The modem's time is the vehicle's clock. Left out: baseband signals, fragmentation.
-// Options: none.
+// A frame's protocol number goes in its header. Frames are sent one after the other; up to 16 wait. With
+// `reliability` a datagram is acknowledged by the receiver's modem and repeated twice; its one notification
+// is DatagramDeliveryNtf or DatagramFailureNtf. Those to one node go one after the other, and do not hold up
+// those to others. A frame that is received is reported when it is detected (RxFrameStartNtf) and when it
+// ends (RxFrameNtf, BadFrameNtf or CollisionNtf). The modem's time is the vehicle's clock. Left out: baseband
+// signals, fragmentation. Options: none.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -30,6 +32,7 @@
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "clients/modem_gateway/protocols/unet/unet_hosts.h"
+#include "clients/modem_gateway/protocols/unet/unet_job.h"
 #include "clients/modem_gateway/protocols/unet/unet_json.h"
 #include "clients/modem_gateway/protocols/unet/unet_parameters.h"
 #include "core/names.h"
@@ -40,7 +43,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMaxWaiting = 16;
+constexpr std::ptrdiff_t kMaxWaiting = 16;
 constexpr int kTries = 3;
 // Beyond the end of a frame, for an acknowledgement or a ping's answer of the greatest range.
 constexpr SimDuration kAnswerWithin = SimDuration::from_milliseconds(5000);
@@ -67,17 +70,16 @@ class Unet : public Protocol {
   void on_bytes(ClientId client, std::string_view bytes) override { hosts_.take(client, bytes); }
 
   void on_receipt(const modem_receipt_t& receipt) override {
-    if (!sending_ || receipt.packet_sequence != sending_->sequence) return;
-    const bool accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
-                          receipt.receipt_result == modem_receipt_t::QUEUED;
-    parameters_.note_busy(accepted);
-    if (!accepted) {
+    const auto job = job_of(receipt.packet_sequence);
+    if (job == jobs_.end()) return;
+    parameters_.note_busy(is_accepted(receipt));
+    if (!is_accepted(receipt)) {
       port_.note("send-refused", "result=" + std::to_string(receipt.receipt_result));
-      return try_again();
+      try_again(job);
+      return send_next();
     }
-    sending_->began_us = port_.clock_at(SimTime::from_utime(receipt.start_utime)).to_utime();
-    sending_->ends = SimTime::from_utime(receipt.start_utime) + SimDuration::from_seconds(receipt.duration_s);
-    sending_->until = SimTime::never();
+    job->began_us = port_.clock_at(SimTime::from_utime(receipt.start_utime)).to_utime();
+    job->ends = SimTime::from_utime(receipt.start_utime) + SimDuration::from_seconds(receipt.duration_s);
   }
 
   void on_packet(const modem_receive_t& packet) override {
@@ -117,28 +119,24 @@ class Unet : public Protocol {
   }
 
   SimTime next() const override {
-    return sending_ ? std::min(sending_->ends, sending_->until) : SimTime::never();
+    SimTime next = SimTime::never();
+    for (const Job& job : jobs_) next = std::min({next, job.ends, job.until});
+    return next;
   }
   void step() override {
-    if (sending_ && port_.now() >= sending_->ends) end_of_sound();
-    if (sending_ && port_.now() >= sending_->until) try_again();
+    for (auto job = jobs_.begin(); job != jobs_.end();) {
+      const auto this_job = job++;  // may be over
+      if (port_.now() >= this_job->ends)
+        end_of_sound(this_job);
+      else if (port_.now() >= this_job->until)
+        try_again(this_job);
+    }
+    send_next();
   }
 
  private:
-  // A frame, or a ping, that a host asked for.
-  struct Job {
-    UnetRequest request;
-    bool is_ping = false;
-    int channel = kUnetData;
-    std::int32_t address = 0;
-    std::int32_t protocol = 0;
-    std::vector<std::uint8_t> data;
-    bool wants_ack = false;
-    SimTime start;
-    int tries_left = 1;
-    std::int64_t sequence = -1, began_us = 0;
-    SimTime ends = SimTime::never(), until = SimTime::never();
-  };
+  using Job = UnetJob;
+  using Jobs = std::list<Job>;
 
   static int channel_of(std::int32_t rate) { return rate == kUnetControl ? kUnetControl : kUnetData; }
   std::int32_t address_of(std::int32_t vehicle_id) const {
@@ -153,10 +151,7 @@ class Unet : public Protocol {
     if (request.type == "DatagramReq" || request.type == "TxFrameReq") return take_frame(request);
     if (request.type == "RangeReq") return take_range(request);
     if (request.type == "AddressResolutionReq") return resolve(request);
-    if (request.type == "ClearReq" || request.type == "DatagramCancelReq") {
-      waiting_.clear();
-      return agree(request);
-    }
+    if (request.type == "ClearReq" || request.type == "DatagramCancelReq") return cancel(request);
     if (request.type.ends_with("Req"))
       return refuse(request, request.type.find("Baseband") != std::string::npos ? "no waveform channel"
                                                                                 : "not supported");
@@ -166,8 +161,16 @@ class Unet : public Protocol {
   void agree(const UnetRequest& request) {
     hosts_.answer(request, {{"clazz", "org.arl.fjage.Message"}, {"perf", "AGREE"}});
   }
-  void refuse(const UnetRequest& request, const std::string& reason) {
-    hosts_.answer(request, {{"clazz", "org.arl.unet.RefuseRsp"}, {"perf", "REFUSE"}, {"reason", reason}});
+  void refuse(const UnetRequest& request, const std::string& reason) { hosts_.refuse(request, reason); }
+
+  // All that wait, or the one with that id; their hosts are told.
+  void cancel(const UnetRequest& request) {
+    agree(request);
+    const std::string id = text_of(request.data, "id");
+    for (auto job = jobs_.begin(); job != jobs_.end();) {
+      const auto this_job = job++;
+      if (!this_job->has_begun() && (id.empty() || id == this_job->request.id)) fail(this_job);
+    }
   }
 
   void take_frame(const UnetRequest& request) {
@@ -179,11 +182,13 @@ class Unet : public Protocol {
     const std::int64_t protocol = integer_of(request.data, "protocol");
     const auto data = unet_bytes(request.data.contains("data") ? request.data["data"] : json());
     if (job.channel != kUnetControl && job.channel != kUnetData) return refuse(request, "bad type");
-    if (!data || protocol < 0 || protocol > 63 || job.address < 0) return refuse(request, "bad request");
+    if (!data || job.address < 0) return refuse(request, "bad request");
+    if (!is_unet_protocol(protocol)) return refuse(request, "bad protocol");
     job.protocol = static_cast<std::int32_t>(protocol);
     job.data = *data;
     if (std::ssize(job.data) > unet_channel(job.channel).frame_bytes) return refuse(request, "data too long");
-    job.wants_ack = !is_frame && flag_of(request.data, "reliability") && job.address != 0;
+    job.wants_ack = !is_frame && flag_of(request.data, "reliability");
+    if (job.wants_ack && job.address == 0) return refuse(request, "no reliable broadcast");
     job.tries_left = job.wants_ack ? kTries : 1;
     const auto at_us = integer_of(request.data, "txTime");
     job.start = at_us > 0 ? port_.instant_of(SimTime::from_utime(at_us)) : SimTime();
@@ -203,10 +208,12 @@ class Unet : public Protocol {
   }
 
   void accept(Job job) {
-    if (waiting_.size() >= kMaxWaiting) return refuse(job.request, "busy");
+    const auto waiting =
+        std::count_if(jobs_.begin(), jobs_.end(), [](const Job& j) { return !j.has_begun(); });
+    if (waiting >= kMaxWaiting) return refuse(job.request, "busy");
     agree(job.request);
-    waiting_.push_back(std::move(job));
-    if (!sending_) send_next();
+    jobs_.push_back(std::move(job));
+    send_next();
   }
 
   void resolve(const UnetRequest& request) {
@@ -222,76 +229,88 @@ class Unet : public Protocol {
                             {"address", address}});
   }
 
+  Jobs::iterator job_of(std::int64_t sequence) {
+    return std::find_if(jobs_.begin(), jobs_.end(),
+                        [&](const Job& job) { return job.has_begun() && job.sequence == sequence; });
+  }
+
+  // The first that waits for its turn, and for no answer of the same node to one before it.
   void send_next() {
-    if (waiting_.empty()) return;
-    sending_ = std::move(waiting_.front());
-    waiting_.pop_front();
-    transmit();
-  }
-
-  void transmit() {
-    Job& job = *sending_;
-    --job.tries_left;
-    clients::SendOptions options{.kind = job.is_ping ? modem_send_t::PING : modem_send_t::DATA,
-                                 .wants_ack = job.wants_ack,
-                                 .rate_number = job.channel,
-                                 .source_level_db = parameters_.source_level_db(job.channel),
-                                 .header_number = job.protocol};
-    job.sequence = port_.send(job.start, vehicle_of(job.address), job.data, std::move(options));
-    job.ends = SimTime::never();
-    job.until = std::max(job.start, port_.now()) + kReceiptWithin;
-  }
-
-  void end_of_sound() {
-    parameters_.note_busy(false);
-    Job& job = *sending_;
-    job.ends = SimTime::never();
-    if (!job.is_ping) {
-      const bool is_datagram = job.request.type == "DatagramReq" && job.request.recipient != "phy";
-      hosts_.reply(job.request,
-                   is_datagram ? "org.arl.unet.DatagramTransmissionNtf" : "org.arl.unet.phy.TxFrameNtf",
-                   {{"type", job.channel}, {"txTime", job.began_us}, {"to", job.address}});
+    if (std::any_of(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.is_sending(); })) return;
+    for (auto job = jobs_.begin(); job != jobs_.end(); ++job) {
+      const bool waits = std::any_of(jobs_.begin(), job, [&](const Job& before) {
+        return before.has_begun() && before.address == job->address;
+      });
+      if (!job->has_begun() && !waits) return transmit(job);
     }
-    if (!job.is_ping && !job.wants_ack) return finish();
-    job.until = port_.now() + kAnswerWithin;
+  }
+
+  void transmit(Jobs::iterator job) {
+    --job->tries_left;
+    job->ends = job->until = SimTime::never();
+    job->sequence = port_.send(job->start, vehicle_of(job->address), job->data,
+                               {.kind = job->is_ping ? modem_send_t::PING : modem_send_t::DATA,
+                                .wants_ack = job->wants_ack,
+                                .rate_number = job->channel,
+                                .source_level_db = parameters_.source_level_db(job->channel),
+                                .header_number = job->protocol});
+    if (job->sequence == kNotSent) fail(job);
+  }
+
+  void end_of_sound(Jobs::iterator job) {
+    parameters_.note_busy(false);
+    job->ends = SimTime::never();
+    if (job->is_ping || job->wants_ack) {
+      job->until = port_.now() + kAnswerWithin;
+      return;
+    }
+    const bool is_datagram = job->request.type == "DatagramReq" && job->request.recipient != "phy";
+    hosts_.reply(job->request,
+                 is_datagram ? "org.arl.unet.DatagramTransmissionNtf" : "org.arl.unet.phy.TxFrameNtf",
+                 {{"type", job->channel}, {"txTime", job->began_us}, {"to", job->address}});
+    jobs_.erase(job);
   }
 
   // Refused, or without an answer.
-  void try_again() {
-    if (sending_->tries_left > 0) {
-      sending_->start = SimTime();
-      return transmit();
-    }
-    if (sending_->wants_ack)
-      hosts_.reply(sending_->request, "org.arl.unet.DatagramFailureNtf", {{"to", sending_->address}});
-    else if (!sending_->is_ping)
-      hosts_.reply(sending_->request, "org.arl.fjage.Message", {{"perf", "FAILURE"}});
-    finish();
+  void try_again(Jobs::iterator job) {
+    if (job->tries_left <= 0) return fail(job);
+    job->start = SimTime();
+    transmit(job);
   }
-  void finish() {
-    parameters_.note_busy(false);
-    sending_.reset();
-    send_next();
+
+  void fail(Jobs::iterator job) {
+    if (job->wants_ack)
+      hosts_.reply(job->request, "org.arl.unet.DatagramFailureNtf", {{"to", job->address}});
+    else
+      hosts_.reply(job->request, "org.arl.fjage.Message", {{"perf", "FAILURE"}});
+    jobs_.erase(job);
   }
 
   void take_answer(const modem_receive_t& packet) {
-    if (!sending_ || packet.packet_sequence != sending_->sequence) return;
-    if (packet.packet_kind == modem_receive_t::PING_REPLY) {
-      const double range_m = packet.two_way_travel_time_s / 2 * parameters_.sound_speed_mps();
-      hosts_.notify(kRangingTopic, "org.arl.unet.localization.RangeNtf",
-                    {{"from", address_of(vehicle_id_)},
-                     {"to", sending_->address},
-                     {"range", range_m},
-                     {"offset", nullptr},
-                     {"validity", true},
-                     {"sender", "ranging"},
-                     {"inReplyTo", sending_->request.id}});
-      return finish();
-    }
-    if (packet.packet_kind != modem_receive_t::ACK || packet.payload.empty() || (packet.payload[0] & 1) == 0)
+    const auto job = job_of(packet.packet_sequence);
+    if (job == jobs_.end()) return;
+    const bool is_range = packet.packet_kind == modem_receive_t::PING_REPLY;
+    const bool is_good_ack =
+        packet.packet_kind == modem_receive_t::ACK && !packet.payload.empty() && (packet.payload[0] & 1) != 0;
+    if (is_range)
+      report_range(*job, packet.two_way_travel_time_s);
+    else if (is_good_ack)
+      hosts_.reply(job->request, "org.arl.unet.DatagramDeliveryNtf", {{"to", job->address}});
+    else
       return;
-    hosts_.reply(sending_->request, "org.arl.unet.DatagramDeliveryNtf", {{"to", sending_->address}});
-    finish();
+    jobs_.erase(job);
+    send_next();
+  }
+
+  void report_range(const Job& job, double two_way_s) {
+    hosts_.notify(kRangingTopic, "org.arl.unet.localization.RangeNtf",
+                  {{"from", address_of(vehicle_id_)},
+                   {"to", job.address},
+                   {"range", two_way_s / 2 * parameters_.sound_speed_mps()},
+                   {"offset", nullptr},
+                   {"validity", true},
+                   {"sender", "ranging"},
+                   {"inReplyTo", job.request.id}});
   }
 
   void report_frame(const modem_receive_t& packet) {
@@ -315,8 +334,7 @@ class Unet : public Protocol {
   UnetParameters parameters_;
   std::vector<NamedVehicle> vehicles_;
   UnetHosts hosts_;
-  std::deque<Job> waiting_;
-  std::optional<Job> sending_;
+  Jobs jobs_;
 };
 
 }  // namespace

@@ -73,15 +73,34 @@ void UnetHosts::open(ClientId client) {
 void UnetHosts::take(ClientId client, std::string_view bytes) {
   hosts_[client].reader.take(
       bytes, [&](std::string_view line) { take_line(client, line); },
-      [&] { port_.note("line-too-long", "client=" + std::to_string(client)); });
+      [&] { port_.note("line-too-long", "client=" + std::to_string(client)); },
+      [&](std::string_view beginning, std::string_view end) { refuse_long_line(client, beginning, end); });
+}
+
+// Fields may stand in any order, so those that name the request stand before or behind its data.
+void UnetHosts::refuse_long_line(ClientId client, std::string_view beginning, std::string_view end) {
+  const auto text = [&](const char* name) {
+    json value = value_in_piece(beginning, name);
+    if (!value.is_string()) value = value_in_piece(end, name);
+    return value.is_string() ? value.get<std::string>() : std::string();
+  };
+  UnetRequest request;
+  request.id = text("msgID");
+  request.sender = text("sender");
+  request.recipient = text("recipient");
+  if (request.id.empty()) return port_.disconnect(client);
+  refuse(request, fmt::format("request longer than {} bytes", LineReader::kMaxJson));
 }
 
 void UnetHosts::take_line(ClientId client, std::string_view line) {
-  const json request = json::parse(line, nullptr, /*allow_exceptions=*/false);
+  const json request = json_of(line);
   if (!request.is_object()) return port_.note("no-json", "client=" + std::to_string(client));
   if (text_of(request, "action") == "send") {
     const auto message = request.contains("message") ? unet_request(request["message"]) : std::nullopt;
-    if (message && is_agent(message->recipient)) on_request_(*message);
+    if (!message) return port_.note("no-message", "client=" + std::to_string(client));
+    if (is_agent(message->recipient)) return on_request_(*message);
+    if (message->type.ends_with("Req") && !message->recipient.starts_with('#'))
+      refuse(*message, "no agent " + message->recipient);
     return;
   }
   json answer = answer_to(hosts_[client], request);
@@ -105,8 +124,9 @@ json UnetHosts::answer_to(Host& host, const json& request) {
   if (action == "agentForService") return agents.empty() ? json::object() : json{{"agentID", agents.front()}};
   if (action == "agentsForService") return {{"agentIDs", agents}};
   if (action == "auth") return {{"auth", true}};
-  if (action != "wantsMessagesFor" || !request.contains("agentIDs") || !request["agentIDs"].is_array())
-    return nullptr;
+  // No request stays without an answer, nor one that fjage does not know.
+  if (action != "wantsMessagesFor") return request.contains("id") ? json::object() : json();
+  if (!request.contains("agentIDs") || !request["agentIDs"].is_array()) return nullptr;
   host.wants.clear();
   for (const json& name : request["agentIDs"]) {
     if (name.is_string() && host.wants.size() < kMaxWants) host.wants.insert(name.get<std::string>());
@@ -118,6 +138,10 @@ void UnetHosts::answer(const UnetRequest& request, json fields) {
   const std::string clazz = text_of(fields, "clazz");
   fields.erase("clazz");
   reply(request, clazz, std::move(fields));
+}
+
+void UnetHosts::refuse(const UnetRequest& request, const std::string& reason) {
+  reply(request, "org.arl.unet.RefuseRsp", {{"perf", "REFUSE"}, {"reason", reason}});
 }
 
 void UnetHosts::reply(const UnetRequest& request, const std::string& clazz, json fields) {

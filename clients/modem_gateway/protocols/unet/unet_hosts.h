@@ -32,6 +32,7 @@ class UnetHosts {
 
   // The answer of the agent to a request; fields with the class under "clazz".
   void answer(const UnetRequest& request, nlohmann::json fields);
+  void refuse(const UnetRequest& request, const std::string& reason);
   // A notification that belongs to a request, to whom it came from.
   void reply(const UnetRequest& request, const std::string& clazz, nlohmann::json fields);
   // A notification to a topic.
@@ -39,11 +40,12 @@ class UnetHosts {
 
  private:
   struct Host {
-    LineReader reader;
+    LineReader reader{LineReader::kMaxJson};
     std::set<std::string> wants;  // recipients whose messages it gets; empty: all
   };
 
   void take_line(ClientId client, std::string_view line);
+  void refuse_long_line(ClientId client, std::string_view beginning, std::string_view end);
   nlohmann::json answer_to(Host& host, const nlohmann::json& request);
   void publish(const std::string& clazz, nlohmann::json data);
 

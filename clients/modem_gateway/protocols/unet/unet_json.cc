@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/modem_gateway/protocols/unet/unet_json.h"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "clients/modem_gateway/protocols/base64.h"
 
 namespace halocline::modem_gateway {
@@ -8,7 +11,40 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int kMaxDepth = 64;
+constexpr std::string_view kBlanks = " \t";
+
+std::string_view without_blanks(std::string_view text) {
+  return text.substr(std::min(text.find_first_not_of(kBlanks), text.size()));
+}
+
+// The size of a text in quotes, or of a number, that `text` begins with.
+std::size_t size_of_value(std::string_view text) {
+  if (!text.starts_with('"')) return std::min(text.find_first_of(",}] \t"), text.size());
+  std::size_t size = 1;
+  while (size < text.size() && text[size] != '"') size += text[size] == '\\' ? 2 : 1;
+  return std::min(size + 1, text.size());
+}
+
 }  // namespace
+
+json json_of(std::string_view line) {
+  return json::parse(
+      line, [](int depth, json::parse_event_t, const json&) { return depth <= kMaxDepth; },
+      /*allow_exceptions=*/false);
+}
+
+json value_in_piece(std::string_view piece, std::string_view name) {
+  const std::string key = "\"" + std::string(name) + "\"";
+  for (std::size_t at = piece.find(key); at != std::string_view::npos; at = piece.find(key, at + 1)) {
+    std::string_view rest = without_blanks(piece.substr(at + key.size()));
+    if (!rest.starts_with(':')) continue;
+    rest = without_blanks(rest.substr(1));
+    json value = json::parse(rest.substr(0, size_of_value(rest)), nullptr, /*allow_exceptions=*/false);
+    if (value.is_string() || value.is_number()) return value;
+  }
+  return nullptr;
+}
 
 std::optional<std::vector<std::uint8_t>> unet_bytes(const json& value) {
   if (value.is_null()) return std::vector<std::uint8_t>();

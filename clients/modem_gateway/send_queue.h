@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Queue of the packets that a modem interface has taken from its hosts: they go out one after the other.
+//
+// A packet leaves the queue when its sound has ended, or when it was refused. The channel server refuses what
+// a modem would have to send while it sends something else, such as its own acknowledgement: the packet is
+// sent again a little later, as a new packet of the modem library. So a packet has a number of the queue, and
+// protocols never see those of the library.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "bus/messages.h"
+#include "bus/runtime/node.h"
+#include "clients/modem/modem_client.h"
+#include "clients/modem_gateway/protocols/protocol.h"
+#include "core/sim_time.h"
+
+namespace halocline::modem_gateway {
+
+class SendQueue {
+ public:
+  struct Packet {
+    ProtocolPort::StartRule start;
+    std::int32_t destination = 0;
+    std::vector<std::uint8_t> payload;
+    clients::SendOptions options;
+  };
+
+  // `modem` must outlive it.
+  explicit SendQueue(clients::ModemClient& modem) : modem_(modem) {}
+
+  // Returns the packet's number. It is sent at once where it is the first and the simulation time is known.
+  std::int64_t add(Packet packet, const bus::Now& now);
+  std::size_t size() const { return packets_.size(); }
+
+  // The receipt with the number of the queue; none where the packet is sent again, or is not the one under
+  // way.
+  std::optional<modem_receipt_t> take(const modem_receipt_t& receipt, const bus::Now& now);
+  // Number of the packet that the modem library sent as `packet_sequence`; kForgotten where it is none of the
+  // last ones.
+  std::int64_t number_of(std::int64_t packet_sequence) const;
+
+  // Sends what is due. Returns the refusal of a packet that was never answered.
+  std::optional<modem_receipt_t> step(const bus::Now& now);
+  // When step() is due by simulation time.
+  SimTime next() const { return std::min(due_, ends_); }
+  void clear();
+
+ private:
+  struct Numbered {
+    std::int64_t number = 0;
+    Packet packet;
+    SimTime gives_up = SimTime::never();  // being refused as busy
+  };
+
+  void transmit(const bus::Now& now);
+  void remove_first(SimTime now);
+  bool was_given_up() const;
+
+  clients::ModemClient& modem_;
+  std::deque<Numbered> packets_;                  // the one under way first
+  std::optional<std::int64_t> sequence_;          // of its SEND, of the library
+  SimTime due_ = SimTime::never();                // its next SEND
+  SimTime ends_ = SimTime::never();               // its sound
+  std::map<std::int64_t, std::int64_t> numbers_;  // by sequence of the library
+  std::int64_t next_number_ = 0;
+};
+
+}  // namespace halocline::modem_gateway
