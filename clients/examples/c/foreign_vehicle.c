@@ -21,6 +21,10 @@
 static const char* const kUsage =
     "usage: [--name N] [--id N] [--to ID] [--north M] [--depth M] [--every S] [--family F] [--center-hz F]\n";
 static const double kRadiusM = 100, kSpeedMps = 1.5, kRepeatS = 0.5;
+static const char* const kOutcomes[] = {  // by the number in packet_outcome_t
+    "received", "below cutoff", "receiver gone", "shadow",     "blocked",      "out of band",
+    "collided", "half duplex",  "doppler",       "bit errors", "not acquired", "foreign",
+    "too weak", "too steep",    "out of reach",  "asleep",     "extra loss",   "no power"};
 static const int64_t kStatePeriodUs = 100000, kModemPeriodUs = 10000000;
 
 typedef struct {
@@ -103,11 +107,9 @@ static void prepare_packet(vehicle_t* v, int64_t now) {
 
 // Does what is due. Simulation time is the last CLOCK, extrapolated by the wall clock at its rate.
 static void step(vehicle_t* v) {
-  if (v->clock_wall_s == 0) {
-    if (++v->idle_steps == 300)
-      fputs("no CLOCK for 3 s: start this by ./scripts/join\n", stderr);  // of 10 ms
-    return;
-  }
+  if (v->clock_wall_s == 0 && ++v->idle_steps == 300)  // of 10 ms
+    fputs("no CLOCK for 3 s: start this by ./scripts/join\n", stderr);
+  if (v->clock_wall_s == 0) return;
   const int64_t now = v->clock.utime + (int64_t)((wall_s() - v->clock_wall_s) * v->clock.clock_rate * 1e6);
   if (due(now, kStatePeriodUs, &v->next_state)) publish_state(v, now);
   if (due(now, kModemPeriodUs, &v->next_modem)) publish_modem(v, now);
@@ -140,10 +142,9 @@ static void on_outcome(const lcm_recv_buf_t* buffer, const char* channel,
                        const halocline_packet_outcome_t* outcome, void* user) {
   const vehicle_t* v = user;
   if (outcome->send_session != v->session || outcome->source_id != (int32_t)v->id) return;
-  printf("%.3f s: packet %lld %s vehicle %d, outcome %d\n", (double)outcome->utime * 1e-6,
-         (long long)outcome->packet_sequence,
-         outcome->outcome == HALOCLINE_PACKET_OUTCOME_T_RECEIVED ? "received by" : "lost at",
-         outcome->receiver_id, outcome->outcome);
+  const size_t number = (size_t)outcome->outcome, known = sizeof kOutcomes / sizeof *kOutcomes;
+  printf("%.3f s: packet %lld at vehicle %d: %s\n", (double)outcome->utime * 1e-6,
+         (long long)outcome->packet_sequence, outcome->receiver_id, number < known ? kOutcomes[number] : "?");
 }
 
 static void on_packet(const lcm_recv_buf_t* buffer, const char* channel,
@@ -156,17 +157,14 @@ static void on_packet(const lcm_recv_buf_t* buffer, const char* channel,
 }
 
 static int is_set(vehicle_t* v, const char* option, const char* value) {
-  const struct {
-    const char* option;
-    double* number;
-  } numbers[] = {{"--id", &v->id},         {"--to", &v->to},         {"--north", &v->north_m},
-                 {"--depth", &v->depth_m}, {"--every", &v->every_s}, {"--center-hz", &v->center_hz}};
+  const char* const options[] = {"--id", "--to", "--north", "--depth", "--every", "--center-hz"};
+  double* const numbers[] = {&v->id, &v->to, &v->north_m, &v->depth_m, &v->every_s, &v->center_hz};
   if (strcmp(option, "--name") == 0) return (v->name = value) != NULL;
   if (strcmp(option, "--family") == 0) return (v->family = value) != NULL;
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i) {
     char* end = NULL;
-    if (strcmp(option, numbers[i].option) != 0) continue;
-    *numbers[i].number = strtod(value, &end);
+    if (strcmp(option, options[i]) != 0) continue;
+    *numbers[i] = strtod(value, &end);
     return end != value && *end == '\0';
   }
   return 0;

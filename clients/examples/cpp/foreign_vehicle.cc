@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <iomanip>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <random>
@@ -37,6 +38,10 @@ struct Options {
 };
 
 constexpr double kRadiusM = 100, kSpeedMps = 1.5, kRepeatS = 0.5;
+constexpr const char* kOutcomes[] = {  // by the number in packet_outcome_t
+    "received", "below cutoff", "receiver gone", "shadow",     "blocked",      "out of band",
+    "collided", "half duplex",  "doppler",       "bit errors", "not acquired", "foreign",
+    "too weak", "too steep",    "out of reach",  "asleep",     "extra loss",   "no power"};
 constexpr std::int64_t kStatePeriodUs = 100'000, kModemPeriodUs = 10'000'000;
 
 double wall_s() {
@@ -135,27 +140,22 @@ class Vehicle {
   }
 
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    modem_receipt_t receipt;
-    modem_receive_t packet;
-    packet_outcome_t outcome;
     if (channel == "CLOCK") {
       if (decode(buffer, clock_)) clock_s_ = wall_s();
-    } else if (channel == "OUTCOME") {
+    } else if (packet_outcome_t outcome; channel == "OUTCOME") {
       if (!decode(buffer, outcome) || outcome.send_session != session_ || outcome.source_id != id()) return;
-      const bool received = outcome.outcome == packet_outcome_t::RECEIVED;
-      print(outcome.utime) << "packet " << outcome.packet_sequence << (received ? " received by" : " lost at")
-                           << " vehicle " << outcome.receiver_id << ", outcome " << +outcome.outcome
-                           << std::endl;
-    } else if (channel == "RECEIPT." + options_.name) {
+      const auto number = static_cast<std::size_t>(outcome.outcome);
+      print(outcome.utime) << "packet " << outcome.packet_sequence << " at vehicle " << outcome.receiver_id
+                           << ": " << (number < std::size(kOutcomes) ? kOutcomes[number] : "?") << std::endl;
+    } else if (modem_receipt_t receipt; channel == "RECEIPT." + options_.name) {
       if (!decode(buffer, receipt) || receipt.send_session != session_) return;
       if (pending_ && receipt.packet_sequence == pending_->packet_sequence) pending_.reset();
       print(receipt.utime) << "packet " << receipt.packet_sequence
                            << (receipt.start_utime != 0 ? " accepted" : " refused") << ", receipt "
                            << +receipt.receipt_result << ", " << receipt.duration_s << " s long" << std::endl;
-    } else if (decode(buffer, packet)) {
+    } else if (modem_receive_t packet; decode(buffer, packet)) {
       std::string text(packet.payload.begin(), packet.payload.end());
-      for (char& c : text)
-        if (c < 32 || c == 127) c = '.';
+      for (char& c : text) c = c < 32 || c == 127 ? '.' : c;
       print(packet.utime) << "from vehicle " << packet.source_id << ", " << packet.snr_db
                           << " dB SNR: " << text << std::endl;
     }

@@ -27,6 +27,10 @@ import lcm.lcm.LCMSubscriber;
  */
 public final class ForeignVehicle implements LCMSubscriber {
     private static final double RADIUS_M = 100, SPEED_MPS = 1.5, REPEAT_S = 0.5;
+    private static final String[] OUTCOMES = { // by the number in packet_outcome_t
+        "received", "below cutoff", "receiver gone", "shadow", "blocked", "out of band", "collided", "half duplex",
+        "doppler", "bit errors", "not acquired", "foreign", "too weak", "too steep", "out of reach", "asleep", "extra loss",
+        "no power"};
     private static final long STATE_PERIOD_US = 100_000, MODEM_PERIOD_US = 10_000_000;
 
     private final LCM bus;
@@ -45,9 +49,7 @@ public final class ForeignVehicle implements LCMSubscriber {
         private final long periodUs;
         private long nextUs;
 
-        Timer(long periodUs) {
-            this.periodUs = periodUs;
-        }
+        Timer(long periodUs) { this.periodUs = periodUs; }
 
         boolean due(long now) {
             if (periodUs == 0 || now < nextUs && nextUs - now <= periodUs) return false;
@@ -90,9 +92,7 @@ public final class ForeignVehicle implements LCMSubscriber {
         }
     }
 
-    private synchronized boolean knowsTime() {
-        return clock != null;
-    }
+    private synchronized boolean knowsTime() { return clock != null; }
 
     private void publishState(long now) throws IOException {
         final double turn = SPEED_MPS / RADIUS_M; // rad/s, clockwise
@@ -172,8 +172,8 @@ public final class ForeignVehicle implements LCMSubscriber {
 
     private void onOutcome(packet_outcome_t outcome) {
         if (outcome.send_session != session || outcome.source_id != id) return;
-        print(outcome.utime, "packet %d %s vehicle %d, outcome %d", outcome.packet_sequence,
-            outcome.outcome == packet_outcome_t.RECEIVED ? "received by" : "lost at", outcome.receiver_id, outcome.outcome);
+        print(outcome.utime, "packet %d at vehicle %d: %s", outcome.packet_sequence, outcome.receiver_id,
+            outcome.outcome < OUTCOMES.length ? OUTCOMES[outcome.outcome] : "?");
     }
 
     public static void main(String[] args) throws IOException, InterruptedException {

@@ -32,6 +32,10 @@ end
 local RADIUS_M, SPEED_MPS, REPEAT_S = 100, 1.5, 0.5
 local STATE_PERIOD_US, MODEM_PERIOD_US = 100000, 10000000
 
+local OUTCOMES = { -- by the number in packet_outcome_t, from 0
+  "received", "below cutoff", "receiver gone", "shadow", "blocked", "out of band", "collided", "half duplex", "doppler",
+  "bit errors", "not acquired", "foreign", "too weak", "too steep", "out of reach", "asleep", "extra loss", "no power"}
+
 local function read(path)
   local file = assert(io.open(path))
   local text = file:read("*l")
@@ -124,8 +128,8 @@ end
 function handlers.OUTCOME(data)
   local outcome = types.packet_outcome_t.decode(data)
   if outcome.send_session ~= session or outcome.source_id ~= options.id then return end
-  print(string.format("%.3f s: packet %d %s vehicle %d, outcome %d", outcome.utime * 1e-6, outcome.packet_sequence,
-    outcome.outcome == types.packet_outcome_t.RECEIVED and "received by" or "lost at", outcome.receiver_id, outcome.outcome))
+  print(string.format("%.3f s: packet %d at vehicle %d: %s", outcome.utime * 1e-6, outcome.packet_sequence,
+    outcome.receiver_id, OUTCOMES[outcome.outcome + 1] or "?"))
 end
 
 function handlers.RECEIVE(data)

@@ -19,6 +19,9 @@ from halocline import (modem_config_t, modem_receipt_t, modem_receive_t, modem_s
                        vehicle_state_t)
 
 RADIUS_M, SPEED_MPS, REPEAT_S = 100.0, 1.5, 0.5
+OUTCOMES = (  # by the number in packet_outcome_t
+    "received", "below cutoff", "receiver gone", "shadow", "blocked", "out of band", "collided", "half duplex", "doppler",
+    "bit errors", "not acquired", "foreign", "too weak", "too steep", "out of reach", "asleep", "extra loss", "no power")
 STATE_PERIOD_US, MODEM_PERIOD_US = 100_000, 10_000_000
 
 
@@ -123,9 +126,9 @@ class Vehicle:
     def on_outcome(self, data):
         outcome = packet_outcome_t.decode(data)
         if outcome.send_session == self.session and outcome.source_id == self.options.id:
-            received = outcome.outcome == packet_outcome_t.RECEIVED
-            print(f"{outcome.utime * 1e-6:.3f} s: packet {outcome.packet_sequence} {'received by' if received else 'lost at'} "
-                  f"vehicle {outcome.receiver_id}, outcome {outcome.outcome}", flush=True)
+            word = OUTCOMES[outcome.outcome] if outcome.outcome < len(OUTCOMES) else "?"
+            print(f"{outcome.utime * 1e-6:.3f} s: packet {outcome.packet_sequence} at vehicle {outcome.receiver_id}: {word}",
+                  flush=True)
 
     def on_packet(self, data):
         packet = modem_receive_t.decode(data)

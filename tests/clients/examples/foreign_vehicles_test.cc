@@ -2,11 +2,13 @@
 // The vehicles of clients/examples in their languages: built and started by the commands in their own first comments, each joins
 // a run on a private bus, sends a packet that a simulated vehicle receives, and receives one.
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -81,7 +83,7 @@ TEST_P(ForeignVehicle, JoinsARunAndExchangesPacketsWithASimulatedVehicle) {
   Process vehicle = shell(start);
   // Its modem is the one that it has announced: 0.1 s and 20 bytes at 640 bit/s.
   EXPECT_TRUE(prints(vehicle, "packet 0 accepted, receipt 0, 0.350 s long\n")) << vehicle.output();
-  EXPECT_TRUE(prints(vehicle, " received by vehicle 1, outcome 0\n")) << vehicle.output();
+  EXPECT_TRUE(prints(vehicle, " at vehicle 1: received\n")) << vehicle.output();
   EXPECT_TRUE(prints(vehicle, " s: from vehicle 2, ")) << vehicle.output();
   EXPECT_THAT(vehicle.output(), Not(HasSubstr("no CLOCK")));
   run.signal(SIGTERM);
@@ -104,6 +106,37 @@ INSTANTIATE_TEST_SUITE_P(Languages, ForeignVehicle,
                            const std::string file = vehicle.param;
                            return file.substr(0, file.find('/'));
                          });
+
+// The constants of the message up to the first that is none of an outcome, in their order.
+std::vector<std::string> words_of_outcomes() {
+  std::ifstream file(kSource + "/lcmtypes/packet_outcome_t.lcm");
+  std::vector<std::string> words;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream fields(line);
+    std::string keyword, type, name, equals, value;
+    if (!(fields >> keyword >> type >> name >> equals >> value) || keyword != "const") continue;
+    if (value != std::to_string(words.size()) + ";") break;
+    for (char& c : name) c = c == '_' ? ' ' : static_cast<char>(std::tolower(c));
+    words.push_back(name);
+  }
+  return words;
+}
+
+TEST_P(ForeignVehicle, HasAWordForEachOutcome) {
+  const std::vector<std::string> words = words_of_outcomes();
+  ASSERT_GE(words.size(), 18u);
+  const std::string text = text_of(kSource + "/clients/examples/" + GetParam());
+  std::size_t at = text.find("by the number in packet_outcome_t");
+  ASSERT_NE(at, std::string::npos);
+  const std::string list = text.substr(text.find('"', at), text.find_first_of("})", at) - text.find('"', at));
+  std::vector<std::string> listed;
+  for (std::size_t begin = 0; (begin = list.find('"', begin)) != std::string::npos;) {
+    const std::size_t end = list.find('"', begin + 1);
+    listed.push_back(list.substr(begin + 1, end - begin - 1));
+    begin = end + 1;
+  }
+  EXPECT_EQ(listed, words);
+}
 
 TEST_P(ForeignVehicle, StaysBelowTwoHundredLines) {
   const std::string text = text_of(kSource + "/clients/examples/" + GetParam());
