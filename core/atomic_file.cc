@@ -33,8 +33,13 @@ void force_to_disk(const std::string& path) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), temporary_path_(path_) {
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
   std::error_code error;
+  if (std::filesystem::is_symlink(path_, error)) {
+    const auto target = std::filesystem::canonical(path_, error);
+    if (!error) path_ = target.string();
+  }
+  temporary_path_ = path_;
   const std::filesystem::file_status status = std::filesystem::status(path_, error);
   if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status))
     temporary_path_ += ".unfinished";

@@ -5,7 +5,8 @@
 // (fsync of the file before the rename and of its folder after it; POSIX rename replaces in one step). One writer at a
 // time: two writers of one path share the name of the temporary file.
 //
-// What is at the path and no regular file, such as a device or a pipe, is written to directly and stays what it is.
+// What is at the path and no regular file, such as a device or a pipe, is written to directly and stays what
+// it is. A link to a file stays one: the file it leads to is replaced.
 //
 //   replace_file("result.json", text);
 //

@@ -32,6 +32,13 @@ std::string part_of_log(const std::string& path, int part) {
   return (whole.parent_path() / (whole.stem().string() + number + whole.extension().string())).string();
 }
 
+std::string first_part_of_log(const std::string& path) {
+  const fs::path part(path),
+      first = part.parent_path() / (part.stem().stem().string() + part.extension().string());
+  const int number = part_number(part.filename().string(), first.stem().string(), part.extension().string());
+  return number > 0 ? first.string() : path;
+}
+
 std::vector<std::string> parts_of_log(const std::string& path) {
   const fs::path whole(path);
   const fs::path folder = whole.has_parent_path() ? whole.parent_path() : fs::path(".");

@@ -20,6 +20,7 @@
 #include "clients/halocline/plot/plot.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/link_survey.h"
+#include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/sim_time.h"
 #include "core/units.h"
@@ -99,7 +100,7 @@ int along_track(const CoverageOptions& options, const ScenarioConfig& config, co
                  : read_track(options.track);
   const auto choices =
       best_depths(config, terrain.terrain, from, track, depths_m, options.threads, sharing_of(options));
-  write_text(options.output, track_csv(choices, depths_m));
+  replace_file(options.output, track_csv(choices, depths_m));
   if (!options.plot.empty())
     write_track_picture(choices, depths_m,
                         "Best depth to hear " + options.from + " at, along " + options.track, options.plot);

@@ -21,6 +21,7 @@
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/embedded_run.h"
 #include "clients/halocline/scenario/replay_node.h"
+#include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/sim_time.h"
 
@@ -89,8 +90,8 @@ void compare_with_original(const ReplayOptions& options, const std::string& made
   const auto [csv, json] = comparison_files(made);
   std::ostringstream table;
   print_csv(table, comparison);
-  write_text(csv, table.str());
-  write_text(json, to_json(comparison) + "\n");
+  replace_file(csv, table.str());
+  replace_file(json, to_json(comparison) + "\n");
   if (options.quiet) return;
   show(comparison, options.format);
   if (options.format == "table") std::cout << "\ncomparison  " << csv << ", " << json << "\n";
@@ -131,7 +132,7 @@ int replay(const ReplayOptions& options) {
   report_damage(std::cerr, log);
   if (!options.quiet) print_repairs(std::cerr, recording);
   require(!recording.events.empty(), options.logs.front() + " holds no states and no transmissions");
-  write_text(files.config, effective_toml(config));
+  replace_file(files.config, effective_toml(config));
   const SimDuration zero = recording.zero;
   const RunOutcome outcome = run_replay(options, config, files, std::move(recording));
   if (options.format == "table" && !options.quiet) {

@@ -10,6 +10,7 @@
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
 #include "clients/halocline/report/report_page.h"
+#include "core/atomic_file.h"
 
 namespace halocline::clients {
 namespace {
@@ -28,12 +29,12 @@ int write_report(const ReportArguments& arguments) {
   print_remarks(std::cerr, first);
   const ReportPart part{arguments.logs.front(), first.mission, first.remarks};
   if (is_one) {
-    write_text(out, report_page(part));
+    replace_file(out, report_page(part));
   } else {
     const MissionLog second = read_mission({arguments.logs.back()});
     print_remarks(std::cerr, second);
     LogReader before(arguments.logs.front()), after(arguments.logs.back());
-    write_text(out, report_page(part, {arguments.logs.back(), second.mission, second.remarks},
+    replace_file(out, report_page(part, {arguments.logs.back(), second.mission, second.remarks},
                                 Comparison(outcomes_of(before), outcomes_of(after))));
   }
   if (is_one) print_summary(std::cout, first.mission);

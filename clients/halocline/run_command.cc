@@ -28,6 +28,7 @@
 #include "clients/halocline/scenario/log_estimate.h"
 #include "clients/halocline/waveform/live_sea.h"
 #include "clients/mission/mission_store.h"
+#include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/csv_table.h"
 #include "core/sim_time.h"
@@ -101,7 +102,7 @@ int run(const RunOptions& options) {
       std::fprintf(stderr, "warning: hosts of doors keep wall time; --rate 1 does as well\n");
     std::fprintf(stderr, "terrain     %s\n", checked.terrain.summary.c_str());
   }
-  write_text(files.config, effective_toml(config));
+  replace_file(files.config, effective_toml(config));
   lcm::LCM lcm("memq://");
   Composition all(lcm, config, Composition::kRun, nullptr, checked.terrain,
                   live_sea_maker(config, checked.terrain));
@@ -123,7 +124,7 @@ int run(const RunOptions& options) {
   const int code = bus::interrupt_requested() ? kInterrupted : kDone;
   if (options.quiet && options.no_report) return code;
   const MissionLog log = read_mission({files.log});
-  if (!options.no_report) write_text(files.report, report_page({files.log, log.mission, log.remarks}));
+  if (!options.no_report) replace_file(files.report, report_page({files.log, log.mission, log.remarks}));
   if (!options.quiet) print_end(options, files, config, outcome, log.mission);
   return code;
 }

@@ -23,6 +23,7 @@
 #include "clients/halocline/sweep/sweep_folder.h"
 #include "clients/halocline/sweep/sweep_plan.h"
 #include "clients/halocline/sweep/sweep_summary.h"
+#include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/input_file.h"
 
@@ -182,7 +183,7 @@ int gather(const SweepPlan& plan, const std::vector<Job>& jobs, const SweepOptio
 
 int write_slurm(const std::vector<Job>& jobs, const SweepOptions& options) {
   const std::size_t tasks = std::min(jobs.size(), options.slurm_tasks);
-  write_text(options.slurm, slurm_script(fs::read_symlink("/proc/self/exe").string(), options.out, tasks));
+  replace_file(options.slurm, slurm_script(fs::read_symlink("/proc/self/exe").string(), options.out, tasks));
   std::cout << "job array   " << options.slurm << ": " << jobs.size() << " runs in " << tasks
             << " tasks; sbatch " << options.slurm << "\n";
   return kDone;

@@ -69,6 +69,15 @@ TEST_F(AtomicFileTest, APipeIsWrittenToAndStaysAPipe) {
   EXPECT_EQ(files(), 1);
 }
 
+TEST_F(AtomicFileTest, ALinkStaysOneAndItsFileIsReplaced) {
+  replace_file(path_, "old");
+  const std::string link = folder_ + "/latest.json";
+  fs::create_symlink("result.json", link);
+  replace_file(link, "new");
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(content(), "new");
+}
+
 TEST_F(AtomicFileTest, AFolderThatDoesNotExistIsReportedWithThePath) {
   try {
     replace_file(folder_ + "/none/result.json", "text");

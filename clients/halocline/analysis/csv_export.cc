@@ -17,6 +17,7 @@
 #include "bus/logs/channel_types.h"
 #include "bus/message_field.h"
 #include "bus/message_fields.h"
+#include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/csv_table.h"
 
@@ -126,10 +127,6 @@ class Exporter {
  public:
   explicit Exporter(std::string folder) : folder_(std::move(folder)) {
     std::filesystem::create_directories(folder_);
-    bus::any_channel([&]<class Message>(const auto& channel) {  // what an earlier export left
-      std::filesystem::remove(path_of(std::string(family_of(prefix_of(channel)))));
-      return false;
-    });
   }
 
   template <class Message>
@@ -142,7 +139,7 @@ class Exporter {
     RowCounter counter;
     visit_fields(counter, message);
     const std::string family(family_of(without_repair(event.channel)));
-    std::ofstream& file = file_of<Message>(family);
+    std::ostream& file = file_of<Message>(family);
     const std::string start =
         std::to_string(event.number) + "," + std::to_string(event.stamp_us) + "," + event.channel;
     for (std::size_t row = 0; row < counter.rows; ++row) {
@@ -154,16 +151,28 @@ class Exporter {
     result.rows_by_file[path_of(family)] += static_cast<std::int64_t>(counter.rows);
   }
 
+  // An earlier export stays as it was until all files of this one are whole.
   void close() {
     for (auto& [family, file] : files_) {
-      file.close();
-      if (!file) throw std::runtime_error("cannot write " + path_of(family));
+      file.text.close();
+      if (!file.text) throw std::runtime_error("cannot write " + path_of(family));
     }
+    for (auto& [family, file] : files_) file.replacement.commit();
+    bus::any_channel([&]<class Message>(const auto& channel) {
+      const std::string family(family_of(prefix_of(channel)));
+      if (!files_.contains(family)) std::filesystem::remove(path_of(family));
+      return false;
+    });
   }
 
   ExportResult result;
 
  private:
+  struct File {
+    explicit File(const std::string& path) : replacement(path), text(replacement.temporary_path()) {}
+    AtomicFile replacement;
+    std::ofstream text;
+  };
   std::string path_of(std::string family) const {
     std::transform(family.begin(), family.end(), family.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -173,21 +182,21 @@ class Exporter {
   static std::string_view prefix_of(const bus::Family& family) { return family.prefix; }
 
   template <class Message>
-  std::ofstream& file_of(const std::string& family) {
-    const auto [entry, is_new] = files_.try_emplace(family);
+  std::ostream& file_of(const std::string& family) {
+    const auto [entry, is_new] = files_.try_emplace(family, path_of(family));
+    std::ofstream& file = entry->second.text;
     if (is_new) {
-      entry->second.open(path_of(family));
-      if (!entry->second) throw std::runtime_error("cannot write " + path_of(family));
+      if (!file) throw std::runtime_error("cannot write " + path_of(family));
       std::string header = "event,stamp_us,channel";
       RowWriter writer(header, RowWriter::What::kNames, 0);
       visit_fields(writer, Message{});
-      entry->second << header << "\n";
+      file << header << "\n";
     }
-    return entry->second;
+    return file;
   }
 
   std::string folder_;
-  std::map<std::string, std::ofstream> files_;
+  std::map<std::string, File> files_;
 };
 
 }  // namespace

@@ -2,11 +2,12 @@
 #include "clients/halocline/analysis/run_files.h"
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
+#include <set>
 #include <stdexcept>
 
 #include "bus/logs/log_series.h"
+#include "core/atomic_file.h"
 #include "core/check.h"
 
 namespace halocline::clients {
@@ -73,6 +74,20 @@ std::string make_new_folder(const std::string& base) {
   }
 }
 
+std::string log_of_run(const std::string& path) {
+  if (!fs::is_directory(path)) return path;
+  std::set<std::string> logs;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    if (entry.path().extension() == ".lcm" && entry.is_regular_file())
+      logs.insert(bus::first_part_of_log(entry.path().string()));
+  }
+  std::string names;
+  for (const std::string& log : logs) names += (names.empty() ? ": " : ", ") + log;
+  require(logs.size() == 1, path + " is a folder that holds " + std::to_string(logs.size()) +
+                                " logs (*.lcm); allowed is a log, or a folder with one" + names);
+  return *logs.begin();
+}
+
 std::string report_beside(const std::string& log) {
   return fs::path(log).replace_extension(".html").string();
 }
@@ -81,18 +96,11 @@ std::string config_beside(const std::string& log) {
   return fs::path(log).replace_extension(".toml").string();
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + path);
-}
-
 void write_output(const std::string& path, const std::string& text) {
   if (path.empty() || path == "-") {
     std::cout << text << std::flush;
   } else {
-    write_text(path, text);
+    replace_file(path, text);
   }
 }
 

@@ -36,15 +36,17 @@ std::vector<std::string> files_of_log(const std::string& path);
 // std::runtime_error when it cannot be made.
 std::string make_new_folder(const std::string& base);
 
+// The log of a run's folder: of `path` where that is a folder, otherwise `path` as it is. Throws
+// InvalidArgument, with the logs that are there, unless there is just one.
+std::string log_of_run(const std::string& path);
+
 // The log's name, ending in .html.
 std::string report_beside(const std::string& log);
 
 // The effective configuration that a run recorded beside its log.
 std::string config_beside(const std::string& log);
 
-// Replaces the file; throws std::runtime_error when it cannot be written.
-void write_text(const std::string& path, const std::string& text);
-// Likewise; to standard output where `path` is empty or "-".
+// Replaces the file as replace_file does; writes to standard output where `path` is empty or "-".
 void write_output(const std::string& path, const std::string& text);
 
 }  // namespace halocline::clients

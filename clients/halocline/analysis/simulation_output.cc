@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -10,7 +11,9 @@
 
 #include "bus/logs/channel_types.h"
 #include "bus/logs/log_recorder.h"
+#include "bus/logs/log_series.h"
 #include "bus/message_codec.h"
+#include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/sim_time.h"
 
@@ -75,7 +78,8 @@ std::optional<Output> output_of(const LogReader& log, const LoggedEvent& event) 
 
 std::int64_t write_simulation_output(LogReader& log, const std::string& path) {
   std::int64_t stamp_us = 0;
-  bus::LogRecorder recorder(path);
+  AtomicFile replacement(path);
+  bus::LogRecorder recorder(replacement.temporary_path());
   std::vector<Output> at_stamp;
   const auto write = [&] {
     std::sort(at_stamp.begin(), at_stamp.end());
@@ -94,6 +98,8 @@ std::int64_t write_simulation_output(LogReader& log, const std::string& path) {
   }
   write();
   recorder.close();
+  for (const std::string& part : bus::parts_of_log(path)) std::filesystem::remove(part);  // of an earlier log
+  replacement.commit();
   return recorder.events();
 }
 

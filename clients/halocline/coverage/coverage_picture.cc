@@ -70,11 +70,10 @@ void write_coverage_picture(const Coverage& coverage, const CoverageFile& file, 
   require(best.has_value(), "the map holds no water at all: there is nothing to draw");
   const std::size_t panels = file.quantities.size() + 1;
   std::string script =
-      fmt::format("set terminal pngcairo noenhanced size {},460 background rgb 'white'\nset output {}\n",
-                  480 * panels, gnuplot_text(path)) +
+      fmt::format("set terminal pngcairo noenhanced size {},460 background rgb 'white'\n", 480 * panels) +
       kPalette + fmt::format("set multiplot layout 1,{} title {}\n", panels, gnuplot_text(file.title));
   for (const CoverageQuantity quantity : file.quantities) script += map_of(coverage, quantity, *best);
-  run_gnuplot(script + depth_chart(coverage) + "unset multiplot\nunset output\n", path);
+  run_gnuplot(script + depth_chart(coverage) + "unset multiplot\n", path);
 }
 
 }  // namespace halocline::clients

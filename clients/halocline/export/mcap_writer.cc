@@ -86,7 +86,8 @@ std::uint32_t crc32(std::string_view bytes, std::uint32_t crc) {
   return ~crc;
 }
 
-McapWriter::McapWriter(std::string path) : path_(std::move(path)), file_(path_, std::ios::binary) {
+McapWriter::McapWriter(std::string path)
+    : path_(std::move(path)), replacement_(path_), file_(replacement_.temporary_path(), std::ios::binary) {
   if (!file_) throw std::runtime_error("cannot write " + path_);
   put(kMagic);
   put(Fields().text("").text("halocline " + std::string(bus::kVersion)).record(kHeader));
@@ -239,6 +240,7 @@ void McapWriter::close() {
   put(kMagic);
   file_.close();
   if (!file_) throw std::runtime_error("cannot write " + path_);
+  replacement_.commit();
 }
 
 }  // namespace halocline::clients

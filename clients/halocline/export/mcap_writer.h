@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/atomic_file.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
@@ -20,7 +21,7 @@ std::uint32_t crc32(std::string_view bytes, std::uint32_t crc = 0);
 
 class McapWriter {
  public:
-  // Replaces the file. Throws std::runtime_error when it cannot be written.
+  // The file is replaced by close(). Throws std::runtime_error when it cannot be written.
   explicit McapWriter(std::string path);
 
   // Of messages in JSON with this JSON schema; a schema's name stands for one schema.
@@ -41,6 +42,7 @@ class McapWriter {
   static std::string record_of(const Chunk& chunk);
 
   std::string path_;
+  AtomicFile replacement_;
   std::ofstream file_;
   std::uint64_t written_ = 0;
   std::uint32_t crc_ = 0;  // of the data section so far

@@ -182,11 +182,10 @@ std::string gnuplot_script(const Plot& plot, const std::string& file) {
   const std::string terminal = file.ends_with(".png") ? "pngcairo" : "svg";
   std::string script = "set terminal " + terminal + " noenhanced size " + std::to_string(plot.width_px) +
                        "," + std::to_string(plot.chart_height_px * charts) + " background rgb 'white'\n" +
-                       "set output " + gnuplot_text(file) + "\nset grid\nset key above\n" +
-                       "set multiplot layout " + std::to_string(charts) + ",1 title " +
-                       gnuplot_text(plot.title) + "\n";
+                       "set grid\nset key above\n" + "set multiplot layout " + std::to_string(charts) +
+                       ",1 title " + gnuplot_text(plot.title) + "\n";
   for (int i = 0; i < charts; ++i) script += ChartScript(plot.charts[static_cast<std::size_t>(i)], i).text();
-  return script + "unset multiplot\nunset output\n";
+  return script + "unset multiplot\n";
 }
 
 }  // namespace halocline::clients

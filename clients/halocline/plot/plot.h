@@ -40,8 +40,9 @@ struct Plot {
 // Throws InvalidArgument unless the name ends in .png or .svg and is printable.
 void require_plot_file(const std::string& file);
 
-// The gnuplot script. Throws InvalidArgument when a series has more of one coordinate than of the other or a
-// number that is not finite, when there is no chart, or for a file as above.
+// The gnuplot script that draws to the standard output what `file` is to hold. Throws InvalidArgument when a
+// series has more of one coordinate than of the other or a number that is not finite, when there is no chart,
+// or for a file as above.
 std::string gnuplot_script(const Plot& plot, const std::string& file);
 
 struct NoGnuplot : std::runtime_error {
@@ -52,7 +53,7 @@ struct NoGnuplot : std::runtime_error {
 // Runs commands, with data between them as gnuplot takes it from its standard input; returns what they write to the
 // standard output. Throws NoGnuplot; std::runtime_error when gnuplot fails, with its output.
 std::string run_gnuplot(const std::string& commands);
-// Runs commands that draw `file`, a .png or .svg. Throws as well when it is not there as a whole.
+// Replaces `file`, a .png or .svg, by the picture that the commands draw, when it is whole. Throws as above.
 void run_gnuplot(const std::string& commands, const std::string& file);
 
 // A text for gnuplot commands: quoted, nothing in it is special.

@@ -4,13 +4,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <ios>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -18,6 +15,7 @@
 #include <unistd.h>
 
 #include "clients/halocline/plot/plot.h"
+#include "core/atomic_file.h"
 
 namespace halocline::clients {
 namespace {
@@ -39,17 +37,14 @@ std::string text_of(std::FILE* file) {
   std::array<char, 4096> part{};
   for (std::size_t got = 0; (got = std::fread(part.data(), 1, part.size(), file)) > 0;)
     text.append(part.data(), got);
-  while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
 }
 
-// Whether a picture has its end: gnuplot says nothing about a disk that was full.
-bool has_end(const std::string& file) {
-  constexpr std::streamoff kEndBytes = 64;
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  in.seekg(-std::min<std::streamoff>(kEndBytes, in.tellg()), std::ios::end);
-  const std::string end{std::istreambuf_iterator<char>(in), {}};
-  return end.find(file.ends_with(".png") ? "IEND" : "</svg>") != std::string::npos;
+// gnuplot says nothing about a disk that was full; a whole picture has its end.
+bool has_end(std::string_view picture, bool is_png) {
+  constexpr std::size_t kEndBytes = 64;
+  picture.remove_prefix(picture.size() - std::min(kEndBytes, picture.size()));
+  return picture.find(is_png ? "IEND" : "</svg>") != std::string_view::npos;
 }
 
 }  // namespace
@@ -81,13 +76,10 @@ std::string run_gnuplot(const std::string& commands) {
 }
 
 void run_gnuplot(const std::string& commands, const std::string& file) {
-  const std::string output = run_gnuplot(commands);
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error || size == 0)
-    throw std::runtime_error("gnuplot could not make " + file + (output.empty() ? "" : ": " + output));
-  if (!has_end(file))
-    throw std::runtime_error("cannot write " + file + ": it is cut off; the disk may be full");
+  const std::string picture = run_gnuplot(commands);
+  if (!has_end(picture, file.ends_with(".png")))
+    throw std::runtime_error("cannot write " + file + ": gnuplot's picture is cut off; the disk may be full");
+  replace_file(file, picture);
 }
 
 void write_plot(const Plot& plot, const std::string& file) { run_gnuplot(gnuplot_script(plot, file), file); }

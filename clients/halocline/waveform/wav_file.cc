@@ -9,6 +9,7 @@
 
 #include <sndfile.h>
 
+#include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/input_file.h"
 
@@ -57,12 +58,14 @@ void write_wav(const std::string& path, const acoustics::Samples& sound) {
   info.samplerate = static_cast<int>(sound.rate_hz);
   info.channels = 1;
   info.format = SF_FORMAT_WAV | SF_FORMAT_FLOAT;
-  File file(sf_open(path.c_str(), SFM_WRITE, &info));
+  AtomicFile replacement(path);
+  File file(sf_open(replacement.temporary_path().c_str(), SFM_WRITE, &info));
   require(file != nullptr, path + ": cannot be written: " + sf_strerror(nullptr));
   sf_command(file.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);  // it holds the time of day
   const auto count = static_cast<sf_count_t>(sound.values.size());
   require(sf_writef_double(file.get(), sound.values.data(), count) == count && sf_close(file.release()) == 0,
           path + ": cannot be written whole");
+  replacement.commit();
 }
 
 }  // namespace halocline::clients

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
+#include <stdexcept>
 #include <vector>
 
 #include <gmock/gmock.h>
 
 #include "core/check.h"
 #include "tests/bus/logs/log_fixture.h"
+#include "tests/support/file_size_limit.h"
 
 namespace halocline::clients {
 namespace {
@@ -53,6 +56,20 @@ TEST_F(CsvExport, OneFileForEachFamilyOneRowForEachMessage) {
             "angular_velocity_body_radps_1,angular_velocity_body_radps_2");
   EXPECT_EQ(states[1], "0,100,STATE.auv-1,100,0,0,1,1.5,0,0,1,0,0,0,0,0,0,0,0,0");
   EXPECT_THAT(states[2], ::testing::HasSubstr(",0.1,"));
+}
+
+TEST_F(CsvExport, AFullDiskLeavesAllFilesOfTheExportBefore) {
+  for (int i = 0; i < 200; ++i) file_.add(i, "STATE.auv-1", state_at(i, 0.1));
+  file_.add(300, "CLOCK", testing::clock_at(300));
+  exported();
+  const auto states = lines("state.csv"), clocks = lines("clock.csv");
+  {
+    const halocline::testing::FileSizeLimit full_disk(4096);
+    EXPECT_THROW(exported("STATE.*"), std::runtime_error);
+  }
+  EXPECT_EQ(lines("state.csv"), states);
+  EXPECT_EQ(lines("clock.csv"), clocks);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 2);
 }
 
 TEST_F(CsvExport, ListsOfAMessageWithinAMessageHaveARowForEachElement) {

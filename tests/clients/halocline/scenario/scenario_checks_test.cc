@@ -10,9 +10,9 @@
 #include <unistd.h>
 
 #include "bus/config/config.h"
-#include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/log_estimate.h"
+#include "core/atomic_file.h"
 
 namespace halocline::clients {
 namespace {
@@ -33,7 +33,7 @@ class ScenarioChecks : public ::testing::Test {
   ~ScenarioChecks() override { std::filesystem::remove_all(folder_); }
 
   Findings findings_in(const std::string& text) {
-    write_text(folder_ + "/sea.toml", text);
+    replace_file(folder_ + "/sea.toml", text);
     try {
       return {{}, load_checked(folder_ + "/sea.toml", {}).warnings};
     } catch (const bus::ConfigErrors& errors) {
@@ -159,7 +159,7 @@ TEST_F(ScenarioChecks, MissingFilesAreNamedWithTheReason) {
 }
 
 TEST_F(ScenarioChecks, FilesThatCannotBeUnderstoodAreNamedWithTheReason) {
-  write_text(folder_ + "/bad.csv", "nothing\n");
+  replace_file(folder_ + "/bad.csv", "nothing\n");
   EXPECT_THAT(findings_in("[environment]\nprofile = \"file\"\nprofile_file = \"bad.csv\"\n").errors,
               ElementsAre(HasSubstr("sea.toml:3: environment.profile_file is 'bad.csv'")));
   EXPECT_THAT(findings_in("[terrain]\nkind = \"raster\"\n[terrain.raster]\npath = \"bad.csv\"\n").errors,
@@ -299,7 +299,7 @@ TEST_F(ScenarioChecks, MoreVehiclesThanAreFollowedAreRefused) {
 
 // A log of such a mission can be replayed, and its links computed.
 TEST_F(ScenarioChecks, MissionsAreNotCheckedWhereTheWaterAloneIsUsed) {
-  write_text(folder_ + "/sea.toml",
+  replace_file(folder_ + "/sea.toml",
              vehicle_with("[vehicle.mission]\nspeed_mps = 9\nwaypoints = [[0.0, 0.0, 30.0]]\n"));
   EXPECT_THROW(load_scenario(folder_ + "/sea.toml", {}), bus::ConfigErrors);
   EXPECT_NO_THROW(load_scenario(folder_ + "/sea.toml", {}, ScenarioUse::kWater));

@@ -10,8 +10,8 @@
 
 #include "bus/config/config.h"
 #include "channel_server/vehicles/state_history.h"
-#include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/scenario/composition.h"
+#include "core/atomic_file.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
@@ -45,7 +45,7 @@ TEST_P(ShippedScenario, HasNoUnreadKey) {
 TEST_P(ShippedScenario, ReadsBackFromItsEffectiveConfiguration) {
   const std::string text = effective_toml(load());
   const std::string path = ::testing::TempDir() + "effective-" + load().scenario.name + ".toml";
-  write_text(path, text);
+  replace_file(path, text);
   EXPECT_EQ(effective_toml(load_scenario(path, {})), text);
   std::filesystem::remove(path);
 }
