@@ -20,6 +20,7 @@
 #include "bathymetry/rasters/raster_windows.h"
 #include "bathymetry/rasters/vertical_sense.h"
 #include "core/check.h"
+#include "core/memory/memory_budget.h"
 
 namespace halocline::bathymetry {
 namespace {
@@ -249,6 +250,8 @@ RasterWindow GdalRasterSource::read(const PixelPosition& low, const PixelPositio
   const std::int64_t posts = std::int64_t{window.columns} * window.rows;
   require(posts <= kMaxPostsRead, s.options.path + ": the scenario covers " + std::to_string(posts) +
                                       " posts of the raster, more than 2^28; take a smaller domain");
+  require_memory(static_cast<double>(posts) * sizeof(float),
+                 "the part of " + s.options.path + " under the terrain", "take a smaller domain");
   window.depths_m.resize(static_cast<std::size_t>(posts));
   const int end_column = window.first_column + window.columns;
   for (int column = window.first_column; column < end_column;) {

@@ -11,6 +11,8 @@
 #include "bathymetry/terrain/height_grid.h"
 #include "bathymetry/terrain/local_frame.h"
 #include "core/check.h"
+#include "core/csv_table.h"
+#include "core/memory/memory_budget.h"
 #include "core/units.h"
 
 namespace halocline::bathymetry {
@@ -107,7 +109,24 @@ std::string extent_text(const Terrain& terrain) {
   return text;
 }
 
+double memory_of(const TerrainRecipe& recipe) {
+  constexpr double kBytesAPost = sizeof(float) * 4.0 / 3;  // shallowest_pyramid.h
+  std::vector<DomainRecipe> domains;
+  if (recipe.kind != TerrainKind::kRaster || !recipe.whole_file) domains.push_back(recipe.domain);
+  for (const NestedRecipe& inner : recipe.nested) domains.push_back(inner.domain);
+  double posts = 0;
+  for (const DomainRecipe& domain : domains) {
+    const GridGeometry grid = domain.geometry();
+    posts += static_cast<double>(grid.posts_x) * grid.posts_y;
+  }
+  require(posts <= static_cast<double>(kMaxTerrainPosts),
+          "the terrain's grids have " + format_number(posts) +
+              " posts in all, more than 2^30; take smaller domains or a wider spacing");
+  return posts * kBytesAPost;
+}
+
 PreparedTerrain prepare_terrain(const TerrainRecipe& recipe, const Site& site) {
+  require_memory(memory_of(recipe), "the terrain", "take a smaller domain or a wider spacing");
   const LocalFrame frame(recipe.frame, to_radians(site.origin_latitude_deg),
                          to_radians(site.origin_longitude_deg));
   PreparedTerrain prepared;

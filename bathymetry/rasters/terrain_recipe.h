@@ -72,7 +72,13 @@ struct PreparedTerrain {
   std::string summary;                // one line for a person
 };
 
-// Throws InvalidArgument for an impossible recipe and for rasters that cannot be read.
+// Bytes of memory that the grids of a recipe take, those of whole_file not counted: posts, and the pyramid of
+// each. Throws InvalidArgument for an impossible recipe, and where its grids together have more than 2^30
+// posts.
+double memory_of(const TerrainRecipe& recipe);
+
+// Throws InvalidArgument for an impossible recipe, for rasters that cannot be read and for more than the
+// memory that is there.
 PreparedTerrain prepare_terrain(const TerrainRecipe& recipe, const Site& site);
 
 // Where it lies, for a person: "north -2000 to 2000 m, east -2000 to 2000 m".

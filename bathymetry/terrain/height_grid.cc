@@ -11,12 +11,11 @@
 namespace halocline::bathymetry {
 
 void require_valid(const GridGeometry& geometry) {
-  constexpr std::int64_t kMaxPosts = std::int64_t{1} << 30;  // 4 GiB of floats
   require_finite(geometry.first_x_m, "first_x_m of a grid");
   require_finite(geometry.first_y_m, "first_y_m of a grid");
   require_in_range(geometry.spacing_m, 1e-3, 1e6, "spacing_m of a grid", "m");
   require(geometry.posts_x >= 2 && geometry.posts_y >= 2, "a grid needs at least 2 x 2 posts");
-  require(std::int64_t{geometry.posts_x} * geometry.posts_y <= kMaxPosts,
+  require(std::int64_t{geometry.posts_x} * geometry.posts_y <= kMaxTerrainPosts,
           "a grid holds at most 2^30 posts; take a smaller domain or a wider spacing");
 }
 

@@ -13,11 +13,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "core/huge_page_vector.h"
 
 namespace halocline::bathymetry {
+
+inline constexpr std::int64_t kMaxTerrainPosts =
+    std::int64_t{1} << 30;  // of a grid, and of all of a terrain; 4 GiB of floats
 
 // Where the posts of a grid lie. At least 2 x 2 and at most 2^30 posts.
 struct GridGeometry {

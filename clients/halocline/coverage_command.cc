@@ -20,8 +20,10 @@
 #include "clients/halocline/plot/plot.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/link_survey.h"
+#include "clients/halocline/scenario/log_estimate.h"
 #include "core/atomic_file.h"
 #include "core/check.h"
+#include "core/memory/memory_budget.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 
@@ -63,6 +65,10 @@ constexpr std::size_t kMany = 100'000;  // links, of a millisecond or more
 int map(const CoverageOptions& options, const ScenarioConfig& config, const LinkSurveyEnd& from) {
   const CoverageArea area = area_of(options, from);
   const auto quantities = quantities_of(options.quantities);
+  constexpr double kBytesACell = 5 * sizeof(double);  // delivery, level, delay, and two of what is written
+  require_memory(static_cast<double>(area.side * area.side * area.depths_m.size()) * kBytesACell +
+                     estimated_memory_bytes(config),
+                 "the map", "take larger cells, a shorter range or fewer depths");
   const CoverageFile file{quantities,
                           {config.terrain.frame, to_radians(config.scenario.origin_latitude_deg),
                            to_radians(config.scenario.origin_longitude_deg)},

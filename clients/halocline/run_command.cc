@@ -31,6 +31,7 @@
 #include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/memory/memory_budget.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {

@@ -18,6 +18,7 @@
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
 #include "clients/halocline/scenario/composition.h"
+#include "clients/halocline/scenario/log_estimate.h"
 #include "clients/halocline/sweep/child_program.h"
 #include "clients/halocline/sweep/run_metrics.h"
 #include "clients/halocline/sweep/sweep_folder.h"
@@ -26,6 +27,7 @@
 #include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/input_file.h"
+#include "core/memory/memory_budget.h"
 
 namespace halocline::clients {
 namespace {
@@ -76,17 +78,18 @@ SweepPlan plan_of(const SweepOptions& options) {
 struct Job {
   SweepRun run;
   std::string folder;
-  double duration_s = 0;
+  double duration_s = 0, memory_bytes = 0;  // the latter of its terrain, which is most of it
 };
 
 // Every configuration is checked before anything runs.
 std::vector<Job> jobs_of(const SweepPlan& plan, const std::string& out) {
   std::vector<Job> jobs;
   for (std::size_t i = 0; i < plan.runs(); ++i) {
-    Job job{run_of(plan, i), {}, 0};
+    Job job{run_of(plan, i), {}};
     const ScenarioConfig config = load_scenario(plan.scenario, job.run.overrides);
     job.folder = run_folder(out, run_identity(effective_toml(config)));
     job.duration_s = config.scenario.duration.seconds();
+    job.memory_bytes = estimated_memory_bytes(config);
     jobs.push_back(std::move(job));
   }
   return jobs;
@@ -159,6 +162,10 @@ std::size_t do_jobs(const SweepPlan& plan, const std::vector<Job>& jobs, const S
   };
   const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
   const std::size_t jobs_at_a_time = std::min(options.jobs > 0 ? options.jobs : cores, waiting.size());
+  double largest_bytes = 0;
+  for (const Job* job : waiting) largest_bytes = std::max(largest_bytes, job->memory_bytes);
+  require_memory(static_cast<double>(jobs_at_a_time) * largest_bytes,
+                 std::to_string(jobs_at_a_time) + " runs at a time", "--jobs takes fewer");
   if (jobs_at_a_time > 0) bus::ThreadPool(static_cast<int>(jobs_at_a_time)).for_each(waiting.size(), work);
   return waiting.size() - done;
 }

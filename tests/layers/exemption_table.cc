@@ -41,6 +41,7 @@ const std::vector<Exemption>& exemptions() {
       {"core/hash", "xxhash.h", "the one place of hashing"},
       {"core/huge_page_vector", "sys/mman.h", "the one place that asks for large pages"},
       {"core/atomic_file", "", "files are replaced as a whole in one place"},
+      {"core/memory/memory_budget", "", "the one place that asks how much memory there is"},
   };
   return table;
 }

@@ -2,10 +2,9 @@
 #include "clients/halocline/scenario/log_estimate.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "bathymetry/rasters/terrain_recipe.h"
 #include "channel_server/channel_server_config.h"
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/localiser/localiser_config.h"
@@ -104,13 +103,6 @@ double estimated_log_bytes(const ScenarioConfig& config) {
                             (nodes + of_vehicles(config) + of_packets(config) + of_links(config));
 }
 
-std::string size_text(double bytes) {
-  constexpr std::array kUnits{"B", "kB", "MB", "GB", "TB", "PB"};
-  std::size_t unit = 0;
-  for (; bytes >= 1000 && unit + 1 < kUnits.size(); ++unit) bytes /= 1000;
-  char text[32];
-  std::snprintf(text, sizeof text, bytes < 10 ? "%.1f %s" : "%.0f %s", bytes, kUnits.at(unit));
-  return text;
-}
+double estimated_memory_bytes(const ScenarioConfig& config) { return bathymetry::memory_of(config.terrain); }
 
 }  // namespace halocline::clients

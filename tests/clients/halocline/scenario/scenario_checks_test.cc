@@ -11,7 +11,6 @@
 
 #include "bus/config/config.h"
 #include "clients/halocline/scenario/composition.h"
-#include "clients/halocline/scenario/log_estimate.h"
 #include "core/atomic_file.h"
 
 namespace halocline::clients {
@@ -300,7 +299,7 @@ TEST_F(ScenarioChecks, MoreVehiclesThanAreFollowedAreRefused) {
 // A log of such a mission can be replayed, and its links computed.
 TEST_F(ScenarioChecks, MissionsAreNotCheckedWhereTheWaterAloneIsUsed) {
   replace_file(folder_ + "/sea.toml",
-             vehicle_with("[vehicle.mission]\nspeed_mps = 9\nwaypoints = [[0.0, 0.0, 30.0]]\n"));
+               vehicle_with("[vehicle.mission]\nspeed_mps = 9\nwaypoints = [[0.0, 0.0, 30.0]]\n"));
   EXPECT_THROW(load_scenario(folder_ + "/sea.toml", {}), bus::ConfigErrors);
   EXPECT_NO_THROW(load_scenario(folder_ + "/sea.toml", {}, ScenarioUse::kWater));
 }
@@ -431,12 +430,6 @@ TEST_F(ScenarioChecks, DegreesInThePlaceOfMetresAreAskedAbout) {
               ElementsAre(HasSubstr("vehicle[0].mission.waypoints")));
   EXPECT_THAT(warnings_at("[60.0, -30.0, 20.0]"), IsEmpty());
   EXPECT_THAT(findings_in(vehicle_with("start_ned_m = [1.5, 2.5, 20.0]\n")).warnings, IsEmpty());
-}
-
-TEST(LogEstimate, NamesSizesInTwoDigits) {
-  EXPECT_EQ(size_text(512), "512 B");
-  EXPECT_EQ(size_text(3.44e11), "344 GB");
-  EXPECT_EQ(size_text(1.26e6), "1.3 MB");
 }
 
 }  // namespace

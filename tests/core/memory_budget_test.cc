@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/memory/memory_budget.h"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "core/check.h"
+
+namespace halocline {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TEST(MemoryBudget, SizesAreShortForAPerson) {
+  EXPECT_EQ(size_text(512), "512 B");
+  EXPECT_EQ(size_text(3.44e11), "344 GB");
+  EXPECT_EQ(size_text(1.26e6), "1.3 MB");
+}
+
+TEST(MemoryBudget, WhatNoMachineHasIsRefusedWithBothSizesAndARemedy) {
+  require_memory(1000, "a small grid", "take none");
+  try {
+    require_memory(1e18, "the grid", "take a smaller one");
+    FAIL();
+  } catch (const InvalidArgument& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("the grid needs about 1000 PB of memory, and "),
+                                    HasSubstr(" are available; take a smaller one")));
+  }
+}
+
+// As `ulimit -v` sets it, which a process cannot lift again where it is the hard one.
+TEST(MemoryBudget, ALimitOfTheAddressSpaceCounts) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  const rlimit limit{rlim_t{1} << 34, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &limit), 0);
+  EXPECT_LT(available_memory_bytes(), static_cast<double>(limit.rlim_cur));
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+}
+
+}  // namespace
+}  // namespace halocline
