@@ -119,10 +119,14 @@ void visit(ConfigVisitor& v, Scenario& s) {
     section.text("description", s.description, {}, "one line for a person");
     integer_as(section, "seed", s.seed, {0, 9e15, "", "seed of all random draws"});
     seconds(section, "duration_s", s.duration, {0.001, kLongestRunS, "s", "simulated time of a run"});
-    section.number("origin_latitude_deg", s.origin_latitude_deg,
-                   {-90, 90, "deg", "latitude of the world's origin"});
-    section.number("origin_longitude_deg", s.origin_longitude_deg,
-                   {-180, 360, "deg", "longitude of the world's origin"});
+    if (!section.writing())
+      s.origin_given = section.given("origin_latitude_deg") || section.given("origin_longitude_deg");
+    if (!section.writing() || s.origin_given) {
+      section.number("origin_latitude_deg", s.origin_latitude_deg,
+                     {-90, 90, "deg", "latitude of the world's origin"});
+      section.number("origin_longitude_deg", s.origin_longitude_deg,
+                     {-180, 360, "deg", "longitude of the world's origin"});
+    }
     section.number("sea_surface_z_m", s.sea_surface_z_m,
                    {-100, 100, "m", "z of the sea surface; negative when above the terrain's datum"});
   });

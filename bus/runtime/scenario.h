@@ -64,6 +64,7 @@ struct Scenario {
   SimDuration duration = SimDuration::from_seconds(600);
   double origin_latitude_deg = 0;   // of the world frame, WGS 84
   double origin_longitude_deg = 0;  // -180 to 360
+  bool origin_given = true;         // false: the file names none, and the above hold
   double sea_surface_z_m = 0;  // z of the surface in the world frame: negative when it lies above the datum
   double rate = 1;  // simulated seconds per wall second, for processes that keep pace with the wall
   SimDuration clock_period = SimDuration::from_milliseconds(100);  // between CLOCK messages, simulation time

@@ -138,10 +138,10 @@ json foxglove_scene(const MissionStore& mission, SimTime at, std::span<const Pac
 }
 
 std::optional<bathymetry::LocalFrame> frame_of(const MissionStore& mission) {
-  const MissionScenario& scenario = mission.scenario();
-  if (scenario.origin_latitude_deg == 0 && scenario.origin_longitude_deg == 0) return std::nullopt;
-  return bathymetry::LocalFrame(bathymetry::FrameMode::kFlat, scenario.origin_latitude_deg * kRadians,
-                                scenario.origin_longitude_deg * kRadians);
+  const auto& origin = mission.scenario().origin;
+  if (!origin) return std::nullopt;
+  return bathymetry::LocalFrame(bathymetry::FrameMode::kFlat, origin->latitude_deg * kRadians,
+                                origin->longitude_deg * kRadians);
 }
 
 PlaceOnEarth place_of(const bathymetry::LocalFrame& frame, const Vec3& position_ned_m) {

@@ -32,6 +32,16 @@ inline constexpr bool kAdvancesTime =
     std::is_same_v<Message, vehicle_sensors_t> || std::is_same_v<Message, link_table_t> ||
     std::is_same_v<Message, sim_clock_t> || std::is_same_v<Message, position_estimate_t>;
 
+// A SCENARIO holds 0 N 0 E where the scenario names no place: its configuration has the keys of one that
+// does.
+std::optional<MissionOrigin> origin_of(const scenario_info_t& part, std::string_view toml) {
+  const auto states = [&](std::string_view key) { return toml.find(key) != std::string_view::npos; };
+  const bool is_stated = part.origin_latitude_deg != 0 || part.origin_longitude_deg != 0 ||
+                         states("origin_latitude_deg") || states("origin_longitude_deg");
+  return is_stated ? std::optional(MissionOrigin{part.origin_latitude_deg, part.origin_longitude_deg})
+                   : std::nullopt;
+}
+
 }  // namespace
 
 MissionStore::MissionStore(MissionTime time, MissionLimits limits) : time_(time), limits_(limits) {}
@@ -143,8 +153,7 @@ void MissionStore::take(const Received& received, const environment_t& water) {
 // Parts come in order; one that is missing makes the rest of no use until the next repetition.
 void MissionStore::take(const Received&, const scenario_info_t& part) {
   if (part.part_number == 0) {
-    scenario_parts_ = {part.scenario_name,   part.description,         "",
-                       part.scenario_seed,   part.origin_latitude_deg, part.origin_longitude_deg,
+    scenario_parts_ = {part.scenario_name,   part.description,   "", part.scenario_seed, {},
                        part.sea_surface_z_m, part.run_duration_s};
     next_part_ = 0;
   }
@@ -153,7 +162,9 @@ void MissionStore::take(const Received&, const scenario_info_t& part) {
   for (const std::string& line : part.configuration_line) scenario_parts_.toml += line + "\n";
   for (const scenario_vehicle_t& described : part.vehicles)
     vehicle(described.vehicle_name, described.vehicle_id).described = described;
-  if (next_part_ == part.part_count) scenario_ = scenario_parts_;
+  if (next_part_ != part.part_count) return;
+  scenario_parts_.origin = origin_of(part, scenario_parts_.toml);
+  scenario_ = scenario_parts_;
 }
 
 void MissionStore::take(const Received& received, const terrain_tile_t& tile) {

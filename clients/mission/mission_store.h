@@ -45,12 +45,16 @@ struct MissionLimits {
   std::size_t outcomes = 1'000'000;   // about 300 bytes each
 };
 
+struct MissionOrigin {
+  double latitude_deg = 0, longitude_deg = 0;  // of the world frame, WGS 84
+};
+
 // What is known of the scenario; texts are empty and numbers 0 where it is not.
 struct MissionScenario {
   std::string name, description;
   std::string toml;  // the effective configuration
   std::int64_t seed = 0;
-  double origin_latitude_deg = 0, origin_longitude_deg = 0;
+  std::optional<MissionOrigin> origin;  // empty: neither the log nor its scenario states one
   double sea_surface_z_m = 0;
   double duration_s = 0;
 };

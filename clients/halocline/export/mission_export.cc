@@ -17,6 +17,7 @@
 #include "bathymetry/terrain/local_frame.h"
 #include "clients/foxglove/foxglove_messages.h"
 #include "clients/foxglove/foxglove_schemas.h"
+#include "clients/halocline/export/date_line.h"
 #include "clients/halocline/export/mcap_writer.h"
 #include "clients/mission/mission_vehicle.h"
 #include "clients/mission/packet_book.h"
@@ -109,14 +110,66 @@ json message_of(const MissionStore& mission, const std::optional<bathymetry::Loc
   return foxglove_scene(mission, writing.at, under_way(by_departure, writing.at));
 }
 
+std::int64_t floor_division(std::int64_t value, std::int64_t by) {
+  return value / by - (value % by < 0 ? 1 : 0);
+}
+
+// To the nearest millisecond.
 std::string iso_time(SimTime at) {
-  const std::time_t seconds = static_cast<std::time_t>(std::floor(at.seconds()));
+  const std::int64_t rounded_ms = floor_division(at.nanoseconds() + 500'000, 1'000'000);
+  const std::time_t seconds = floor_division(rounded_ms, 1000);
   std::tm utc{};
   gmtime_r(&seconds, &utc);
-  const auto milliseconds =
-      static_cast<int>(std::floor((at.seconds() - static_cast<double>(seconds)) * 1000));
+  const std::int64_t milliseconds = rounded_ms - seconds * 1000;
   return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", utc.tm_year + 1900, utc.tm_mon + 1,
                      utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec, milliseconds);
+}
+
+std::vector<LinePlace> line_of(const bathymetry::LocalFrame& frame, const MissionVehicle& vehicle) {
+  std::vector<LinePlace> line;
+  for (const auto& [at, point] : vehicle.track.all()) {
+    const auto place = place_of(frame, point.position_ned_m);
+    line.push_back({place.longitude_deg, place.latitude_deg, place.height_m, at.seconds()});
+  }
+  return line;
+}
+
+// Coordinates and times as a feature has them: of one place, of a line, or of its pieces.
+struct TrackJson {
+  const char* type;
+  json coordinates = json::array(), time_s = json::array();
+};
+
+TrackJson line_json(const std::vector<LinePlace>& line) {
+  TrackJson track{"LineString"};
+  for (const LinePlace& place : line) {
+    track.coordinates.push_back({place.longitude_deg, place.latitude_deg, place.height_m});
+    track.time_s.push_back(place.time_s);
+  }
+  return track;
+}
+
+TrackJson track_json(const std::vector<LinePlace>& line) {
+  const auto pieces = cut_at_date_line(line);
+  TrackJson track = line_json(pieces.front());
+  if (line.size() == 1) {
+    track.type = "Point";
+    track.coordinates = json(track.coordinates[0]);
+  } else if (pieces.size() > 1) {
+    track = {"MultiLineString"};
+    for (const auto& piece : pieces) {
+      TrackJson part = line_json(piece);
+      track.coordinates.push_back(std::move(part.coordinates));
+      track.time_s.push_back(std::move(part.time_s));
+    }
+  }
+  return track;
+}
+
+// GPX knows no 180 E: its longitudes end below it.
+double gpx_longitude_deg(double longitude_deg) {
+  constexpr double kRounding_deg = 0.5e-8;
+  return longitude_deg >= 180 - kRounding_deg ? -180 : longitude_deg;
 }
 
 // A name of a vehicle is [a-z0-9_-]; a scenario's is a text.
@@ -137,8 +190,7 @@ void set_origin(MissionStore& mission, const std::string& text) {
       comma == std::string::npos ? std::nullopt : parse_number(text.substr(comma + 1), -360.0, 360.0);
   require(latitude_deg && longitude_deg && std::abs(*latitude_deg) < 90,
           "--origin is '" + text + "'; allowed is LATITUDE,LONGITUDE in degrees, as 43.5,7.25");
-  scenario.origin_latitude_deg = *latitude_deg;
-  scenario.origin_longitude_deg = *longitude_deg;
+  scenario.origin = {*latitude_deg, *longitude_deg};
   mission.set_scenario(std::move(scenario));
 }
 
@@ -172,20 +224,12 @@ void export_geojson(const MissionStore& mission, const std::string& path) {
   const auto frame = required_frame(mission);
   json features = json::array();
   for (const MissionVehicle& vehicle : mission.vehicles()) {
-    json places = json::array(), time_s = json::array();
-    for (const auto& [at, point] : vehicle.track.all()) {
-      const auto place = place_of(frame, point.position_ned_m);
-      places.push_back({place.longitude_deg, place.latitude_deg, place.height_m});
-      time_s.push_back(at.seconds());
-    }
-    if (places.empty()) continue;
-    const bool is_point = places.size() == 1;
-    const json geometry = {{"type", is_point ? "Point" : "LineString"},
-                           {"coordinates", is_point ? places[0] : places}};
+    if (vehicle.track.all().empty()) continue;
+    TrackJson track = track_json(line_of(frame, vehicle));
     features.push_back(
         {{"type", "Feature"},
-         {"geometry", geometry},
-         {"properties", {{"name", vehicle.name}, {"id", vehicle.id}, {"time_s", std::move(time_s)}}}});
+         {"geometry", {{"type", track.type}, {"coordinates", std::move(track.coordinates)}}},
+         {"properties", {{"name", vehicle.name}, {"id", vehicle.id}, {"time_s", std::move(track.time_s)}}}});
   }
   replace_file(path, text_of({{"type", "FeatureCollection"}, {"features", std::move(features)}}) + "\n");
 }
@@ -201,7 +245,8 @@ void export_gpx(const MissionStore& mission, const std::string& path) {
     for (const auto& [at, point] : vehicle.track.all()) {
       const auto place = place_of(frame, point.position_ned_m);
       text += fmt::format("<trkpt lat=\"{:.8f}\" lon=\"{:.8f}\"><ele>{:.2f}</ele><time>{}</time></trkpt>\n",
-                          place.latitude_deg, place.longitude_deg, place.height_m, iso_time(at));
+                          place.latitude_deg, gpx_longitude_deg(place.longitude_deg), place.height_m,
+                          iso_time(at));
     }
     text += "</trkseg></trk>\n";
   }

@@ -20,7 +20,9 @@ void set_origin(MissionStore& mission, const std::string& text);
 // /log (outcomes and refusals).
 void export_mcap(const MissionStore& mission, const std::string& path);
 
-// A line string for each vehicle, heights in metres; properties: name, id, time_s. Throws InvalidArgument without an origin.
+// A line string for each vehicle, heights in metres; properties: name, id, time_s. A line over the meridian
+// of 180 degrees is cut there (date_line.h) into a MultiLineString, with a list of times for each piece.
+// Throws InvalidArgument without an origin.
 void export_geojson(const MissionStore& mission, const std::string& path);
 // A track for each vehicle. Likewise.
 void export_gpx(const MissionStore& mission, const std::string& path);

@@ -193,9 +193,8 @@ std::string facts(const ReportPart& part) {
     texts.push_back(time_text(mission.begin().seconds()) + " to " + time_text(mission.end().seconds()));
   texts.push_back(fmt::format("{} vehicles", mission.vehicles().size()));
   if (!scenario.name.empty()) texts.push_back(fmt::format("seed {}", scenario.seed));
-  if (scenario.origin_latitude_deg != 0 || scenario.origin_longitude_deg != 0)
-    texts.push_back(
-        fmt::format("origin {:.4f}°, {:.4f}°", scenario.origin_latitude_deg, scenario.origin_longitude_deg));
+  if (const auto& origin = scenario.origin)
+    texts.push_back(fmt::format("origin {:.4f}°, {:.4f}°", origin->latitude_deg, origin->longitude_deg));
   if (!mission.water().empty()) {
     const environment_t& water = mission.water().front().value;
     texts.push_back(fmt::format("wind {:.1f} m/s", water.wind_speed_mps));

@@ -237,14 +237,15 @@ json mission_json(const Source& source, SimTime at) {
   json vehicles = json::array();
   for (const clients::MissionVehicle& vehicle : mission.vehicles())
     vehicles.push_back(vehicle_json(source, vehicle, at));
-  const bool has_origin = scenario.origin_latitude_deg != 0 || scenario.origin_longitude_deg != 0;
-  const json origin = {{"latitude_deg", scenario.origin_latitude_deg},
-                       {"longitude_deg", scenario.origin_longitude_deg}};
+  json origin;
+  if (scenario.origin)
+    origin = {{"latitude_deg", scenario.origin->latitude_deg},
+              {"longitude_deg", scenario.origin->longitude_deg}};
   return {{"type", "mission"},
           {"name", scenario.name},
           {"description", scenario.description},
           {"seed", scenario.seed},
-          {"origin", has_origin ? origin : json()},
+          {"origin", std::move(origin)},
           {"sea_surface_down_m", scenario.sea_surface_z_m},
           {"vehicles", std::move(vehicles)},
           {"threshold_db", threshold_json(source)},

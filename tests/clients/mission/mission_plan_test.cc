@@ -75,6 +75,22 @@ TEST(MissionStore, AScenarioThatLacksAPartWaitsForItsRepetition) {
   EXPECT_EQ(store.scenario().toml, "a\nb\nc\n");
 }
 
+// 0 N 0 E is a place where the scenario says so, and otherwise none is known.
+TEST(MissionStore, TheOriginIsWhatTheScenarioStates) {
+  const auto origin_with = [](const std::string& line, double longitude_deg) {
+    MissionStore store;
+    scenario_info_t part = scenario_part(0, 1, "auv", line);
+    part.origin_longitude_deg = longitude_deg;
+    add(store, "SCENARIO", part);
+    return store.scenario().origin;
+  };
+  EXPECT_FALSE(origin_with("seed = 7", 0));
+  EXPECT_TRUE(origin_with("origin_longitude_deg = 0.0", 0));
+  ASSERT_TRUE(origin_with("seed = 7", 7.25));
+  EXPECT_EQ(origin_with("seed = 7", 7.25)->longitude_deg, 7.25);
+  EXPECT_FALSE(MissionStore().scenario().origin);
+}
+
 TEST(MissionStore, AFixedVehicleIsAtRestWhateverItsStates) {
   MissionStore store;
   scenario_info_t part = scenario_part(0, 1, "buoy", "");

@@ -21,8 +21,7 @@ using ::testing::HasSubstr;
 
 void place(MissionStore& mission) {
   MissionScenario scenario = mission.scenario();
-  scenario.origin_latitude_deg = 30;
-  scenario.origin_longitude_deg = -28;
+  scenario.origin = {30, -28};
   mission.set_scenario(scenario);
 }
 

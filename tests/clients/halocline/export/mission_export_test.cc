@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/halocline/export/mission_export.h"
 
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netcdf.h>
@@ -18,6 +20,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "clients/halocline/export/date_line.h"
 #include "clients/halocline/export/mcap_writer.h"
 #include "core/check.h"
 #include "tests/clients/mission/mission_fixtures.h"
@@ -60,7 +63,7 @@ TEST_F(MissionExport, OriginIsReadAndRefused) {
   for (const char* wrong : {"", "43.5", "43.5,", "43.5,7 ", "95,7", "43,7,1", "north,east"})
     EXPECT_THROW(set_origin(mission_, wrong), InvalidArgument) << wrong;
   set_origin(mission_, "43.5,-7.25");
-  EXPECT_EQ(mission_.scenario().origin_longitude_deg, -7.25);
+  EXPECT_EQ(mission_.scenario().origin->longitude_deg, -7.25);
 }
 
 TEST_F(MissionExport, GeoJsonHasALineAVehicle) {
@@ -76,6 +79,85 @@ TEST_F(MissionExport, GeoJsonHasALineAVehicle) {
   EXPECT_EQ(line["coordinates"][0][2], -20);
   EXPECT_EQ(features[1]["properties"]["name"], "auv-2");
   EXPECT_EQ(features[1]["properties"]["time_s"], json({0, 1, 2, 3}));
+}
+
+// RFC 7946, 3.1.9: no line crosses the meridian of 180 degrees.
+TEST_F(MissionExport, GeoJsonLinesAreCutAtTheDateLine) {
+  for (int s = 0; s <= 4; ++s)
+    testing::add(mission_, "STATE.east", testing::state(3, s * testing::kSecond, 100 * s, 60 * s, 10 + s));
+  set_origin(mission_, "-17.4,179.999");  // 106.3 m east of it is the meridian
+  export_geojson(mission_, path_);
+  const json feature = json::parse(contents())["features"][2], pieces = feature["geometry"]["coordinates"];
+  EXPECT_EQ(feature["geometry"]["type"], "MultiLineString");
+  ASSERT_EQ(pieces.size(), 2u);
+  ASSERT_EQ(pieces[0].size(), 3u);
+  ASSERT_EQ(pieces[1].size(), 4u);
+  EXPECT_EQ(pieces[0].back()[0], 180);
+  EXPECT_EQ(pieces[1].front()[0], -180);
+  const double share = 106.3 / 60 - 1;  // of the way from the second state to the third
+  EXPECT_EQ(pieces[0].back()[1], pieces[1].front()[1]);
+  EXPECT_NEAR(pieces[0].back()[1].get<double>(), -17.4 + 100 * (1 + share) / 110'650, 1e-6);
+  EXPECT_NEAR(pieces[0].back()[2].get<double>(), -11 - share, 1e-2);
+  const json& times = feature["properties"]["time_s"];
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_EQ(times[0].size(), 3u);
+  EXPECT_NEAR(times[1].front().get<double>(), 1 + share, 1e-2);
+  for (const json& piece : pieces) {
+    for (std::size_t i = 1; i < piece.size(); ++i)
+      EXPECT_LT(std::abs(piece[i][0].get<double>() - piece[i - 1][0].get<double>()), 1);
+  }
+}
+
+TEST(DateLine, ALineToAndFroIsCutAtEachCrossing) {
+  const std::vector<LinePlace> line{{179, 0, 0, 0}, {-179, 2, 4, 1}, {-178, 2, 4, 2}, {178, 2, 4, 3}};
+  const auto pieces = cut_at_date_line(line);
+  ASSERT_EQ(pieces.size(), 3u);
+  EXPECT_EQ(pieces[0].back().latitude_deg, 1);
+  EXPECT_EQ(pieces[0].back().time_s, 0.5);
+  EXPECT_EQ(pieces[1].size(), 4u);
+  EXPECT_EQ(pieces[1].back().longitude_deg, -180);
+  EXPECT_EQ(pieces[2].front().longitude_deg, 180);
+  EXPECT_EQ(pieces[2].front().height_m, 4);
+}
+
+TEST(DateLine, EachPieceHasTwoPlacesAndNoneTwice) {
+  for (const double first : {180.0, -180.0}) {
+    const auto begins = cut_at_date_line({{first, 0, 0, 0}, {-179.5, 0, 0, 1}, {-179, 0, 0, 2}});
+    ASSERT_EQ(begins.size(), 1u) << first;
+    EXPECT_EQ(begins[0].size(), 3u);
+    const auto ends = cut_at_date_line({{179, 0, 0, 0}, {179.5, 0, 0, 1}, {first, 0, 0, 2}});
+    ASSERT_EQ(ends.size(), 1u) << first;
+    EXPECT_EQ(ends[0].size(), 3u);
+  }
+  EXPECT_EQ(cut_at_date_line({{0, 0, 0, 0}, {90, 0, 0, 1}, {-90, 0, 0, 2}}).size(), 1u);  // through 0
+}
+
+TEST_F(MissionExport, ZeroZeroIsAPlace) {
+  set_origin(mission_, "0,0");
+  export_gpx(mission_, path_);
+  EXPECT_THAT(contents(), HasSubstr("lat=\"0.00000000\" lon=\"0.00000000\""));
+}
+
+// Of times in microseconds as many are within 0.5 ms before a whole millisecond as after it.
+TEST_F(MissionExport, GpxTimesAreTheNearestMillisecond) {
+  for (int i = 0; i < 1000; ++i)
+    testing::add(mission_, "STATE.auv-3", testing::state(3, 100'000LL * i, 0, 0, 0));
+  testing::add(mission_, "STATE.auv-3", testing::state(3, 200'000'499, 0, 0, 0));
+  testing::add(mission_, "STATE.auv-3", testing::state(3, 299'999'500, 0, 0, 0));
+  set_origin(mission_, "30,-28");
+  export_gpx(mission_, path_);
+  const std::string text = contents();
+  for (int i = 0; i < 1000; ++i)
+    EXPECT_THAT(text, HasSubstr(fmt::format("00:{:02}:{:02}.{}00Z", i / 600, i / 10 % 60, i % 10)));
+  EXPECT_THAT(text, HasSubstr("00:03:20.000Z"));
+  EXPECT_THAT(text, HasSubstr("00:05:00.000Z"));
+}
+
+// GPX 1.1: -180 <= longitude < 180.
+TEST_F(MissionExport, GpxHasNo180East) {
+  set_origin(mission_, "0,180");
+  export_gpx(mission_, path_);
+  EXPECT_THAT(contents(), ::testing::Not(HasSubstr("lon=\"180.")));
 }
 
 TEST_F(MissionExport, GpxHasTimesAndHeights) {
@@ -131,10 +213,22 @@ TEST_F(MissionExport, FileThatCannotBeWrittenIsAnError) {
 }
 
 // As on a full disk, where HDF5 crashed.
-TEST_F(MissionExport, NetcdfThatIsCutOffIsAnError) {
-  const halocline::testing::FileSizeLimit full_disk(4096);
-  EXPECT_THROW(export_netcdf(mission_, path_), std::runtime_error);
-  EXPECT_FALSE(std::filesystem::exists(path_));
+TEST_F(MissionExport, AFullDiskIsAnErrorAndLeavesTheOldFile) {
+  set_origin(mission_, "30,-28");
+  for (const auto write : {export_mcap, export_netcdf, export_geojson, export_gpx}) {
+    std::filesystem::remove(path_);
+    {
+      const halocline::testing::FileSizeLimit full_disk(200);
+      EXPECT_THROW(write(mission_, path_), std::runtime_error);
+    }
+    EXPECT_FALSE(std::filesystem::exists(path_));
+    write(mission_, path_);
+    const std::string before = contents();
+    const halocline::testing::FileSizeLimit full_disk(200);
+    EXPECT_THROW(write(mission_, path_), std::runtime_error);
+    EXPECT_EQ(contents(), before);
+    EXPECT_FALSE(std::filesystem::exists(path_ + ".unfinished"));
+  }
 }
 
 TEST_F(MissionExport, APipeGetsTheFileAndStaysAPipe) {
