@@ -27,6 +27,28 @@ void require_level(double level) {
   require(level > 0 && level < 1, "the level of confidence must lie between 0 and 1");
 }
 
+// `quantile`: z or t. The closed form at a share of 0 or 1 is 0 or 1 but for rounding.
+ConfidenceInterval score_interval(double share, double trials, double quantile) {
+  const double q2 = quantile * quantile / trials, middle = (share + q2 / 2) / (1 + q2);
+  const double half = quantile * std::sqrt(share * (1 - share) / trials + q2 / (4 * trials)) / (1 + q2);
+  return {share == 0 ? 0 : std::max(0.0, middle - half), share == 1 ? 1 : std::min(1.0, middle + half)};
+}
+
+// Values without the NaNs, and their sample statistics.
+struct Sample {
+  explicit Sample(std::span<const double> values) {
+    std::copy_if(values.begin(), values.end(), std::back_inserter(known),
+                 [](double v) { return !std::isnan(v); });
+    count = static_cast<double>(known.size());
+    for (const double v : known) mean += v / count;
+    for (const double v : known) variance += (v - mean) * (v - mean) / (count - 1);
+  }
+  double t(double level) const { return boost::math::quantile(StudentsT(count - 1), 0.5 + level / 2); }
+
+  std::vector<double> known;
+  double count = 0, mean = 0, variance = 0;
+};
+
 }  // namespace
 
 ConfidenceInterval wilson_interval(std::int64_t k, std::int64_t n, double level) {
@@ -34,28 +56,29 @@ ConfidenceInterval wilson_interval(std::int64_t k, std::int64_t n, double level)
   require(k >= 0 && k <= n, "a share is k of n trials, 0 <= k <= n");
   if (n == 0) return {kNaN, kNaN};
   const double z = boost::math::quantile(Normal(), 0.5 + level / 2), trials = static_cast<double>(n);
-  const double share = static_cast<double>(k) / trials, z2 = z * z / trials;
-  const double middle = (share + z2 / 2) / (1 + z2);
-  const double half = z * std::sqrt(share * (1 - share) / trials + z2 / (4 * trials)) / (1 + z2);
-  // At the ends the closed form is 0 or 1 but for rounding.
-  return {k == 0 ? 0 : std::max(0.0, middle - half), k == n ? 1 : std::min(1.0, middle + half)};
+  return score_interval(static_cast<double>(k) / trials, trials, z);
 }
 
 MeanEstimate mean_estimate(std::span<const double> values, double level) {
   require_level(level);
-  std::vector<double> known;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(known),
-               [](double v) { return !std::isnan(v); });
-  const auto n = static_cast<double>(known.size());
-  if (known.empty()) return {kNaN, {kNaN, kNaN}};
-  double sum = 0, squares = 0;
-  for (const double v : known) sum += v;
-  const double mean = sum / n;
-  if (known.size() < 2) return {mean, {kNaN, kNaN}};
-  for (const double v : known) squares += (v - mean) * (v - mean);
-  const double t = boost::math::quantile(StudentsT(n - 1), 0.5 + level / 2);
-  const double half = t * std::sqrt(squares / (n - 1) / n);
-  return {mean, {mean - half, mean + half}};
+  const Sample sample(values);
+  if (sample.known.empty()) return {kNaN, {kNaN, kNaN}};
+  if (sample.known.size() < 2) return {sample.mean, {kNaN, kNaN}};
+  const double half = sample.t(level) * std::sqrt(sample.variance / sample.count);
+  return {sample.mean, {sample.mean - half, sample.mean + half}};
+}
+
+MeanEstimate share_estimate(std::span<const double> values, double level) {
+  require(std::none_of(values.begin(), values.end(), [](double v) { return v < 0 || v > 1; }),
+          "shares lie within 0 to 1");
+  MeanEstimate estimate = mean_estimate(values, level);
+  const Sample sample(values);
+  if (sample.known.size() < 2) return estimate;
+  const double p = std::clamp(sample.mean, 0.0, 1.0);
+  if (p > 0 && p < 1 && sample.variance == 0) return estimate;  // of no width
+  const double trials = p > 0 && p < 1 ? p * (1 - p) * sample.count / sample.variance : sample.count;
+  estimate.interval = score_interval(p, trials, sample.t(level));
+  return estimate;
 }
 
 }  // namespace halocline::clients

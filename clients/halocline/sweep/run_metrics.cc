@@ -24,7 +24,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<RunNumberInfo, kRunNumbers> kInfo{
     {{"packets_sent", "1", "transmissions accepted"},
      {"packets_refused", "1", "transmissions refused"},
-     {"delivery_ratio", "1", "share of addressed packets at receivers that were received"},
+     {"delivery_ratio", "1", "share of addressed packets at receivers that were received", true},
      {"delay_mean_s", "s", "mean travel time of what was delivered"},
      {"delay_p50_s", "s", "median travel time of what was delivered"},
      {"delay_p90_s", "s", "90th percentile of the travel time of what was delivered"},

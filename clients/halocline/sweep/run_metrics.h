@@ -46,9 +46,10 @@ enum class RunNumber {
 inline constexpr std::size_t kRunNumbers = 17;
 
 struct RunNumberInfo {
-  const char* name;     // as a column and a variable
-  const char* unit;     // as UDUNITS has it
-  const char* meaning;  // one line
+  const char* name;       // as a column and a variable
+  const char* unit;       // as UDUNITS has it
+  const char* meaning;    // one line
+  bool is_share = false;  // of something: within 0 to 1
 };
 const RunNumberInfo& info_of(std::size_t number);
 

@@ -143,6 +143,7 @@ class Estimates {
 
 constexpr const char* kWilson = "Wilson's interval, packets taken as independent";
 constexpr const char* kStudent = "Student's t interval, runs taken as independent";
+constexpr const char* kShares = "Wilson's interval by the variance of the runs, taken as independent";
 
 void write_shares(NetcdfFile& file, const SweepResults& results, const Shape& shape) {
   Estimates delivery, outcomes;
@@ -204,7 +205,7 @@ void write_run_numbers(NetcdfFile& file, const SweepResults& results, const Shap
     for (const PointSummary& point : results.points)
       means.add(point.numbers[n].mean, point.numbers[n].interval);
     means.write(file, info.name, shape.point, shape.bound, info.unit,
-                std::string("mean over runs of: ") + info.meaning, kStudent);
+                std::string("mean over runs of: ") + info.meaning, info.is_share ? kShares : kStudent);
   }
 }
 

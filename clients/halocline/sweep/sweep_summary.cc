@@ -41,7 +41,7 @@ PointSummary summary_of(const std::vector<const RunMetrics*>& runs, double level
   for (std::size_t i = 0; i < kRunNumbers; ++i) {
     std::vector<double> values;
     for (const RunMetrics* run : runs) values.push_back(run->numbers[i]);
-    point.numbers[i] = mean_estimate(values, level);
+    point.numbers[i] = info_of(i).is_share ? share_estimate(values, level) : mean_estimate(values, level);
   }
   return point;
 }

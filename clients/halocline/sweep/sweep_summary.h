@@ -3,8 +3,8 @@
 //
 // Shares of packets (delivery, outcomes) pool the packets of all seeds and carry Wilson's interval, which takes
 // packets as independent; packets of one run share water and paths, so it is too narrow where runs differ
-// much. The interval of the mean over runs (Student's t, runs independent by their seeds) does not depend on
-// that: compare the two.
+// much. The interval of the mean over runs (Student's t, and of shares one within 0 to 1: confidence.h; runs
+// independent by their seeds) does not depend on that: compare the two.
 #pragma once
 
 #include <array>

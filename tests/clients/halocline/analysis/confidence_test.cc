@@ -69,6 +69,42 @@ TEST(MeanEstimate, LeavesOutWhatIsUnknown) {
   EXPECT_TRUE(std::isnan(mean_estimate(std::vector<double>{}, 0.95).mean));
 }
 
+TEST(ShareEstimate, LiesWithinZeroToOneWhateverTheRunsAre) {
+  const std::vector<std::vector<double>> samples{
+      {1, 1}, {0, 0, 0}, {1, 0}, {0.99, 1}, {0.98, 1, 1, 1}, {0, 0.01, 0, 0.02}, {0.5, 0.5}, {1, 1, 1, 1, 0}};
+  for (const auto& values : samples) {
+    const auto [mean, interval] = share_estimate(values, 0.95);
+    EXPECT_GE(interval.low, 0);
+    EXPECT_LE(interval.high, 1);
+    EXPECT_LE(interval.low, mean);
+    EXPECT_GE(interval.high, mean);
+  }
+  EXPECT_THROW(share_estimate(std::vector<double>{0.5, 1.1}, 0.95), InvalidArgument);
+}
+
+// Runs that delivered all are no proof that all will: of three runs, as of three trials, at t of two degrees.
+TEST(ShareEstimate, OfRunsThatAllDeliveredEverythingIsOpenBelow) {
+  const ConfidenceInterval interval = share_estimate(std::vector<double>{1, 1, 1}, 0.95).interval;
+  EXPECT_EQ(interval.high, 1);
+  EXPECT_NEAR(interval.low, 1 / (1 + 4.3027 * 4.3027 / 3), 1e-4);  // n / (n + t^2)
+}
+
+// Ends solve |mean - share| = t sqrt(share (1 - share) / trials), trials being mean (1 - mean) over the
+// variance of the mean.
+TEST(ShareEstimate, SolvesTheScoreEquationAndIsStudentsFarFromTheEnds) {
+  const std::vector<double> near_end{0.9, 1, 0.98, 0.97, 0.99}, far{0.501, 0.499, 0.502, 0.498, 0.5};
+  const auto [mean, interval] = share_estimate(near_end, 0.95);
+  double squares = 0;
+  for (const double v : near_end) squares += (v - mean) * (v - mean);
+  const double trials = mean * (1 - mean) / (squares / 4 / 5);
+  for (const double end : {interval.low, interval.high})
+    EXPECT_NEAR(std::abs(mean - end), 2.7764 * std::sqrt(end * (1 - end) / trials), 1e-5);
+  const ConfidenceInterval score = share_estimate(far, 0.95).interval,
+                           student = mean_estimate(far, 0.95).interval;
+  EXPECT_NEAR(score.low, student.low, 1e-5);  // t^3 s^3 / sqrt(n)^3, below 1e-7
+  EXPECT_NEAR(score.high, student.high, 1e-5);
+}
+
 // 2000 experiments each: the share of intervals that hold the truth is within 3.5 standard errors of the
 // level (normal values), or at least the level less that (Wilson's for p = 0.1, n = 50: coverage 0.94 to
 // 0.97, Brown et al. 2001).
