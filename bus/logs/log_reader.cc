@@ -65,9 +65,16 @@ std::vector<std::string> series_of(const std::string& path) {
 }
 
 LogReader::LogReader(const std::vector<std::string>& paths) : files_(all_files(paths)) {
+  bool holds_an_event = false;
+  std::string why;
   for (const std::string& path : files_) {
-    require(looks_like_a_log(map_file(path).bytes), path + " is no LCM log: none of its bytes are an event");
+    const Mapping file = map_file(path);
+    holds_an_event = holds_an_event || !next_event(file.bytes, 0).at_end;
+    if (!looks_like_a_log(file.bytes))
+      throw InvalidArgument(path + " is no LCM log: " + why_no_log(file.bytes));
+    if (!holds_an_event && !file.bytes.empty()) why = ": " + why_no_log(file.bytes);
   }
+  require(holds_an_event, files_.front() + " holds no event" + why);
 }
 
 bool LogReader::open_next_file() {
@@ -93,6 +100,7 @@ bool LogReader::next(LoggedEvent& event) {
       event.file = next_file_ - 1;
       event.offset = static_cast<std::int64_t>(step.event.offset);
       flows_.count(event.channel, event.data);
+      contents_.count({event.stamp_us, event.channel, event.data, event.file, event.offset});
       return true;
     }
     at_ = log_.size();
@@ -113,7 +121,7 @@ std::string place_of(const LogReader& log, const LoggedEvent& event) {
   return log.files().at(event.file) + ", byte " + std::to_string(event.offset);
 }
 
-void report_damage(std::ostream& out, const LogReader& log) {
+bool report_damage(std::ostream& out, const LogReader& log) {
   const auto& all = log.bad_stretches();
   for (std::size_t i = 0; i < std::min(all.size(), kMaxStretchesReported); ++i) {
     const BadStretch& bad = all[i];
@@ -126,7 +134,10 @@ void report_damage(std::ostream& out, const LogReader& log) {
   if (all.size() > kMaxStretchesReported)
     out << "halocline: and " << all.size() - kMaxStretchesReported << " more such stretches; "
         << log.bytes_skipped() << " bytes in all were skipped\n";
+  const auto problems = log.contents().problems(log.files());
+  for (const std::string& problem : problems) out << "halocline: " << problem << "\n";
   report_flows(out, log.flows());
+  return all.empty() && problems.empty() && log.flows().missing() == 0;
 }
 
 }  // namespace halocline::clients

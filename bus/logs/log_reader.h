@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/logs/log_contents.h"
 #include "bus/logs/log_flows.h"
 #include "bus/logs/log_scan.h"
 
@@ -39,7 +40,8 @@ class LogReader {
  public:
   static constexpr std::size_t kMaxStretchesKept = 10'000;
 
-  // Throws InvalidArgument for a file that cannot be read, and for one that is no LCM log.
+  // Throws InvalidArgument for a file that cannot be read, for one that is no LCM log, and where all of them
+  // hold no event.
   explicit LogReader(const std::string& path) : LogReader(std::vector<std::string>{path}) {}
   explicit LogReader(const std::vector<std::string>& paths);
 
@@ -55,6 +57,7 @@ class LogReader {
   bool truncated() const { return truncated_; }     // a file ends within an event
   std::int64_t bytes() const { return bytes_; }     // of the files begun so far
   const LogFlows& flows() const { return flows_; }  // of the events read so far
+  const LogContents& contents() const { return contents_; }
 
  private:
   [[nodiscard]] bool open_next_file();
@@ -66,6 +69,7 @@ class LogReader {
   LogBytes log_;
   std::size_t at_ = 0;
   LogFlows flows_;
+  LogContents contents_;
   std::vector<BadStretch> bad_;
   std::int64_t bytes_skipped_ = 0, bytes_ = 0;
   bool truncated_ = false;
@@ -77,8 +81,10 @@ std::vector<std::string> series_of(const std::string& path);
 // "FILE, byte OFFSET".
 std::string place_of(const LogReader& log, const LoggedEvent& event);
 
-// Writes a line about each bad stretch that was met so far (the first twenty, and how many more), and what the log lacks (log_flows.h);
-// none when the log was sound and whole.
-void report_damage(std::ostream& out, const LogReader& log);
+// Writes a line about each bad stretch that was met so far (the first twenty, and how many more), what of the
+// log cannot be read (log_contents.h) and what it lacks (log_flows.h). True when the log was sound and whole:
+// then there is none, unless the log holds several sessions. Every program that reads a log calls this once
+// it has read it all; what it computed is then of a part of the run, so its exit code is 1.
+bool report_damage(std::ostream& out, const LogReader& log);
 
 }  // namespace halocline::clients

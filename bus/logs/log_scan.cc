@@ -42,7 +42,8 @@ std::size_t find_word(LogBytes log, std::size_t from, std::size_t end) {
 }
 
 // The event whose word stands at `at`, when its header is plausible.
-std::optional<EventPlace> plausible_at(LogBytes log, std::size_t at) {
+std::optional<EventPlace> plausible_at(LogBytes log, std::size_t at,
+                                       std::int64_t last_stamp = kLastStamp_us) {
   if (!word_at(log, at) || log.size() - at < kHeaderBytes) return std::nullopt;
   EventPlace event;
   event.offset = at;
@@ -50,8 +51,7 @@ std::optional<EventPlace> plausible_at(LogBytes log, std::size_t at) {
   event.stamp_us = static_cast<std::int64_t>(big_endian(log, at + 12, 8));
   const std::size_t channel_size = big_endian(log, at + 20, 4), data_size = big_endian(log, at + 24, 4);
   if (channel_size == 0 || channel_size > kLongestChannel) return std::nullopt;
-  if (event.number < 0 || event.stamp_us < -kLastStamp_us || event.stamp_us > kLastStamp_us)
-    return std::nullopt;
+  if (event.number < 0 || event.stamp_us < -last_stamp || event.stamp_us > last_stamp) return std::nullopt;
   event.size = kHeaderBytes + channel_size + data_size;
   if (log.size() - at < event.size) return std::nullopt;
   const std::size_t channel_at = at + kHeaderBytes;
@@ -113,6 +113,21 @@ LogStep next_event(LogBytes log, std::size_t from) {
   step.damage.size = log.size() - from;
   step.damage.cut_short = begins_like_an_event(log.subspan(from));
   return step;
+}
+
+std::string why_no_log(LogBytes bytes) {
+  constexpr std::array<std::uint8_t, 2> kGzip{0x1F, 0x8B};
+  if (bytes.size() >= 2 && std::equal(kGzip.begin(), kGzip.end(), bytes.begin()))
+    return "it is compressed by gzip; gunzip unpacks it";
+  std::int64_t events = 0, first_stamp = 0;
+  for (std::size_t at = find_word(bytes, 0, bytes.size()); at < bytes.size();) {
+    const auto event = plausible_at(bytes, at, INT64_MAX);
+    if (event && events++ == 0) first_stamp = event->stamp_us;
+    at = find_word(bytes, at + (event ? event->size : 1), bytes.size());
+  }
+  if (events == 0) return "none of its bytes are an event";
+  return "its " + std::to_string(events) + " events are stamped more than a century from 0, the first with " +
+         std::to_string(first_stamp) + "; allowed are microseconds (these may be nanoseconds)";
 }
 
 bool looks_like_a_log(LogBytes log) {

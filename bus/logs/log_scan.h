@@ -22,6 +22,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace halocline::clients {
@@ -52,5 +53,7 @@ LogStep next_event(LogBytes log, std::size_t from);
 
 // False for bytes that hold no event and do not begin like one: some other file. Nothing at all is an empty log.
 bool looks_like_a_log(LogBytes log);
+// In words, of bytes that do not.
+std::string why_no_log(LogBytes bytes);
 
 }  // namespace halocline::clients

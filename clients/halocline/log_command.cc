@@ -33,8 +33,8 @@ int info(const LogArguments& arguments) {
   } else {
     print(std::cout, statistics);
   }
-  report_damage(std::cerr, log);
-  return kDone;
+  const bool is_whole = report_damage(std::cerr, log) && statistics.undecodable == 0;
+  return is_whole ? kDone : kFailed;
 }
 
 // By the mission that the log holds, into one file.
@@ -49,7 +49,7 @@ int export_mission(const LogArguments& arguments) {
   std::cout << arguments.out << ": " << mission.vehicles().size() << " vehicles, "
             << mission.packets().all().size() << " packets\n";
   print_remarks(std::cerr, log);
-  return kDone;
+  return log.is_whole ? kDone : kFailed;
 }
 
 int export_all(const LogArguments& arguments) {
@@ -62,16 +62,15 @@ int export_all(const LogArguments& arguments) {
     std::cout << "left out: " << result.foreign << " events on channels that are none of ours\n";
   if (result.undecodable > 0)
     std::cout << "left out: " << result.undecodable << " events that do not decode\n";
-  report_damage(std::cerr, log);
-  return kDone;
+  const bool is_whole = report_damage(std::cerr, log) && result.undecodable == 0;
+  return is_whole ? kDone : kFailed;
 }
 
 int write_output(const LogArguments& arguments) {
   require_free({files_of_log(arguments.out), arguments.force}, arguments.logs);
   LogReader log(arguments.logs);
   std::cout << arguments.out << ": " << write_simulation_output(log, arguments.out) << " events\n";
-  report_damage(std::cerr, log);
-  return kDone;
+  return report_damage(std::cerr, log) ? kDone : kFailed;
 }
 
 }  // namespace

@@ -21,11 +21,29 @@ struct OutcomesArguments {
   bool force = false;
 };
 
+// What the outcomes are of, by the RECEIPTs.
+std::string coverage_of(const PacketAccount::Missing& missing, bool is_whole) {
+  if (missing.accepted == 0) return "; the log holds no accepted RECEIPT to count them by";
+  if (missing.without_outcome > 0)
+    return "; " + std::to_string(missing.without_outcome) + " of " + std::to_string(missing.accepted) +
+           " accepted packets have none";
+  if (!is_whole) return "; the log is not whole";
+  return ", one for each packet and possible receiver";
+}
+
+void print_table(const OutcomeSummary& summary, const PacketAccount::Missing& missing, bool is_whole) {
+  print(std::cout, summary, coverage_of(missing, is_whole));
+  if (missing.under_way > 0)
+    std::cout << "under way at the end, perhaps: " << missing.under_way << " of " << missing.accepted
+              << " accepted packets\n";
+}
+
 int show_outcomes(const OutcomesArguments& arguments) {
   if (!arguments.plot.empty()) require_plot_file(arguments.plot);
   require_free({{arguments.plot}, arguments.force}, arguments.logs);
   LogReader log(arguments.logs);
   const OutcomeSummary summary = summary_of(log, std::llround(arguments.window_s * 1e6));
+  const bool is_whole = report_damage(std::cerr, log);
   if (arguments.format == "json")
     std::cout << to_json(summary) << "\n";
   else if (arguments.format == "csv")
@@ -33,10 +51,9 @@ int show_outcomes(const OutcomesArguments& arguments) {
   else if (arguments.format == "outcomes")
     print_outcomes_csv(std::cout, summary);
   else
-    print(std::cout, summary);
-  report_damage(std::cerr, log);
+    print_table(summary, log.contents().missing(), is_whole);
   if (!arguments.plot.empty()) write_plot(outcome_plot(summary, arguments.logs.front()), arguments.plot);
-  return kDone;
+  return is_whole ? kDone : kFailed;
 }
 
 }  // namespace

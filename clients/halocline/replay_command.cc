@@ -129,7 +129,7 @@ int replay(const ReplayOptions& options) {
   const ScenarioConfig config = config_of(options);
   const RunFiles files = files_of(options, config, log);
   Recording recording = read_recording(log, config.scenario, played_in(config));
-  report_damage(std::cerr, log);
+  const bool is_whole = report_damage(std::cerr, log);
   if (!options.quiet) print_repairs(std::cerr, recording);
   require(!recording.events.empty(), options.logs.front() + " holds no states and no transmissions");
   replace_file(files.config, effective_toml(config));
@@ -141,16 +141,15 @@ int replay(const ReplayOptions& options) {
                files.log);
   }
   if (!options.no_comparison) compare_with_original(options, files.log, zero);
-  return bus::interrupt_requested() ? kInterrupted : kDone;
+  return bus::interrupt_requested() ? kInterrupted : is_whole ? kDone : kFailed;
 }
 
 int compare(const ReplayOptions& options) {
   LogReader before(options.logs.at(0)), after(options.logs.at(1));
   const LoggedOutcomes was = outcomes_of(before), is = outcomes_of(after);
-  report_damage(std::cerr, before);
-  report_damage(std::cerr, after);
+  const bool was_whole = report_damage(std::cerr, before), is_whole = report_damage(std::cerr, after);
   show(Comparison(was, is), options.format);
-  return kDone;
+  return was_whole && is_whole ? kDone : kFailed;
 }
 
 void add_format_option(CLI::App& command, std::string& format) {

@@ -89,12 +89,14 @@ int convolve(const WaveformOptions& options) {
     end_s = std::max(end_s,
                      wave.sound.begin_s + static_cast<double>(wave.sound.values.size()) / wave.sound.rate_hz);
   Recording run;
+  bool is_whole = true;
   if (options.log.empty()) {
     // Beyond what sound takes, vehicles go straight on.
     run = record_run(config, terrain, SimTime::from_seconds(end_s + 5));
   } else {
     LogReader log(options.log);
     run = read_recording(log, config.scenario, Played::kWithEquipment);
+    is_whole = report_damage(std::cerr, log);
   }
   const acoustics::Samples received = received_waveform(config, terrain, run, sent,
                                                         {.receiver = options.to,
@@ -117,7 +119,7 @@ int convolve(const WaveformOptions& options) {
              "full scale\n",
              options.output, received.values.size(), received.rate_hz, received.begin_s, level_db(rms),
              level_db(peak), peak);
-  return kDone;
+  return is_whole ? kDone : kFailed;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "bus/channels.h"
 #include "bus/logs/channel_types.h"
-#include "clients/mission/foreign_message.h"
+#include "bus/logs/foreign_message.h"
 #include "core/check.h"
 
 namespace halocline::clients {
@@ -60,7 +60,7 @@ template <class Message>
 void MissionStore::decode_and_take(std::int64_t stamp_us, std::string_view channel,
                                    std::span<const std::uint8_t> bytes) {
   Message message{};
-  if (!decode_foreign(bytes, message).is_sound) {
+  if (!decode_foreign(bytes, message).is_sound()) {
     ++counts_.undecodable;
     return;
   }

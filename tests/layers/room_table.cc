@@ -180,7 +180,7 @@ const std::vector<Room>& rooms() {
        {},
        "the program joins doors and, for those that play sound, the water"},
       {"clients/mission",
-       {"core", "bus", "bus/logs/channel_types.h"},
+       {"core", "bus", "bus/logs/channel_types.h", "bus/logs/foreign_message.h"},
        {"fmt/"},
        "a mission by time needs neither files nor sockets, so that reports and monitors share "
        "it"},

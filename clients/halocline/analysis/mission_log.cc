@@ -13,8 +13,8 @@
 #include <fmt/ostream.h>
 
 #include "bus/logs/channel_types.h"
+#include "bus/logs/foreign_message.h"
 #include "clients/halocline/analysis/run_files.h"
-#include "clients/mission/foreign_message.h"
 #include "clients/mission/mission_summary.h"
 #include "clients/mission/mission_time.h"
 #include "core/input_file.h"
@@ -29,12 +29,10 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::vector<std::string> damage_in(const LogReader& log) {
+void take_damage(const LogReader& log, MissionLog& read) {
   std::stringstream report;
-  report_damage(report, log);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(report, line);) lines.push_back(line);
-  return lines;
+  read.is_whole = report_damage(report, log);
+  for (std::string line; std::getline(report, line);) read.remarks.push_back(line);
 }
 
 }  // namespace
@@ -46,7 +44,7 @@ MissionTime time_of(LogReader& log) {
     with_type_of(event.channel, [&]<class Message>() {
       if constexpr (std::is_same_v<Message, vehicle_state_t> || std::is_same_v<Message, sim_clock_t>) {
         Message message{};
-        if (!decode_foreign(event.data, message).is_sound) return;
+        if (!decode_foreign(event.data, message).is_sound()) return;
         if constexpr (std::is_same_v<Message, vehicle_state_t>) {
           utimes.push_back(message.utime);
         } else {
@@ -81,7 +79,7 @@ MissionLog read_mission(const std::vector<std::string>& logs, MissionLimits limi
     return time_of(log);
   }();
   LogReader log(logs);
-  MissionLog read{MissionStore(time, limits), {}};
+  MissionLog read{MissionStore(time, limits)};
   MissionStore& mission = read.mission;
   for (LoggedEvent event; log.next(event);) mission.add(event.stamp_us, event.channel, event.data);
   if (mission.scenario().toml.empty()) {
@@ -89,7 +87,7 @@ MissionLog read_mission(const std::vector<std::string>& logs, MissionLimits limi
     scenario.toml = text_of(config_beside(logs.front()));
     mission.set_scenario(std::move(scenario));
   }
-  read.remarks = damage_in(log);
+  take_damage(log, read);
   const MissionCounts& counts = mission.counts();
   if (time.zero_us != 0)
     read.remarks.push_back(
@@ -99,9 +97,6 @@ MissionLog read_mission(const std::vector<std::string>& logs, MissionLimits limi
         fmt::format("{} messages carry the time of another clock, or none; they stand at the time that the "
                     "log had reached.",
                     counts.without_time));
-  if (counts.undecodable > 0)
-    read.remarks.push_back(fmt::format("{} messages on Halocline's channels do not decode and are left out.",
-                                       counts.undecodable));
   if (mission.repeated_outcomes() > 0)
     read.remarks.push_back(fmt::format("{} outcomes are in the log more than once; each counts once.",
                                        mission.repeated_outcomes()));

@@ -18,6 +18,7 @@ MissionTime time_of(LogReader& log);
 struct MissionLog {
   MissionStore mission;
   std::vector<std::string> remarks;  // sentences: damage, what was left out, times that were moved
+  bool is_whole = true;              // as report_damage has it
 };
 
 // Reads the logs (the parts of one, in order) twice: for the times, then for all. Where they do not hold the scenario its

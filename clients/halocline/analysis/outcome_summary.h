@@ -53,8 +53,10 @@ class OutcomeSummary : public OutcomeLedger {
 
 OutcomeSummary summary_of(LogReader& log, std::int64_t window_us);
 
-// As text: outcomes, propagations, pairs, windows, each with counts and shares; where vehicles have batteries, energy (energy_cost.h).
-void print(std::ostream& out, const OutcomeSummary& summary);
+// As text, `coverage` behind the number of outcomes, ", one for each packet and possible receiver": outcomes,
+// propagations, pairs, windows, each with counts and shares; where vehicles have batteries, energy
+// (energy_cost.h).
+void print(std::ostream& out, const OutcomeSummary& summary, const std::string& coverage);
 // One object: "by_outcome", "by_propagation", "pairs", "windows", and "energy" where vehicles have batteries.
 std::string to_json(const OutcomeSummary& summary);
 // One row a pair and outcome that occurred: sender, receiver, outcome, packets.

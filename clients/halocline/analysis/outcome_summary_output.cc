@@ -88,10 +88,10 @@ nlohmann::ordered_json to_json(const EnergyCosts& costs, const OutcomeSummary& s
 
 }  // namespace
 
-void print(std::ostream& out, const OutcomeSummary& summary) {
+void print(std::ostream& out, const OutcomeSummary& summary, const std::string& coverage) {
   const std::int64_t all = sum(summary.total());
   const auto outcomes = outcomes_in(summary);
-  fmt::print(out, "{} outcomes, one for each packet and possible receiver\n", all);
+  fmt::print(out, "{} outcomes{}\n", all, coverage);
   for (const std::size_t outcome : outcomes) {
     const std::int64_t count = summary.total()[outcome];
     fmt::print(out, "  {:<24}{:>9}{:>8.1f} %\n", outcome_name(outcome), count,

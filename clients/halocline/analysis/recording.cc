@@ -10,7 +10,7 @@
 
 #include "bus/channels.h"
 #include "bus/logs/channel_types.h"
-#include "clients/mission/foreign_message.h"
+#include "bus/logs/foreign_message.h"
 #include "clients/mission/mission_time.h"
 
 namespace halocline::clients {
@@ -67,7 +67,7 @@ struct Collector {
     Message message{};
     if constexpr (kIsPlayed<Message>) {
       const ForeignMessage decoded = decode_foreign(event.data, message);
-      if (decoded.is_sound) {
+      if (decoded.is_sound()) {
         recording.without_orientation += decoded.orientation_filled ? 1 : 0;
         logged.push_back({stamps.size() - 1, {SimTime(), event.channel, message}});
         return;

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "bus/channels.h"
-#include "clients/halocline/analysis/mission_log.h"
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/mission/mission_vehicle.h"
 #include "clients/mission/node_health.h"
@@ -21,16 +20,20 @@
 namespace halocline::monitor {
 namespace {
 
-clients::MissionStore mission_of(const std::vector<std::string>& logs) {
+clients::MissionLog log_of(const std::vector<std::string>& logs) {
   clients::MissionLog log = clients::read_mission(logs);
   clients::print_remarks(std::cerr, log);
-  return std::move(log.mission);
+  return log;
 }
 
 }  // namespace
 
 LogSource::LogSource(const std::vector<std::string>& logs, const std::string& scenario)
-    : name_(logs.front()), mission_(mission_of(logs)) {
+    : LogSource(logs.front(), log_of(logs), scenario) {}
+
+LogSource::LogSource(const std::string& name, clients::MissionLog log, const std::string& scenario)
+    : name_(name), mission_(std::move(log.mission)) {
+  if (!log.is_whole) limits_ = std::move(log.remarks);
   require(mission_.begin() <= mission_.end(), name_ + " holds no states and no packets");
   const std::string file = configuration(scenario);
   if (!file.empty()) nodes_ = std::make_unique<LogNodes>(file);
@@ -76,13 +79,12 @@ bool LogSource::lacks_modem(std::string_view channel) const {
 }
 
 std::vector<std::string> LogSource::limits() const {
-  if (!nodes_)
-    return {
-        "Rays and budgets are not computed: this log has no configuration. Put the scenario file beside it, "
-        "or name it by --scenario."};
-  const std::string problem = nodes_->problem();
-  if (problem.empty()) return {};
-  return {"Rays and budgets are not computed: " + problem + "."};
+  std::vector<std::string> all = limits_;
+  const std::string problem = nodes_ ? nodes_->problem()
+                                     : "this log has no configuration. Put the scenario file beside it, or "
+                                       "name it by --scenario";
+  if (!problem.empty()) all.push_back("Rays and budgets are not computed: " + problem + ".");
+  return all;
 }
 
 SourceState LogSource::state() const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bus/messages.h"
+#include "clients/halocline/analysis/mission_log.h"
 #include "clients/mission/mission_store.h"
 #include "clients/mission/node_health.h"
 #include "clients/monitor/sources/handover.h"
@@ -46,12 +47,14 @@ class LogSource : public Source {
   double age_s(const clients::NodeRecord& node, SimTime at) const override;
 
  private:
+  LogSource(const std::string& name, clients::MissionLog log, const std::string& scenario);
   bool lacks_modem(std::string_view channel) const;
   std::string configuration(const std::string& scenario);
   // The nodes compute in the water that the log had at an instant.
   void set_water(SimTime at);
 
   std::string name_;
+  std::vector<std::string> limits_;  // what of the log could not be read; empty for a whole one
   clients::MissionStore mission_;
   std::function<bool(std::string_view channel)> is_reply_;
   std::vector<BusMessage> replies_;

@@ -40,6 +40,10 @@ TEST(LogReader, EveryTruncationYieldsTheEventsBeforeIt) {
   const std::size_t event_bytes = whole.size() / 3;
   for (std::size_t size = 0; size < whole.size(); ++size) {
     file.replace_bytes(whole.substr(0, size));
+    if (size < event_bytes) {
+      EXPECT_THROW(LogReader(file.path()), InvalidArgument);
+      continue;
+    }
     LogReader log(file.path());
     EXPECT_EQ(all_of(log).size(), size / event_bytes) << "of " << size << " bytes";
   }
@@ -129,10 +133,23 @@ TEST(LogReader, AnotherFileIsRefusedByName) {
   }
 }
 
-TEST(LogReader, EmptyLogHoldsNothing) {
+TEST(LogReader, AFileWithoutAnyEventIsRefused) {
+  for (const std::string& bytes : {std::string(), std::string("\xED\xA1\xDA\x01\x00", 5)}) {
+    TemporaryLog file;
+    file.replace_bytes(bytes);
+    EXPECT_THROW(LogReader log(file.path()), InvalidArgument);
+  }
+}
+
+// A recorder that was killed as it began another part.
+TEST(LogReader, AnEmptyPartOfALogIsNone) {
   TemporaryLog file;
+  file.add(0, "CLOCK", testing::clock_at(0));
+  const std::string second = bus::part_of_log(file.path(), 1);
+  std::ofstream(second).close();
   LogReader log(file.path());
-  EXPECT_TRUE(all_of(log).empty());
+  EXPECT_EQ(all_of(log).size(), 1u);
+  std::remove(second.c_str());
 }
 
 TEST(LogReader, WhatIsNoReadableFileIsRefusedWithTheReason) {

@@ -4,7 +4,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -13,8 +12,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include "tests/clients/halocline/command_fixture.h"
 #include "tests/support/process.h"
 
 namespace halocline::testing {
@@ -25,56 +24,6 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-const std::string kProgram = HALOCLINE_BIN_DIR "/halocline";
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-class RunCommand : public ::testing::Test {
- protected:
-  RunCommand() {
-    fs::create_directories(folder_);
-    std::ofstream(folder_ + "/pond.toml")
-        << "[scenario]\nname = \"pond\"\nduration_s = 600\n"
-           "[[vehicle]]\nname = \"a\"\nid = 1\nstart_ned_m = [0.0, 0.0, 20.0]\n"
-           "[[vehicle]]\nname = \"b\"\nid = 2\nstart_ned_m = [0.0, 50.0, 20.0]\n"
-           "[vehicle.traffic]\nperiod_s = 5\n";
-  }
-  ~RunCommand() override { fs::remove_all(folder_); }
-
-  struct Ended {
-    int code;
-    std::string output;
-  };
-  // With the test's folder as the working folder.
-  std::vector<std::string> command(const std::string& arguments) const {
-    return {"/bin/sh", "-c", "cd '" + folder_ + "' && exec '" + kProgram + "' " + arguments};
-  }
-  Ended run(const std::string& arguments) {
-    Process process(command(arguments));
-    const int code = process.wait(std::chrono::seconds(60));
-    return {code, process.output()};
-  }
-  // Signals once `text` is in the output and `file` holds something.
-  Ended run_until(const std::string& arguments, const std::string& text, const std::string& file,
-                  int signal) {
-    Process process(command(arguments));
-    for (int i = 0; i < 3000 && process.running(); ++i) {
-      std::error_code error;
-      const auto size = fs::file_size(folder_ + "/" + file, error);
-      if (process.output().find(text) != std::string::npos && !error && size > 0) break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    process.signal(signal);
-    const int code = process.wait(std::chrono::seconds(60));
-    return {code, process.output()};
-  }
-
-  std::string folder_ = ::testing::TempDir() + "run-" + std::to_string(getpid());
-};
 
 TEST_F(RunCommand, TheSecondRunHasAFolderOfItsOwn) {
   EXPECT_EQ(run("run pond.toml --duration 1 --no-csv").code, 0);
@@ -230,10 +179,18 @@ TEST_F(RunCommand, TheOriginOfAnExportIsThatOfTheScenario) {
     EXPECT_EQ(end.code, 0) << end.output;
     EXPECT_THAT(bytes_of(folder_ + "/placed." + format), HasSubstr("43.5"));
   }
+  ASSERT_EQ(
+      run("run pond.toml --duration 1 --out zero --quiet --no-csv --set scenario.origin_latitude_deg=0").code,
+      0);
+  EXPECT_EQ(run("log export zero/pond.lcm --out zero.gpx --format gpx").code, 0);
+  EXPECT_THAT(bytes_of(folder_ + "/zero.gpx"), HasSubstr("lat=\"0.00"));
   ASSERT_EQ(run("run pond.toml --duration 1 --out nowhere --quiet --no-csv").code, 0);
   const Ended end = run("log export nowhere/pond.lcm --out nowhere.gpx --format gpx");
   EXPECT_EQ(end.code, 2);
   EXPECT_THAT(end.output, HasSubstr("--origin LATITUDE,LONGITUDE"));
+  ASSERT_EQ(run("replay nowhere/pond.lcm --log again.lcm --quiet").code,
+            0);  // from the configuration beside it
+  EXPECT_EQ(run("log export again.lcm --out nowhere.gpx --format gpx").code, 2);
 }
 
 TEST_F(RunCommand, ForceLeavesNothingOfAnEarlierExport) {
@@ -252,14 +209,6 @@ TEST_F(RunCommand, ARunThatIsRefusedLeavesNoFolder) {
 }
 
 // Where each program is started by hand, the one that makes the terrain checks the starts on it.
-TEST_F(RunCommand, EveryExportAndTheReportSayThatALogIsCutOff) {
-  ASSERT_EQ(run("run pond.toml --duration 5 --out here --quiet --no-csv").code, 0);
-  fs::resize_file(folder_ + "/here/pond.lcm", fs::file_size(folder_ + "/here/pond.lcm") - 9);
-  for (const std::string arguments : {"log export --format mcap", "log export --format netcdf", "report",
-                                      "log export --format geojson --origin 1,1"})
-    EXPECT_THAT(run(arguments + " here/pond.lcm --force --out x").output, HasSubstr("ends within an event"));
-}
-
 TEST_F(RunCommand, ALogIsNotCalledAsWhatLiesBesideIt) {
   for (const std::string log : {"a.html", "a.toml", "b/csv/packets.csv"}) {
     const Ended refused = run("run pond.toml --duration 1 --log " + log);

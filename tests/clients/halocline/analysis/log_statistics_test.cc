@@ -105,12 +105,5 @@ TEST(LogStatistics, JsonHoldsTheSameNumbers) {
   EXPECT_THAT(json, HasSubstr("\"median\": 0.25"));
 }
 
-TEST(LogStatistics, EmptyLogIsDescribed) {
-  TemporaryLog file;
-  std::ostringstream text;
-  print(text, statistics_of(file));
-  EXPECT_THAT(text.str(), HasSubstr("messages    0"));
-}
-
 }  // namespace
 }  // namespace halocline::clients

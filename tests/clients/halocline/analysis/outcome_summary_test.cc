@@ -145,7 +145,7 @@ TEST_F(OutcomeSummaryTest, ThePrintedTableNamesEveryOutcomeThatOccurred) {
   add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
   add(outcome(1, 3, 0, 0, packet_outcome_t::HALF_DUPLEX));
   std::ostringstream text;
-  print(text, summary());
+  print(text, summary(), "");
   EXPECT_THAT(text.str(),
               ::testing::AllOf(::testing::HasSubstr("2 outcomes"), ::testing::HasSubstr("50.0 %"),
                                ::testing::HasSubstr("half duplex"), ::testing::HasSubstr("1 -> 3")));
@@ -160,7 +160,7 @@ TEST_F(OutcomeSummaryTest, TextJsonAndRowsNameWhatThePathsWereComputedWith) {
   add(straight);
   const OutcomeSummary sums = summary();
   std::ostringstream text;
-  print(text, sums);
+  print(text, sums, "");
   EXPECT_THAT(text.str(), ::testing::AllOf(::testing::HasSubstr("paths: rays  "),
                                            ::testing::HasSubstr("paths: straight without bottom")));
   const auto json = nlohmann::json::parse(to_json(sums));
@@ -186,9 +186,10 @@ TEST_F(OutcomeSummaryTest, ThePlotHoldsABarAnOutcomeAndItsCourseOverTheWindows) 
   EXPECT_THAT(plot.charts[1].series[1].y, ::testing::ElementsAre(1, 1));
 }
 
-TEST_F(OutcomeSummaryTest, AnEmptyLogHasNoOutcomes) {
+TEST_F(OutcomeSummaryTest, ALogWithoutOutcomesHasNone) {
+  file_.add(0, "CLOCK", testing::clock_at(0));
   std::ostringstream text;
-  print(text, summary());
+  print(text, summary(), "");
   EXPECT_THAT(text.str(), ::testing::HasSubstr("0 outcomes"));
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decodes messages that a vehicle of others may have left incomplete: a vehicle_id or source_id of 0, an orientation of
-// all zeros (it becomes level and towards north).
+// Decodes messages that a vehicle of others may have left incomplete: a vehicle_id or source_id of 0, an
+// orientation of all zeros (it becomes level and towards north).
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <type_traits>
 
 #include "bus/message_codec.h"
@@ -12,8 +13,9 @@
 namespace halocline::clients {
 
 struct ForeignMessage {
-  bool is_sound = false;
+  std::string problem;  // as bus::decode has it; empty: none
   bool orientation_filled = false;
+  bool is_sound() const { return problem.empty(); }
 };
 
 inline bool fill_orientation(vehicle_state_t& state) {
@@ -28,19 +30,20 @@ inline bool fill_orientation(vehicle_state_t& state) {
 template <class Message>
 [[nodiscard]] ForeignMessage decode_foreign(std::span<const std::uint8_t> bytes, Message& message) {
   ForeignMessage result;
-  if (!bus::decode_unchecked(bytes, message).empty()) return result;
+  result.problem = bus::decode_unchecked(bytes, message);
+  if (!result.problem.empty()) return result;
   if constexpr (std::is_same_v<Message, vehicle_state_t>) {
     result.orientation_filled = fill_orientation(message);
     Message with_id = message;
     if (with_id.vehicle_id == 0) with_id.vehicle_id = 1;
-    result.is_sound = bus::problem_in(with_id).empty();
+    result.problem = bus::problem_in(with_id);
   } else if constexpr (std::is_same_v<Message, modem_send_t>) {
     const std::int32_t id = message.source_id;
     if (id == 0) message.source_id = 1;
-    result.is_sound = bus::problem_in(message).empty();
+    result.problem = bus::problem_in(message);
     message.source_id = id;
   } else {
-    result.is_sound = bus::problem_in(message).empty();
+    result.problem = bus::problem_in(message);
   }
   return result;
 }
