@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The receipt of each transmission requested, so that a repetition is answered, not transmitted again; and the
-// intervals in which each modem is occupied.
+// The receipt of each transmission requested, so that a repetition is answered, not transmitted again; and
+// the intervals in which each modem is occupied.
 //
 // A modem that queues sends one after the other, in the order of their starts: the next one when all accepted
 // before have ended.
 //
 // A request's name is (vehicle, session, packet_sequence); of a sender that keeps no session (0) also the
-// start, because its numbers may begin anew. Memory is bounded: a request is forgotten once its start is too
-// old to be accepted anyway, so nothing is ever transmitted twice.
+// start, because its numbers may begin anew. Nothing is ever transmitted twice: a request is known for as
+// long as its start may be accepted, and kMaxOld of those beyond are kept, 3 MB, so that who repeats a SEND
+// late is told what became of it.
 #pragma once
 
 #include <compare>
@@ -37,6 +38,8 @@ class SendRegister {
  public:
   // Of more packets the earliest starts are forgotten.
   static constexpr std::size_t kMaxPackets = 100'000;
+  // Packets that stay known when their starts are too old to be accepted.
+  static constexpr std::size_t kMaxOld = 10'000;
 
   // True for a packet that is new; it is known from now on, its receipt outstanding.
   [[nodiscard]] bool enter(const SendRequest& request);
@@ -52,6 +55,7 @@ class SendRegister {
   std::size_t waiting_at(const std::string& vehicle, SimTime instant) const;
   void occupy(const std::string& vehicle, SimTime start, SimDuration duration);
 
+  // No request that starts before `time` is accepted any more.
   void forget_before(SimTime time);
   std::size_t size() const { return entries_.size(); }
 

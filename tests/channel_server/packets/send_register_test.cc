@@ -75,11 +75,15 @@ TEST(SendRegister, TwoPacketsWithoutDurationDoNotStartTogether) {
   EXPECT_FALSE(sends.is_busy("v1", at_s(10.001), for_s(0)));
 }
 
-TEST(SendRegister, OldPacketsAreForgotten) {
+TEST(SendRegister, OfOldPacketsTheLatestTenThousandStayKnown) {
   SendRegister sends;
-  for (int i = 0; i < 100; ++i) EXPECT_TRUE(sends.enter(request_of(1, i, i)));
-  sends.forget_before(at_s(90));
-  EXPECT_EQ(sends.size(), 10u);
+  constexpr int kAll = 12'000;
+  for (int i = 0; i < kAll; ++i) EXPECT_TRUE(sends.enter(request_of(1, i, i)));
+  sends.forget_before(at_s(1000));
+  EXPECT_EQ(sends.size(), std::size_t{kAll} - 1000);
+  sends.forget_before(at_s(kAll));
+  EXPECT_EQ(sends.size(), SendRegister::kMaxOld);
+  EXPECT_FALSE(sends.enter(request_of(1, kAll - 1, kAll - 1)));
 }
 
 TEST(SendRegister, AFloodDoesNotGrowMemoryWithoutBound) {
