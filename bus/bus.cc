@@ -117,6 +117,7 @@ void Bus::publish_bytes(std::string_view channel, const void* data, std::size_t 
     outbox_(channel, data, size);
   } else {
     if (pace_) pace_->wait(size);
+    note_lateness(channel, data, size);
     send_unsent();
     if (!unsent_.is_empty() || !send(std::string(channel), data, size)) {
       if (unsent_.is_empty())
@@ -208,6 +209,14 @@ void Bus::restore_history(std::string_view channel, std::int64_t session, std::i
   if (repair_) repair_->restore_history(channel, session, sequence, std::move(bytes));
 }
 
+// Looked at before rivals are: it tells nothing of who publishes now.
+bool Bus::is_old(std::string_view channel, std::int64_t session, std::int64_t sequence, std::int64_t utime) {
+  if (!repair_ || !flows_.is_old(steady_, channel, session, sequence, utime)) return false;
+  ++counters_.received;
+  ++counters_.duplicates;
+  return true;
+}
+
 bool Bus::is_rival(std::string_view channel, std::int64_t session, std::optional<std::int32_t> receiver) {
   if (!repair_ || sessions_.on_message(steady_, channel, session, receiver)) return false;
   refuse_rival(channel, session);
@@ -220,8 +229,9 @@ void Bus::refuse_rival(std::string_view channel, std::int64_t session) {
                       ", a rival's: another is publisher until it has been silent for 1 s");
 }
 
-bool Bus::is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence) {
-  const auto arrival = flows_.on_message(steady_, channel, session, sequence, is_repair_);
+bool Bus::is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence,
+                        std::int64_t utime) {
+  const auto arrival = flows_.on_message(steady_, channel, session, sequence, is_repair_, utime);
   counters_.gaps = saturating_sum(counters_.gaps, arrival.newly_missing);
   counters_.repaired += arrival.fills_gap ? 1 : 0;
   if (!repair_ || !arrival.is_repeated) return false;
@@ -239,9 +249,34 @@ void Bus::enable_repair() {
   subscribe<flow_heartbeat_t>(
       channels::kHeartbeat,
       [this](std::string_view node, const flow_heartbeat_t& heartbeat) { on_heartbeat(node, heartbeat); });
+  // Its session claims the node's name (session_watch.h), also where the program has no heartbeats.
+  subscribe<node_status_t>(
+      channels::kStatus, [](std::string_view, const node_status_t&) {}, Wakeup::kStoreOnly);
+}
+
+void Bus::set_clock(Clock clock, SimDuration limit) {
+  clock_ = std::move(clock);
+  lateness_limit_ = limit;
+}
+
+void Bus::note_lateness(std::string_view channel, const void* data, std::size_t size) {
+  if (!clock_ || size < kSessionAt || !LatenessWatch::is_result(channel)) return;
+  const auto now = clock_();
+  if (!now) return;
+  std::int64_t utime = 0;
+  for (std::size_t i = kUtimeAt; i < kSessionAt; ++i)
+    utime = static_cast<std::int64_t>(static_cast<std::uint64_t>(utime) << 8U |
+                                      static_cast<const std::uint8_t*>(data)[i]);
+  const SimDuration lateness = *now - SimTime::from_utime(utime);
+  lateness_.add(steady_, lateness);
+  if (lateness_limit_ > SimDuration()) counters_.late += lateness > lateness_limit_ ? 1 : 0;
 }
 
 void Bus::on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat) {
+  if (repair_->is_old(heartbeat)) {
+    ++counters_.duplicates;
+    return;
+  }
   if (!sessions_.on_heartbeat(steady_, node, heartbeat.session)) {
     // Flows that begin meanwhile are requested from their start when it is believed.
     repair_->on_heartbeat(steady_, node, heartbeat, [](std::string_view) { return false; });

@@ -43,17 +43,30 @@ std::vector<FlowRepair::Answer> FlowRepair::take_answers(SimTime steady) {
   return answers;
 }
 
-// Whether a heartbeat of this session came before, of another moment.
-bool FlowRepair::is_known(SimTime steady, std::int64_t session) {
+bool FlowRepair::is_old(const flow_heartbeat_t& heartbeat) const {
+  const auto heard = heartbeats_of_others_.find(heartbeat.session);
+  return heard != heartbeats_of_others_.end() && heartbeat.utime <= heard->second.utime &&
+         heartbeat.sequence <= heard->second.sequence;
+}
+
+// Test for a session with a heartbeat before this one, of another moment. A number far ahead is not noted: it
+// may be made up.
+bool FlowRepair::is_known(SimTime steady, const flow_heartbeat_t& heartbeat) {
   constexpr std::size_t kMaxSessions = 4096;
+  const std::int64_t session = heartbeat.session;
   if (!heartbeats_of_others_.contains(session)) {
     std::erase_if(heartbeats_of_others_, [&](const auto& entry) {
       return steady - entry.second.last >= FlowWatch::kForgottenAfter;
     });
     if (heartbeats_of_others_.size() >= kMaxSessions) heartbeats_of_others_.clear();
   }
-  Heard& heard = heartbeats_of_others_.try_emplace(session, Heard{steady, steady}).first->second;
+  const Heard first{steady, steady, heartbeat.utime, heartbeat.sequence};
+  Heard& heard = heartbeats_of_others_.try_emplace(session, first).first->second;
   heard.last = steady;
+  if (heartbeat.sequence <= saturating_sum(heard.sequence, FlowWatch::kMaxMissing)) {
+    heard.utime = heartbeat.utime;
+    heard.sequence = heartbeat.sequence;
+  }
   return (steady - heard.first) * 2 >= kHeartbeatPeriod;
 }
 
@@ -79,7 +92,7 @@ flow_heartbeat_t FlowRepair::take_heartbeat(SimTime sim, SimTime steady) {
 std::int64_t FlowRepair::on_heartbeat(SimTime steady, std::string_view node,
                                       const flow_heartbeat_t& heartbeat,
                                       const std::function<bool(std::string_view)>& is_subscribed_to) {
-  const bool known = is_known(steady, heartbeat.session);
+  const bool known = is_known(steady, heartbeat);
   const SimTime since = std::max(began_, subscribed_);
   const bool is_younger = SimDuration::from_microseconds(heartbeat.age_us) <= steady - since;
   const FlowWatch::Lister lister{xxh3(node), heartbeat.session, is_younger, known};

@@ -75,6 +75,9 @@ class FlowRepair {
   // followed from the second heartbeat of a session on: a datagram by itself makes no flow.
   std::int64_t on_heartbeat(SimTime steady, std::string_view node, const flow_heartbeat_t& heartbeat,
                             const std::function<bool(std::string_view channel)>& is_subscribed_to);
+  // Test for a copy of an old heartbeat: neither its number nor its time goes on. It tells nothing then, not
+  // even that its publisher lives.
+  bool is_old(const flow_heartbeat_t& heartbeat) const;
   std::vector<repair_request_t> take_requests(SimTime sim, SimTime steady);
   // From now on more channels are received: what was published on them before is not missing.
   void on_subscribed(SimTime steady) {
@@ -94,8 +97,9 @@ class FlowRepair {
   };
   struct Heard {
     SimTime first, last;
+    std::int64_t utime = 0, sequence = 0;  // the last one's
   };
-  bool is_known(SimTime steady, std::int64_t session);
+  bool is_known(SimTime steady, const flow_heartbeat_t& heartbeat);
 
   std::string name_;
   std::int64_t session_;

@@ -123,11 +123,16 @@ void FlowWatch::lose(Publisher& publisher, std::int64_t first, std::int64_t end)
   lost.push_back({first, end});
 }
 
+template <class Spans>
+auto FlowWatch::span_with(Spans& spans, std::int64_t sequence) {
+  return std::find_if(spans.begin(), spans.end(),
+                      [&](const Span& one) { return one.first <= sequence && sequence < one.end; });
+}
+
 // Whether the number was given up; it is not any more.
 bool FlowWatch::take_lost(Publisher& publisher, std::int64_t sequence) {
   std::vector<Span>& lost = publisher.lost;
-  const auto span = std::find_if(
-      lost.begin(), lost.end(), [&](const Span& one) { return one.first <= sequence && sequence < one.end; });
+  const auto span = span_with(lost, sequence);
   if (span == lost.end()) return false;
   const Span later{sequence + 1, std::exchange(span->end, sequence)};
   if (later.first < later.end) {
@@ -142,8 +147,27 @@ bool FlowWatch::take_lost(Publisher& publisher, std::int64_t sequence) {
   return true;
 }
 
+bool FlowWatch::is_old(SimTime steady, const Publisher& publisher, std::int64_t sequence,
+                       std::int64_t utime) {
+  if (sequence > publisher.last) return sequence == publisher.leap;
+  const bool is_far =
+      distance(sequence, publisher.last) >= kRepetitionReach || steady - publisher.heard_at >= kRepetitionAge;
+  return is_far ? publisher.lister != 0 || utime <= publisher.utime : sequence >= publisher.first;
+}
+
+bool FlowWatch::is_old(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t sequence,
+                       std::int64_t utime) const {
+  const auto flows = received_.find(channel);
+  if (flows == received_.end()) return false;
+  const auto known = std::find_if(flows->second.begin(), flows->second.end(),
+                                  [&](const Publisher& publisher) { return publisher.session == session; });
+  return known != flows->second.end() && known->is_heard && !known->missing.contains(sequence) &&
+         span_with(known->lost, sequence) == known->lost.end() && is_old(steady, *known, sequence, utime);
+}
+
 FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view channel,
-                                                std::int64_t session, std::int64_t sequence, bool is_repair) {
+                                                std::int64_t session, std::int64_t sequence, bool is_repair,
+                                                std::int64_t utime) {
   if ((session == 0 && sequence == 0) || has_no_room_for(channel)) return {};
   Publisher* publisher = find(channel, session);
   const bool is_first = publisher != nullptr && !publisher->is_heard;
@@ -157,24 +181,23 @@ FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view
   if (is_repair) return {.is_repeated = true};
   if (publisher == nullptr) publisher = &add(steady, channel, session, sequence);
   publisher->is_heard = true;
-  Classification result;
   if (is_first && distance(sequence, publisher->last) > kReach) begin_at(*publisher, sequence);
-  if (sequence == publisher->leap) return {.is_repeated = true};
+  if (is_old(steady, *publisher, sequence, utime)) return {.is_repeated = true};
+  Classification result;
   if (sequence > publisher->last) {
     const std::optional<std::int64_t> leapt = publisher->leap;
     if (leaps(*publisher, sequence)) return result;
     result.newly_missing = note_missing(*publisher, steady, publisher->last + 1, sequence);
     publisher->last = sequence;
+    publisher->utime = utime;
     if (leapt) num_missing_ -= publisher->missing.erase(*leapt);  // it was received
-  } else if (distance(sequence, publisher->last) >= kRepetitionReach ||
-             steady - publisher->heard_at >= kRepetitionAge) {
-    if (publisher->lister != 0) return {.is_repeated = true};
-    publisher->first = publisher->last = sequence;  // it starts its sequence anew
-  } else if (sequence < publisher->first) {         // reordered with the first received
+  } else if (distance(sequence, publisher->last) < kRepetitionReach &&
+             steady - publisher->heard_at < kRepetitionAge) {  // reordered with the first received
     result.newly_missing = note_missing(*publisher, steady, sequence + 1, publisher->first);
     publisher->first = sequence;
-  } else {
-    return {.is_repeated = true};
+  } else {  // it starts its sequence anew
+    publisher->first = publisher->last = sequence;
+    publisher->utime = utime;
   }
   publisher->heard_at = steady;
   return result;

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gap detector of one receiver: follows (session, sequence) of each channel's publishers, knows which messages are
-// missing, and schedules repair requests (NACK) with exponential backoff.
+// Gap detector of one receiver: follows (session, sequence) of each channel's publishers, knows which
+// messages are missing, and schedules repair requests (NACK) with exponential backoff.
 //
-// A publisher without sequence numbers sends 0 for both, and is not watched. Messages before the first one received
-// of a flow are not missing, unless the receiver has been subscribed since before the flow began: it is older than
-// the publisher, or received a heartbeat of the publisher that did not list the flow yet. A new session starts
-// without a gap: its publisher was restarted.
+// In a session numbers only rise: an old one that comes again is a duplicate, however old. A publisher that
+// nobody lists in heartbeats may begin its numbers anew in the same session; a lower number is believed of it
+// with a later utime alone, which no old message has.
 //
-// Anybody may publish, so no single number is believed that leaps: one more than kMaxMissing ahead of the flow changes nothing until
-// the next message goes on from there. What was given up is received when it comes after all, so whatever numbers are claimed, a flow
-// that goes on is received. It is listed by the heartbeats of one node, of all its incarnations, until these are silent for kForgottenAfter; they do not
-// leap where messages were received.
+// A publisher without sequence numbers sends 0 for both, and is not watched. Messages before the first one
+// received of a flow are not missing, unless the receiver has been subscribed since before the flow began: it
+// is older than the publisher, or received a heartbeat of the publisher that did not list the flow yet. A new
+// session starts without a gap: its publisher was restarted.
+//
+// Anybody may publish, so no single number is believed that leaps: one more than kMaxMissing ahead of the
+// flow changes nothing until the next message goes on from there. What was given up is received when it comes
+// after all, so whatever numbers are claimed, a flow that goes on is received. It is listed by the heartbeats
+// of one node, of all its incarnations, until these are silent for kForgottenAfter; they do not leap where
+// messages were received.
 //
 // Pure: values in, values out; `steady` is the caller's steady time, never set back.
 #pragma once
@@ -63,9 +68,14 @@ class FlowWatch {
     bool fills_gap = false;          // it was missing
     bool is_repeated = false;        // a duplicate: of the last 64 sequence numbers, within a second
   };
-  // `is_repair`: it answers a request, perhaps of another receiver; then it either fills a gap or is a duplicate.
+  // `is_repair`: it answers a request, perhaps of another receiver; then it either fills a gap or is a
+  // duplicate. `utime`: that of the message, microseconds.
   Classification on_message(SimTime steady, std::string_view channel, std::int64_t session,
-                            std::int64_t sequence, bool is_repair = false);
+                            std::int64_t sequence, bool is_repair = false, std::int64_t utime = 0);
+  // Test for a copy of an old message of its flow: on_message() would find it repeated. Such a copy
+  // tells nothing of its publisher, not even that it lives.
+  bool is_old(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t sequence,
+              std::int64_t utime) const;
 
   // Who lists a flow. `from_its_start`: the receiver is older than the publisher, so it should have all from 0. `makes_flow`: the
   // flow is followed although nothing of it was received yet.
@@ -116,6 +126,7 @@ class FlowWatch {
   struct Publisher {
     std::int64_t session = 0;
     std::int64_t first = 0, last = -1;  // nothing before first is expected; last was received, or announced
+    std::int64_t utime = std::numeric_limits<std::int64_t>::min();  // that of message `last`
     SimTime heard_at;
     bool is_heard = false;  // by more than a heartbeat
     // The node whose heartbeats list it, 0: none. Its numbers go on for as long as its session then, and what is far behind is a duplicate.
@@ -135,6 +146,7 @@ class FlowWatch {
   using Publishers = std::vector<Publisher>;  // the one received last is at the end
 
   Publisher* find(std::string_view channel, std::int64_t session);
+  static bool is_old(SimTime steady, const Publisher& publisher, std::int64_t sequence, std::int64_t utime);
   Publisher& add(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t first);
   void make_room(SimTime steady, Publishers& publishers);
   static bool knows_none(std::string_view) { return false; }
@@ -142,6 +154,8 @@ class FlowWatch {
   void begin_at(Publisher& publisher, std::int64_t sequence);
   void lose(std::int64_t count);
   void lose(Publisher& publisher, std::int64_t first, std::int64_t end);
+  template <class Spans>
+  static auto span_with(Spans& spans, std::int64_t sequence);
   static bool take_lost(Publisher& publisher, std::int64_t sequence);
   std::int64_t note_missing(Publisher& publisher, SimTime steady, std::int64_t first, std::int64_t end);
 

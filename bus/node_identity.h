@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace halocline::bus {
 
@@ -18,6 +19,12 @@ struct NodeIdentity {
   Stage stage = Stage::kClients;
 };
 
+// The session of a node's incarnation. In lockstep it must be the same in each run: made of the seed and the
+// name. In a process of its own it must differ from run to run: made of the given entropy (wall clock,
+// process id) and the name. The session of what a program sends for a vehicle is made of the program's own
+// session and the vehicle's name.
+std::int64_t session_of(std::uint64_t entropy, std::string_view name);
+
 // What a node has counted since it started; published in STATUS.
 struct BusCounters {
   std::int64_t received = 0;
@@ -29,7 +36,8 @@ struct BusCounters {
   std::int64_t repaired = 0;
   std::int64_t lost = 0;
   std::int64_t duplicates = 0;
-  std::int64_t late = 0;
+  std::int64_t late = 0;  // results published more than the scenario's state_lag_s after their instant, and
+                          // what came too late
   std::int64_t wakeups = 0;  // handled, and may have changed when the node is due (Wakeup::kMayAdvanceDue)
 };
 

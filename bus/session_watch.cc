@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <string>
 
+#include "bus/node_identity.h"
+
 namespace halocline::bus {
 
-bool SessionWatch::is_recent(SimTime steady, const Times& times, std::int64_t session) {
+bool SessionWatch::is_recent(SimTime steady, const Times& times, std::int64_t session, SimDuration memory) {
   const auto found = times.find(session);
-  return found != times.end() && steady - found->second < kSilence;
+  return found != times.end() && steady - found->second < memory;
 }
 
 void SessionWatch::note(SimTime steady, Times& times, std::int64_t session) {
@@ -18,7 +20,7 @@ void SessionWatch::note(SimTime steady, Times& times, std::int64_t session) {
 }
 
 void SessionWatch::forget_silent(SimTime steady, Times& times) {
-  std::erase_if(times, [&](const auto& entry) { return steady - entry.second >= kSilence; });
+  std::erase_if(times, [&](const auto& entry) { return steady - entry.second >= kRivalMemory; });
 }
 
 bool SessionWatch::holds(SimTime steady, std::string_view name, std::int64_t session) {
@@ -60,9 +62,27 @@ bool SessionWatch::decides(SimTime steady, std::int32_t receiver, std::int64_t s
   return is_holder;
 }
 
+// Programs that send for a vehicle make the session of its packets of their own.
+bool SessionWatch::is_of_rival(SimTime steady, std::string_view channel, std::int64_t session) const {
+  constexpr std::size_t kMaxCompared = 256;  // in a flood of made-up rivals each would cost a hash
+  if (session == 0 || rivals_.empty()) return false;
+  if (is_recent(steady, rivals_, session, kRivalMemory)) return true;
+  const auto sender = std::find_if(kSent.begin(), kSent.end(),
+                                   [&](const Family& family) { return channel.starts_with(family.prefix); });
+  if (sender == kSent.end() || rivals_.size() > kMaxCompared) return false;
+  const std::string_view vehicle = channel.substr(sender->prefix.size());
+  return std::any_of(rivals_.begin(), rivals_.end(), [&](const auto& rival) {
+    return steady - rival.second < kRivalMemory &&
+           session_of(static_cast<std::uint64_t>(rival.first), vehicle) == session;
+  });
+}
+
 bool SessionWatch::on_message(SimTime steady, std::string_view channel, std::int64_t session,
                               std::optional<std::int32_t> receiver) {
-  if (session != 0 && is_recent(steady, rivals_, session)) return false;
+  constexpr std::string_view kStatus = channels::kStatus.prefix;
+  if (session != 0 && channel.starts_with(kStatus))
+    return on_heartbeat(steady, channel.substr(kStatus.size()), session);
+  if (is_of_rival(steady, channel, session)) return false;
   if (receiver) return decides(steady, *receiver, session);
   const bool is_held = std::any_of(kHeld.begin(), kHeld.end(),
                                    [&](const Family& family) { return channel.starts_with(family.prefix); });

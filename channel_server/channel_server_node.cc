@@ -133,7 +133,7 @@ void ChannelServerNode::on_step(const bus::Now& now) {
   if (recovery_ && !(now.sim_known && recover(now))) return seabed_.publish_queries(now);
   if (now.sim_known) {
     journal_.write_inputs(now.sim);
-    apply(inbox_.take_inputs(), now.sim);
+    apply(inbox_.take_inputs(), now.sim, now.latest());
     set_first_instants(now.sim);
     table_waits_ = false;
     while (next_instant() <= now.sim && !table_waits_)
@@ -144,8 +144,8 @@ void ChannelServerNode::on_step(const bus::Now& now) {
   answer_queries(now);
 }
 
-void ChannelServerNode::apply(StepInputs inputs, SimTime now) {
-  next_environment_ = std::min(next_environment_, processor_.apply(std::move(inputs), now));
+void ChannelServerNode::apply(StepInputs inputs, SimTime now, SimTime latest) {
+  next_environment_ = std::min(next_environment_, processor_.apply(std::move(inputs), now, latest));
 }
 
 void ChannelServerNode::set_first_instants(SimTime now) {
@@ -295,7 +295,7 @@ bool ChannelServerNode::recover(const bus::Now& now) {
     }
     auto inputs = recovery_->next_step(now);
     if (!inputs) return false;
-    apply(std::move(*inputs), recovery_->reached());
+    apply(std::move(*inputs), recovery_->reached(), std::max(recovery_->reached(), now.latest()));
   }
 }
 

@@ -59,6 +59,7 @@ class ChannelServerNode : public bus::Node {
   // Keeps a journal at `path`, and resumes what an earlier incarnation left there, of the same `digest` of the configuration. Once, before anything is
   // dispatched; not in lockstep, where the conductor replays. Throws InvalidArgument when it cannot be written.
   void open_journal(const std::string& path, std::uint64_t digest = 0);
+  bool waits_for_repair() const override { return true; }
 
  protected:
   bus::Due on_due() const override;
@@ -89,7 +90,8 @@ class ChannelServerNode : public bus::Node {
   // False when the seabed under them is not known yet.
   [[nodiscard]] bool prepare(Tables& tables, SimTime steady);
   void advance_medium(SimTime time);
-  void apply(StepInputs inputs, SimTime now);
+  // `latest`: the time by CLOCK, which `now` may lag behind.
+  void apply(StepInputs inputs, SimTime now, SimTime latest);
   void publish_environment(SimTime instant);
   void publish_scenario(SimTime instant);
   void forget_old(SimTime now);

@@ -25,8 +25,8 @@ InputProcessor::InputProcessor(bus::Bus& bus, VehicleRegistry& vehicles, Environ
       medium_(medium),
       packets_(packets) {}
 
-SimTime InputProcessor::apply(StepInputs inputs, SimTime now) {
-  apply_states(std::move(inputs.states), now);
+SimTime InputProcessor::apply(StepInputs inputs, SimTime now, SimTime latest) {
+  apply_states(std::move(inputs.states), latest);
   apply_modems(inputs.modems, now);
   apply_listens(inputs.listens, now);
   VehicleEquipment& equipment = vehicles_.equipment();
@@ -37,18 +37,18 @@ SimTime InputProcessor::apply(StepInputs inputs, SimTime now) {
   for (const auto& [vehicle, sensors] : inputs.sensors)
     equipment.noise.add_rate(vehicle, SimTime::from_utime(sensors.utime), turn_rate_hz(sensors));
   const SimTime changed_from = apply_changes(inputs.changes, now);
-  apply_sends(std::move(inputs.sends), now);
+  apply_sends(std::move(inputs.sends), now, latest);
   for (const modem_reply_t& message : inputs.modem_replies) medium_.add_answer(to_answer(message));
   return changed_from;
 }
 
-void InputProcessor::apply_states(StepInputs::ByVehicle<vehicle_state_t> states, SimTime now) {
+void InputProcessor::apply_states(StepInputs::ByVehicle<vehicle_state_t> states, SimTime latest) {
   std::stable_sort(states.begin(), states.end(), [](const auto& a, const auto& b) {
     return std::tie(a.second.utime, a.first) < std::tie(b.second.utime, b.first);
   });
   for (const auto& [vehicle, message] : states) {
     const StampedState state = to_state(message);
-    const std::string problem = state.time > now + kMaxAhead
+    const std::string problem = state.time > latest + kMaxAhead
                                     ? "utime lies more than 10 s ahead of simulation time"
                                     : vehicles_.add_state(vehicle, message.vehicle_id, state);
     if (!problem.empty()) bus_.refuse(channels::kState.of(vehicle), problem);
@@ -91,13 +91,13 @@ SimTime InputProcessor::apply_changes(const std::vector<environment_change_t>& c
   return changed_from;
 }
 
-void InputProcessor::apply_sends(StepInputs::ByVehicle<modem_send_t> sends, SimTime now) {
+void InputProcessor::apply_sends(StepInputs::ByVehicle<modem_send_t> sends, SimTime now, SimTime latest) {
   std::stable_sort(sends.begin(), sends.end(), [](const auto& a, const auto& b) {
     return std::tie(a.second.utime, a.first, a.second.session, a.second.packet_sequence) <
            std::tie(b.second.utime, b.first, b.second.session, b.second.packet_sequence);
   });
   for (const auto& [vehicle, message] : sends) {
-    if (const auto receipt = medium_.transmit(to_request(vehicle, message), now))
+    if (const auto receipt = medium_.transmit(to_request(vehicle, message), now, latest))
       packets_.publish(*receipt, now);
   }
 }

@@ -22,23 +22,24 @@ namespace halocline::channel_server {
 
 class InputProcessor {
  public:
-  // A state stamped later than this after the step comes from a wrong clock.
+  // A state stamped later than this after the time by CLOCK comes from a wrong clock.
   static constexpr SimDuration kMaxAhead = SimDuration::from_milliseconds(10'000);
 
   // All of them must outlive it.
   InputProcessor(bus::Bus& bus, VehicleRegistry& vehicles, EnvironmentTimeline& waters,
                  const Propagation& propagation, PacketMedium& medium, PacketPublisher& packets);
 
-  // Publishes the receipts that need no waiting. Returns the first instant from which the inputs change the water;
-  // never() where none does.
-  SimTime apply(StepInputs inputs, SimTime now);
+  // Publishes the receipts that need no waiting. Returns the first instant from which the inputs change the
+  // water; never() where none does. `now`: of the step; `latest`: the time by CLOCK, which a step that
+  // catches up lags behind.
+  SimTime apply(StepInputs inputs, SimTime now, SimTime latest);
 
  private:
-  void apply_states(StepInputs::ByVehicle<vehicle_state_t> states, SimTime now);
+  void apply_states(StepInputs::ByVehicle<vehicle_state_t> states, SimTime latest);
   void apply_listens(const StepInputs::ByVehicle<modem_listen_t>& listens, SimTime now);
   void apply_modems(const StepInputs::ByVehicle<modem_config_t>& modems, SimTime now);
   SimTime apply_changes(const std::vector<environment_change_t>& changes, SimTime now);
-  void apply_sends(StepInputs::ByVehicle<modem_send_t> sends, SimTime now);
+  void apply_sends(StepInputs::ByVehicle<modem_send_t> sends, SimTime now, SimTime latest);
 
   bus::Bus& bus_;
   VehicleRegistry& vehicles_;

@@ -46,6 +46,7 @@ class PacedTime : public bus::TimeSource {
     std::int64_t session = 0;
     int count = 0;
     SimTime received;
+    std::int64_t utime = 0, sequence = 0;
   } other_;  // the last conductor heard
   bool running_ = false;
 };

@@ -15,6 +15,7 @@
 namespace halocline::bus {
 namespace {
 constexpr SimDuration kStatusPeriod = SimDuration::from_milliseconds(1000);
+constexpr SimDuration kLatenessReported = SimDuration::from_milliseconds(60'000);
 
 // A message that was published: channel, session and sequence of its flow, bytes.
 using Published = std::tuple<std::string, std::int64_t, std::int64_t, Bytes>;
@@ -188,8 +189,24 @@ void Node::publish_status(const Now& now, const std::string& text) {
   status.lost = counters.lost;
   status.duplicates = counters.duplicates;
   status.late = counters.late;
+  const Lateness lateness = bus_.lateness();
+  status.lateness_p50_s = lateness.p50_s;
+  status.lateness_p99_s = lateness.p99_s;
+  status.lateness_max_s = lateness.max_s;
+  status.lateness_limit_s = bus_.lateness_limit().seconds();
   status.status_text = text;
   bus_.publish(channels::kStatus.of(name()), status);
+  report_lateness(now, lateness);
+}
+
+void Node::report_lateness(const Now& now, const Lateness& lateness) {
+  const double limit_s = bus_.lateness_limit().seconds();
+  if (limit_s == 0 || lateness.max_s <= limit_s || now.steady < next_lateness_report_) return;
+  next_lateness_report_ = now.steady + kLatenessReported;
+  bus_.log().warning("real-time-not-held",
+                     "p50_s=" + std::to_string(lateness.p50_s) + " p99_s=" + std::to_string(lateness.p99_s) +
+                         " max_s=" + std::to_string(lateness.max_s) + " limit_s=" + std::to_string(limit_s) +
+                         " late=" + std::to_string(bus_.counters().late));
 }
 
 }  // namespace halocline::bus

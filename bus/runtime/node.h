@@ -6,6 +6,7 @@
 // of requests, STATUS. Under lockstep the two are the same.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "bus/bus.h"
+#include "bus/lateness_watch.h"
 #include "bus/node_identity.h"
 #include "bus/runtime/state_journal.h"
 #include "bus/subscription.h"
@@ -31,6 +33,10 @@ struct Now {
   SimTime sim;
   SimTime steady;
   bool sim_known = true;  // false until the process has learnt the simulation time; sim is 0 then
+  // The simulation time by the process' source. Later than `sim` while the node catches up: others may be
+  // there already.
+  SimTime clock = SimTime::at_once();
+  SimTime latest() const { return std::max(sim, clock); }
 };
 
 // When a node is next to be stepped: at the earlier of the two. SimTime::at_once() while work is waiting that does not
@@ -71,6 +77,13 @@ class Node {
     bus_.set_steady(steady);
     is_behind_ = is_behind;
   }
+  // Results that go out more than `limit` after their instant, by this clock, are late (lateness_watch.h).
+  void set_clock(Bus::Clock clock, SimDuration limit) { bus_.set_clock(std::move(clock), limit); }
+  // Test for messages that are missing and may still be repaired.
+  bool misses_messages() const { return bus_.num_missing() > 0; }
+  // True of a node whose results depend on all that others have published up to their instant: after a halt of
+  // its process it goes on once what it missed has been repaired.
+  virtual bool waits_for_repair() const { return false; }
   // So many CLOCKs of a second conductor, and leaps of the first without a witness, were refused since the last call.
   void count_refused_clocks(std::int64_t count);
   Stage stage() const { return bus_.identity().stage; }
@@ -130,6 +143,7 @@ class Node {
 
  private:
   void publish_status(const Now& now, const std::string& text);
+  void report_lateness(const Now& now, const Lateness& lateness);
   void commit(const Now& now, const std::function<void()>& publish_all);
   void publish_after_journal(const Now& now, const std::function<void()>& publish_all);
   void write_journal(SimTime now);
@@ -141,7 +155,7 @@ class Node {
   Bus bus_;
   mutable std::optional<Due> known_due_;  // on_due(), until that may have changed
   mutable std::int64_t wakeups_at_due_ = 0;
-  SimTime next_status_;  // steady
+  SimTime next_status_, next_lateness_report_;  // steady
   std::int64_t status_sequence_ = 0;
   bool is_behind_ = false;
   std::unique_ptr<StateJournal> journal_;

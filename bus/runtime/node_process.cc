@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <ctime>
 #include <exception>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -19,6 +20,7 @@
 
 #include "bus/event_log.h"
 #include "bus/files/output_check.h"
+#include "bus/runtime/crash_journal.h"
 #include "bus/runtime/lockstep_process.h"
 #include "bus/runtime/message_batches.h"
 #include "bus/runtime/node_command_line.h"
@@ -104,17 +106,59 @@ SimTime wake_time(const Node& node, const TimeSource& time) {
   return due.sim == SimTime::at_once() ? due.sim : std::min(due.steady, time.steady_at(due.sim));
 }
 
+// Processor time of the process, all threads.
+SimDuration processor_time() {
+  timespec used{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return SimDuration::from_nanoseconds(used.tv_sec * 1'000'000'000 + used.tv_nsec);
+}
+
+// Notices that the process was halted (SIGSTOP, a debugger, a machine that slept or had no processor for it),
+// so that its socket may have run over, and holds its node until repair has brought what it missed.
+class Halt {
+ public:
+  // To be called in each turn of the loop.
+  void look(SimTime steady, const Node& node) {
+    const SimDuration used = processor_time();
+    const SimDuration idle = (steady - looked_) - (used - used_);
+    looked_ = steady;
+    used_ = used;
+    if (idle > kHalted && node.waits_for_repair()) since_ = steady;
+    if (since_ && (steady - *since_ >= kLongest ||
+                   (steady - *since_ >= CrashJournal::kRepairTime && !node.misses_messages())))
+      since_.reset();
+  }
+  bool holds() const { return since_.has_value(); }
+
+ private:
+  // The loop sleeps a tenth of a second at most.
+  static constexpr SimDuration kHalted = SimDuration::from_milliseconds(1000);
+  // A message that nobody can repair must not hold a node for long.
+  static constexpr SimDuration kLongest = SimDuration::from_milliseconds(3000);
+  SimTime looked_ = steady_now();
+  SimDuration used_ = processor_time();
+  std::optional<SimTime> since_;  // steady
+};
+
 // The time of a node's steps. It catches up with its source by slices, between which the node handles messages and the process signals.
 class NodeTime {
  public:
   NodeTime(Node& node, TimeSource& source) : node_(node), source_(source) {}
   const Now& now() const { return now_; }
-  bool is_behind() const { return is_behind_; }  // the next slice waits
+  // The steady time of the next step, or look at the bus.
+  SimTime wake() const {
+    constexpr SimDuration kLook = SimDuration::from_milliseconds(10);
+    if (halt_.holds()) return std::min(node_.due().steady, now_.steady + kLook);
+    return is_behind_ ? SimTime::at_once() : wake_time(node_, source_);
+  }
 
   void update() {
     now_.steady = steady_now();
+    halt_.look(now_.steady, node_);
     const bool restarted = source_.restarted();
-    if (const auto known = source_.now(now_.steady)) {
+    const auto known = source_.now(now_.steady);
+    if (known) now_.clock = *known;
+    if (known && !(halt_.holds() && now_.sim_known && !restarted)) {
       const bool goes_on = now_.sim_known && !restarted;
       const SimTime begin = goes_on ? std::max(now_.sim, std::min(node_.due().sim, *known)) : *known;
       now_.sim = std::min(*known, begin + slice_);
@@ -148,6 +192,7 @@ class NodeTime {
   Node& node_;
   TimeSource& source_;
   Now now_{SimTime(), steady_now(), false};
+  Halt halt_;
   bool is_behind_ = false;
   SimDuration slice_ = kLongestSlice;
   std::int64_t refused_ = 0;
@@ -206,6 +251,7 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
     node->set_route([&](std::string_view channel) -> lcm::LCM& { return tiles->carrier_of(channel, *lcm); });
   }
   log.info("started", "url=" + url);
+  node->set_clock([&] { return time->now(steady_now()); }, run.scenario.state_lag);
   run_node(*lcm, *node, *time, stop_requested, &filter);
   if (const auto now = time->now(steady_now())) log.set_time(*now);
 }
@@ -291,19 +337,21 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
   MessageBatches batches;
   FreeMemory free_memory;
   bool is_behind = false;
+  SimTime emptied = steady_now();  // when nothing waited on the bus
   while (!should_stop()) {
     if (filter != nullptr) filter->follow(&node.receives(), time.receives());
-    const SimTime wake = node_time.is_behind() ? SimTime::at_once() : wake_time(node, time);
+    const SimTime wake = node_time.wake();
     const Readable readable = wait_for_bus(lcm, wake, node.ready_file());
     if (readable.other) node.note_due_changed();
     if (readable.bus && !readable.other) {
       const SimTime steady = steady_now();
       sleep_for(std::min(batches.wait_at(steady), std::max(wake, steady) - steady));
     }
-    time.set_steady(steady_now(), wall_now());
+    time.set_steady(steady_now(), wall_now(), steady_now() - emptied);
     node.set_steady(steady_now(), is_behind);
     const int handled = dispatch_waiting(lcm);
     is_behind = handled == kMaxMessagesPerTurn;
+    if (!is_behind) emptied = steady_now();
     batches.note_handled(handled);
     node_time.update();
     node_time.step_if_due();

@@ -10,7 +10,6 @@
 #include "bus/runtime/receive_filter.h"
 #include "core/limits.h"
 #include "core/names.h"
-#include "core/random.h"
 
 namespace halocline::bus {
 namespace {
@@ -148,6 +147,12 @@ void visit(ConfigVisitor& v, Scenario& s) {
   });
   v.section("ocean", "The ocean as fields of place and time",
             [&](ConfigVisitor& section) { visit_ocean(section, s.ocean); });
+  if (!v.writing()) {  // the key is the channel server's
+    v.section("channel_server", "", [&](ConfigVisitor& section) {
+      section.shared_with_others();
+      seconds(section, "state_lag_s", s.state_lag, {0, 10, "s", ""});
+    });
+  }
   VehicleChecks checks;
   v.list(
       "vehicle", "A vehicle", s.vehicles.size(), [&](std::size_t n) { s.vehicles.resize(n); },
@@ -160,12 +165,6 @@ void visit(ConfigVisitor& v, Scenario& s) {
 std::string configuration_of(const ConfigFile& file) {
   return file.to_toml({"channel_server.shard", "channel_server.shards", "channel_server.threads",
                        "vehicle_sim.block", "vehicle_sim.blocks", "vehicle_sim.threads"});
-}
-
-std::int64_t session_of(std::uint64_t entropy, std::string_view node_name) {
-  const std::uint64_t bits =
-      bits_at({.seed = entropy, .purpose = purpose_of("session"), .who = purpose_of(node_name)});
-  return static_cast<std::int64_t>(bits >> 1 | 1);  // positive, never 0
 }
 
 }  // namespace halocline::bus

@@ -69,7 +69,9 @@ struct Scenario {
   double rate = 1;  // simulated seconds per wall second, for processes that keep pace with the wall
   SimDuration clock_period = SimDuration::from_milliseconds(100);  // between CLOCK messages, simulation time
   std::string accept;  // hosts whose datagrams are received (receive_filter.h)
-  double tile_m = 0;   // of the tiles with a multicast group each (tile_groups.h); 0: one group for all
+  SimDuration state_lag =
+      SimDuration::from_milliseconds(50);  // channel_server.state_lag_s: results later than this are late
+  double tile_m = 0;  // of the tiles with a multicast group each (tile_groups.h); 0: one group for all
   OceanEntry ocean;
   std::vector<VehicleEntry> vehicles;
   std::string configuration;  // configuration_of() its file, no key of it; empty where there is none
@@ -83,9 +85,5 @@ void visit(ConfigVisitor& v, Scenario& scenario);
 // The whole file with its overrides as TOML, as every program of the run reads it; without the keys that share out the
 // work (shards, blocks, threads), which are the programs' own.
 std::string configuration_of(const ConfigFile& file);
-
-// The session of a node's incarnation. In lockstep it must be the same in each run: made of the seed and the name. In a
-// process of its own it must differ from run to run: made of the given entropy (wall clock, process id) and the name.
-std::int64_t session_of(std::uint64_t entropy, std::string_view node_name);
 
 }  // namespace halocline::bus

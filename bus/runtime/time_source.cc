@@ -9,8 +9,6 @@
 namespace halocline::bus {
 namespace {
 
-// Longest delay between the network and a handler that is credited to a message.
-constexpr SimDuration kLongestWait = SimDuration::from_milliseconds(100);
 constexpr SimDuration kSampleMemory = SimDuration::from_milliseconds(1000);
 // Messages of one moment reach us in any order within far less than this; a log started anew jumps by more.
 constexpr SimDuration kJumpBack = SimDuration::from_milliseconds(10'000);
@@ -45,7 +43,18 @@ ConductorTime::ConductorTime(lcm::LCM& lcm, const std::string& process_name)
 
 SimTime ConductorTime::received() const {
   if (!wall_) return steady_;
-  return steady_ - std::clamp(*wall_ - bus_.received_at(), SimDuration(), kLongestWait);
+  return steady_ - std::clamp(*wall_ - bus_.received_at(), SimDuration(), longest_wait_);
+}
+
+// A conductor that keeps no numbers is known by its time alone; one without a session may begin anew in it.
+bool ConductorTime::goes_on(const Heard& before, const sim_clock_t& clock) {
+  const bool is_numbered = clock.sequence != 0 || before.clock.sequence != 0;
+  return is_numbered ? clock.sequence > before.clock.sequence : clock.utime >= before.clock.utime;
+}
+
+bool ConductorTime::is_old(const sim_clock_t& clock) const {
+  return last_ && clock.session != 0 && last_->clock.session == clock.session &&
+         clock.utime <= last_->clock.utime && !goes_on(*last_, clock);
 }
 
 bool ConductorTime::agree(const Heard& before, const sim_clock_t& clock, SimTime received) {
@@ -80,14 +89,15 @@ void ConductorTime::refuse_unexpected() {
     bus_.counters().rivals += count;
     if (count > 0) bus_.refuse(channels::kClock, reason);
   };
-  refuse(std::exchange(num_leaps_, 0), "utime or rate is not what is expected of its session");
+  refuse(std::exchange(num_leaps_, 0), "utime, rate or sequence is not what is expected of its session");
   refuse(std::exchange(num_others_, 0),
          "session is of a second conductor; the first is followed until it is silent for 3 s");
 }
 
 void ConductorTime::on_clock(const sim_clock_t& clock, SimTime received) {
+  if (is_old(clock)) return;
   const bool is_followed = last_ && clock.session == last_->clock.session;
-  if (is_followed && clock.clock_rate == rate_ && agree(*last_, clock, received)) {
+  if (is_followed && clock.clock_rate == rate_ && goes_on(*last_, clock) && agree(*last_, clock, received)) {
     refuse_unexpected();
   } else if (last_ && received - last_->received < kSilence) {
     ++(is_followed ? num_leaps_ : num_others_);

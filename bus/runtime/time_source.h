@@ -4,6 +4,7 @@
 // Steady time (integer nanoseconds since the process started) and wall time are parameters, never read here.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -40,11 +41,13 @@ class SilenceWarning {
 class TimeSource {
  public:
   virtual ~TimeSource() = default;
-  // Called before messages are dispatched: the steady time at which that begins, and the wall time (Unix), against which
-  // LCM's receive stamps give the delay of each message; without it they count as received now.
-  void set_steady(SimTime steady, std::optional<SimTime> wall = {}) {
+  // Called before messages are dispatched: the steady time at which that begins, and the wall time (Unix),
+  // against which LCM's receive stamps give the delay of each message; without it they count as received now.
+  // `longest_wait`: since all had been dispatched before, so that none has waited for longer.
+  void set_steady(SimTime steady, std::optional<SimTime> wall = {}, SimDuration longest_wait = kLongestWait) {
     steady_ = steady;
     wall_ = wall;
+    longest_wait_ = std::max(longest_wait, kLongestWait);
   }
   // Simulation time at `steady`; empty while none is known yet. Never goes back unless restarted().
   virtual std::optional<SimTime> now(SimTime steady) = 0;
@@ -58,8 +61,12 @@ class TimeSource {
   virtual const Subscriptions* receives() const { return nullptr; }
 
  protected:
+  // Longest delay between the network and a handler that is credited to a message of a process that was not
+  // halted.
+  static constexpr SimDuration kLongestWait = SimDuration::from_milliseconds(100);
   SimTime steady_;
   std::optional<SimTime> wall_;
+  SimDuration longest_wait_ = kLongestWait;
 };
 
 // Follows the CLOCK of a conductor, and coasts at its last rate when the conductor falls silent.
@@ -67,10 +74,12 @@ class TimeSource {
 // Each CLOCK carries a simulation time and a rate, and is received after an unknown delay; so the smallest
 // (steady - utime / rate) of the last second is the best estimate of the offset between the clocks.
 //
-// Anybody may publish CLOCK. A session is taken up when two of its CLOCKs agree: the second tells the time that the first lets
-// expect, to kLeap behind and kLeapAhead ahead (of simulated or of steady time, whichever is longer). It stays until nothing as expected
-// has come of it for kSilence. CLOCKs of other sessions, and of its own that leap or have another rate, are refused until then, and count
-// as refused once it is heard again. A restarted conductor goes on from the time of the others, who coast until they take it up.
+// Anybody may publish CLOCK. A session is taken up when two of its CLOCKs agree: the second tells the time
+// that the first lets expect, to kLeap behind and kLeapAhead ahead (of simulated or of steady time, whichever
+// is longer). It stays until nothing as expected has come of it for kSilence. CLOCKs of other sessions, and
+// of its own that leap or have another rate, are refused until then, and count as refused once it is heard
+// again. Within a session numbers and times rise: an old CLOCK that comes again changes nothing. A restarted
+// conductor goes on from the time of the others, who coast until they take it up.
 class ConductorTime : public TimeSource {
  public:
   static constexpr SimDuration kSilence = SimDuration::from_milliseconds(3000);
@@ -98,6 +107,8 @@ class ConductorTime : public TimeSource {
     SimTime received;  // steady
   };
   static bool agree(const Heard& before, const sim_clock_t& clock, SimTime received);
+  static bool goes_on(const Heard& before, const sim_clock_t& clock);
+  bool is_old(const sim_clock_t& clock) const;
   bool is_witnessed(const sim_clock_t& clock, SimTime received);
   void refuse_unexpected();
   void take(const sim_clock_t& clock, SimTime received);

@@ -39,13 +39,14 @@ PacketMedium::PacketMedium(const VehicleRegistry& fleet, Propagation& propagatio
   validate(rule_.noise);
 }
 
-std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTime now) {
+std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTime now, SimTime latest) {
   if (!register_.enter(request)) {
     const Receipt* given = register_.receipt_of(request);
     return given && rule_.shard.serves(request.source_id) ? std::optional(*given) : std::nullopt;
   }
   Receipt refusal{request.vehicle, request.session, request.packet_sequence, SendResult::kStale, {}, {}};
-  if (request.start >= now - rule_.max_lateness && request.start <= now + rule_.max_earliness) {
+  const SimTime last_start = std::max(now, latest) + rule_.max_earliness;
+  if (request.start >= now - rule_.max_lateness && request.start <= last_start) {
     add_departure(request.start, {request, nullptr, nullptr});
     return std::nullopt;
   }

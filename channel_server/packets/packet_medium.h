@@ -95,9 +95,11 @@ class PacketMedium {
   PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule,
                ReachModel* reach = nullptr, ForEach for_each = one_after_the_other);
 
-  // A request received at `now`. A receipt when it can be given without waiting for the start:
-  // a refusal for lateness or earliness, or the answer to a repetition. Otherwise the receipt is an event.
-  [[nodiscard]] std::optional<Receipt> transmit(const SendRequest& request, SimTime now);
+  // A request received at `now`, of a medium that may lag behind the time of its senders, `latest`. A receipt
+  // when it can be given without waiting for the start: the answer to a repetition, however old, or a refusal
+  // for lateness or earliness. Otherwise the receipt is an event.
+  [[nodiscard]] std::optional<Receipt> transmit(const SendRequest& request, SimTime now,
+                                                SimTime latest = SimTime::at_once());
 
   // A modem that another shard serves will answer a packet; a repetition changes nothing.
   void add_answer(const ModemReply& answer);

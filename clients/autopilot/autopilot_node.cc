@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bus/newest.h"
 #include "bus/subscription.h"
 #include "clients/autopilot/autopilot_messages.h"
 #include "clients/autopilot/formation.h"
@@ -55,15 +56,16 @@ void AutopilotNode::subscribe(Pilot& pilot) {
   } else {
     bus().subscribe<vehicle_state_t>(
         bus::channels::kState.of(config.vehicle),
-        [&pilot](const vehicle_state_t& state) { pilot.state = state; }, bus::Wakeup::kStoreOnly);
+        bus::newest<vehicle_state_t>([&pilot](const vehicle_state_t& state) { pilot.state = state; }),
+        bus::Wakeup::kStoreOnly);
   }
   bus().subscribe<vehicle_sensors_t>(
       bus::channels::kSensors.of(config.vehicle),
-      [&pilot](const vehicle_sensors_t& sensors) {
+      bus::newest<vehicle_sensors_t>([&pilot](const vehicle_sensors_t& sensors) {
         pilot.sensors = sensors;
         pilot.looked = false;
         if (pilot.navigator) reckon(pilot, sensors);
-      },
+      }),
       bus::Wakeup::kStoreOnly);
 }
 
@@ -78,12 +80,11 @@ void AutopilotNode::subscribe_fixes(Pilot& pilot) {
       bus::channels::kEstimate.of(name),
       [&pilot](const position_estimate_t& estimate) { take_in(estimate, *pilot.navigator); },
       bus::Wakeup::kStoreOnly);
-  bus().subscribe<vehicle_dvl_t>(
-      bus::channels::kDvl.of(name),
-      [&pilot](const vehicle_dvl_t& ping) {
-        if (ping.ground_velocity_valid) pilot.ping = ping;
-      },
-      bus::Wakeup::kStoreOnly);
+  bus().subscribe<vehicle_dvl_t>(bus::channels::kDvl.of(name),
+                                 bus::newest<vehicle_dvl_t>([&pilot](const vehicle_dvl_t& ping) {
+                                   if (ping.ground_velocity_valid) pilot.ping = ping;
+                                 }),
+                                 bus::Wakeup::kStoreOnly);
   bus().subscribe<vehicle_gps_t>(
       bus::channels::kGps.of(name), [&pilot](const vehicle_gps_t& fix) { take_in(fix, *pilot.navigator); },
       bus::Wakeup::kStoreOnly);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "bus/newest.h"
 #include "bus/runtime/scenario.h"
 #include "bus/subscription.h"
 #include "channel_server/packets/packet.h"
@@ -58,7 +59,8 @@ LocaliserNode::LocaliserNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Lo
   }
   if (vehicles_.empty()) return;
   bus().subscribe<environment_t>(
-      bus::channels::kEnvironment, [this](const environment_t& message) { take_environment(message); },
+      bus::channels::kEnvironment,
+      bus::newest<environment_t>([this](const environment_t& message) { take_environment(message); }),
       bus::Wakeup::kStoreOnly);
 }
 

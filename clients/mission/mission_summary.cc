@@ -10,6 +10,7 @@
 
 #include "clients/mission/delivery.h"
 #include "clients/mission/mission_vehicle.h"
+#include "clients/mission/node_health.h"
 #include "clients/mission/outcome_ledger.h"
 #include "clients/mission/packet_book.h"
 #include "clients/mission/plan_texts.h"
@@ -131,12 +132,28 @@ void add_packets(const MissionStore& mission, std::vector<SummaryRow>& rows) {
   rows.push_back({"lost", text});
 }
 
+// Programs whose results went out later than the scenario allows, the latest first.
+void add_lateness(const MissionStore& mission, std::vector<SummaryRow>& rows) {
+  std::vector<std::pair<double, std::string>> late;
+  for (const auto& [name, node] : mission.health().nodes()) {
+    if (!node.held_real_time()) late.emplace_back(node.lateness_max_s, name);
+  }
+  if (late.empty()) return;
+  std::sort(late.rbegin(), late.rend());
+  std::string text = "real time was not held: results up to";
+  for (std::size_t i = 0; i < std::min(late.size(), kRowsEach); ++i)
+    text += fmt::format("{} {:.2g} s late from {}", i == 0 ? "" : ",", late[i].first, late[i].second);
+  if (late.size() > kRowsEach) text += fmt::format(" and {} more", late.size() - kRowsEach);
+  rows.push_back({"time", text});
+}
+
 }  // namespace
 
 std::vector<SummaryRow> mission_summary(const MissionStore& mission) {
   std::vector<SummaryRow> rows;
   add_vehicles(mission, rows);
   add_packets(mission, rows);
+  add_lateness(mission, rows);
   return rows;
 }
 

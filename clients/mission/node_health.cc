@@ -22,6 +22,7 @@ void NodeHealth::add_status(std::int64_t stamp_us, const std::string& node, cons
   NodeRecord& record = alive(stamp_us, node);
   if (record.statuses == 0 || record.status.session != status.session) ++record.incarnations;
   record.status = status;
+  record.lateness_max_s = std::max(record.lateness_max_s, status.lateness_max_s);
   ++record.statuses;
 }
 

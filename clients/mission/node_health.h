@@ -18,6 +18,11 @@ struct NodeRecord {
   std::int64_t last_stamp_us = 0;       // of the last STATUS or HEARTBEAT, by the recorder's clock
   std::int64_t longest_silence_us = 0;  // between two of them
   std::int64_t incarnations = 0;        // sessions: more than one, and it was started again
+  double lateness_max_s = 0;            // its results' greatest, over all statuses (node_status_t)
+
+  bool held_real_time() const {
+    return status.lateness_limit_s == 0 || lateness_max_s <= status.lateness_limit_s;
+  }
 };
 
 class NodeHealth {

@@ -193,6 +193,23 @@ TEST_F(BusTest, AfterAFailureNothingMoreIsHandled) {
   EXPECT_EQ(received, 1);
 }
 
+TEST_F(BusTest, ResultsThatGoOutAfterTheirInstantByTheClockCountAsLate) {
+  const auto publish_at = [&](std::string_view channel, double utime_s) {
+    auto state = valid_message<vehicle_state_t>(1);
+    state.utime = SimTime::from_seconds(utime_s).to_utime();
+    bus_.publish(channel, state);
+  };
+  std::optional<SimTime> now;
+  bus_.set_clock([&] { return now; }, SimDuration::from_milliseconds(50));
+  publish_at("STATE.a", 1);  // no time is known
+  now = SimTime::from_seconds(30);
+  for (const double utime_s : {5.1, 29.96, 30.0, 31.0}) publish_at("STATE.a", utime_s);
+  publish_at("HEARTBEAT.a", 1);
+  EXPECT_EQ(bus_.counters().late, 1);
+  EXPECT_EQ(bus_.lateness().max_s, 24.9);
+  EXPECT_EQ(bus_.lateness().p50_s, 0);
+}
+
 TEST_F(BusTest, CountsTheGapsOfASession) {
   bus_.subscribe<sim_clock_t>(channels::kClock, [](const sim_clock_t&) {});
   sim_clock_t clock = valid_message<sim_clock_t>(1);

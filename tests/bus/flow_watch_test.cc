@@ -218,7 +218,30 @@ TEST_F(FlowWatchTest, AMessageReceivedTwiceIsADuplicate) {
 
 TEST_F(FlowWatchTest, APublisherThatRestartsItsSequenceAfterASilenceIsReceived) {
   receive({0, 1, 2, 3});
-  EXPECT_FALSE(watch_.on_message(at_ms(2000), "A", 1, 0).is_repeated);
+  EXPECT_FALSE(watch_.on_message(at_ms(2000), "A", 1, 0, false, 2'000'000).is_repeated);
+}
+
+// An exact copy has the time of the original, so it is no new beginning of a publisher without heartbeats.
+TEST_F(FlowWatchTest, AnOldMessageOfAFlowThatNobodyListsIsADuplicateHoweverOld) {
+  const auto utime = [](std::int64_t sequence) { return 100'000 * sequence; };
+  for (std::int64_t i = 0; i < 100; ++i) watch_.on_message(at_ms(100 * i), "A", 1, i, false, utime(i));
+  for (const std::int64_t old : {0, 9, 50, 98, 99}) {
+    EXPECT_TRUE(watch_.is_old(at_ms(19'000), "A", 1, old, utime(old))) << old;
+    EXPECT_TRUE(watch_.on_message(at_ms(19'000), "A", 1, old, false, utime(old)).is_repeated) << old;
+  }
+  EXPECT_FALSE(watch_.is_old(at_ms(20'000), "A", 1, 100, utime(100)));
+  const auto next = watch_.on_message(at_ms(20'000), "A", 1, 100, false, utime(100));
+  EXPECT_FALSE(next.is_repeated);
+  EXPECT_EQ(next.newly_missing, 0);
+}
+
+TEST_F(FlowWatchTest, WhatIsMissingOrGivenUpIsNotOld) {
+  watch_.on_message(SimTime(), "A", 1, 0, false, 0);
+  watch_.on_message(SimTime(), "A", 1, 3, false, 300);
+  EXPECT_FALSE(watch_.is_old(at_ms(1), "A", 1, 1, 100));
+  watch_.take_due(at_ms(10'000));
+  EXPECT_FALSE(watch_.is_old(at_ms(10'001), "A", 1, 2, 200));
+  EXPECT_FALSE(watch_.is_old(at_ms(10'001), "B", 1, 0, 0));
 }
 
 // A datagram that the network delivers again much later, or that somebody replays: without the heartbeat it would be a new start, after which all that

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bus/node_identity.h"
 #include "tests/support/at_ms.h"
 
 namespace halocline::bus {
@@ -88,6 +89,26 @@ TEST(SessionWatch, AForgedClaimToANameSilencesNoOther) {
   EXPECT_FALSE(watch.on_heartbeat(at_ms(10), "vehicle-sim", 2));
   EXPECT_TRUE(watch.on_message(at_ms(20), "OUTCOME", 2));
   EXPECT_TRUE(watch.on_heartbeat(at_ms(250), "channel-server", 2));
+}
+
+// The log of an earlier run, played onto this one: it begins with the first steps of the programs of then.
+TEST(SessionWatch, AStatusIsAClaimToItsNameAndPacketsOfARivalAreRefusedWithIt) {
+  SessionWatch watch;
+  const auto packets_of = [](std::int64_t session) {
+    return session_of(static_cast<std::uint64_t>(session), "auv-1");
+  };
+  EXPECT_TRUE(watch.on_message(at_ms(0), "STATUS.traffic", 1));
+  for (int ms = 100; ms < 10'000; ms += 1000) {
+    EXPECT_TRUE(watch.on_message(at_ms(ms - 50), "STATUS.traffic", 1));
+    EXPECT_FALSE(watch.on_message(at_ms(ms), "STATUS.traffic", 9));
+    for (const int later_ms : {1, 900}) {
+      EXPECT_FALSE(watch.on_message(at_ms(ms + later_ms), "SEND.auv-1", packets_of(9)));
+      EXPECT_FALSE(watch.on_message(at_ms(ms + later_ms), "LISTEN.auv-1", packets_of(9)));
+      EXPECT_TRUE(watch.on_message(at_ms(ms + later_ms), "SEND.auv-1", packets_of(1)));
+      EXPECT_TRUE(watch.on_message(at_ms(ms + later_ms), "SEND.auv-1", 5));  // its program has no STATUS
+    }
+    watch.on_heartbeat(at_ms(ms + 500), "traffic", 1);
+  }
 }
 
 TEST(SessionWatch, NamesWithoutEndDoNotForgetThoseThatAreBelieved) {

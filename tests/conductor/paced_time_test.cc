@@ -87,9 +87,19 @@ TEST_F(PacedTimeTest, WhereAnotherConductorRunsItDoesNotStart) {
   time.now(at(0));
   for (const double steady_s : {0.5, 0.6}) {
     time.set_steady(at(steady_s));
-    time.on_clock(clock_of(7, 1'000'000));
+    time.on_clock(clock_of(7, at(steady_s).to_utime()));
   }
   EXPECT_THROW(time.now(at(1.3)), bus::NetworkError);
+}
+
+TEST_F(PacedTimeTest, AnOldClockAgainAndAgainIsNoOtherConductor) {
+  PacedTime time(lcm_, 1);
+  time.now(at(0));
+  for (const double steady_s : {0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1}) {
+    time.set_steady(at(steady_s));
+    time.on_clock(clock_of(7, 1'000'000));
+  }
+  EXPECT_TRUE(time.now(at(1.3)).has_value());
 }
 
 TEST_F(PacedTimeTest, OneClockOrOnesThatHaveEndedDoNotKeepItFromStarting) {

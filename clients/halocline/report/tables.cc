@@ -144,17 +144,20 @@ std::string node_table(const MissionStore& mission) {
   std::string rows;
   for (const auto& [name, node] : mission.health().nodes()) {
     const node_status_t& s = node.status;
-    if (s.gaps + s.lost + s.late + s.messages_refused == 0 && node.incarnations < 2) continue;
+    const bool is_sound = s.gaps + s.lost + s.late + s.messages_refused == 0 && node.held_real_time();
+    if (is_sound && node.incarnations < 2) continue;
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
-        "<td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
-        escaped_xml(name), s.messages_received, s.gaps, s.repaired, s.lost, s.late, node.incarnations - 1);
+        "<td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{:.2g}</td>"
+        "<td class=\"number\">{}</td></tr>\n",
+        escaped_xml(name), s.messages_received, s.gaps, s.repaired, s.lost, s.late, node.lateness_max_s,
+        node.incarnations - 1);
   }
   if (rows.empty()) return "";
   return "<table><tr><th>program</th><th class=\"number\">received</th><th class=\"number\">missed</th><th "
          "class=\"number\">"
          "repaired</th><th class=\"number\">lost</th><th class=\"number\">late</th><th "
-         "class=\"number\">restarts</th></tr>\n" +
+         "class=\"number\">latest, s</th><th class=\"number\">restarts</th></tr>\n" +
          rows + "</table>\n";
 }
 

@@ -179,6 +179,7 @@ json nodes_json(const Source& source, SimTime at) {
                    {"lost", status.lost},
                    {"duplicates", status.duplicates},
                    {"late", status.late},
+                   {"lateness_max_s", status.lateness_max_s},
                    {"text", status.status_text}});
   }
   return all;

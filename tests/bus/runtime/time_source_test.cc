@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -205,6 +206,49 @@ TEST_F(ConductorTimeTest, LeapsOfTheSameSessionAreRefusedWhileItIsHeardAsExpecte
     ASSERT_EQ(time_.num_refused(), forged);
   }
   EXPECT_FALSE(time_.restarted());
+}
+
+TEST_F(ConductorTimeTest, AnOldClockOfItsSessionSentAgainChangesNothing) {
+  follow(1, 100);
+  const sim_clock_t old = clock_at(100.1);
+  for (int tick = 1; tick <= 400; ++tick) {
+    const double passed_s = 0.1 * tick;
+    if (tick > 90 && tick % 20 == 0) time_.on_clock(old, at(0.95 + passed_s));
+    receive(1 + passed_s, 100 + passed_s);
+    ASSERT_NEAR(now(1.05 + passed_s), 100.05 + passed_s, 1e-6);
+  }
+  EXPECT_EQ(time_.num_refused(), 0);
+  EXPECT_FALSE(time_.restarted());
+}
+
+// As lcm-logplayer sends them: each 9 s old, at their pace; then the conductor is gone.
+TEST_F(ConductorTimeTest, AllClocksOfTheRunSentAgainAfterNineSecondsChangeNothing) {
+  follow(1, 100);
+  std::vector<sim_clock_t> sent;
+  for (int tick = 1; tick <= 600; ++tick) {
+    const double passed_s = 0.1 * tick;
+    sent.push_back(clock_at(100 + passed_s));
+    if (tick > 90) time_.on_clock(sent[static_cast<std::size_t>(tick - 91)], at(0.98 + passed_s));
+    if (tick < 300) time_.on_clock(sent.back(), at(1 + passed_s));
+    ASSERT_NEAR(now(1.05 + passed_s), 100.05 + passed_s, 1e-6);
+    if (tick == 389) break;  // all that the conductor published
+  }
+  EXPECT_EQ(time_.num_refused(), 0);
+  EXPECT_FALSE(time_.restarted());
+}
+
+TEST_F(ConductorTimeTest, OfAConductorWithoutNumbersAnEarlierTimeChangesNothing) {
+  const auto receive_unnumbered = [&](double steady_s, double sim_s) {
+    sim_clock_t clock = clock_at(sim_s);
+    clock.sequence = 0;
+    time_.on_clock(clock, at(steady_s));
+  };
+  receive_unnumbered(0.9, 99.9);
+  for (int tick = 0; tick <= 300; ++tick) {
+    receive_unnumbered(1 + 0.1 * tick, 100 + 0.1 * tick);
+    if (tick > 90 && tick % 20 == 0) receive_unnumbered(1.02 + 0.1 * tick, 91);
+    ASSERT_NEAR(now(1.05 + 0.1 * tick), 100.05 + 0.1 * tick, 1e-6);
+  }
 }
 
 TEST_F(ConductorTimeTest, ALeapIsFollowedAfterThreeSecondsWithoutTheExpectedTime) {

@@ -32,6 +32,18 @@ TEST(NodeHealth, CountersAreThoseOfTheLastStatus) {
   EXPECT_EQ(health.nodes().at("bathymetry").statuses, 2);
 }
 
+TEST(NodeHealth, TheGreatestLatenessOfTheRunTellsWhetherRealTimeWasHeld) {
+  NodeHealth health;
+  node_status_t s = status(7, 0);
+  s.lateness_limit_s = 0.05;
+  for (const double max_s : {0.01, 0.06, 0.02}) {
+    s.lateness_max_s = max_s;
+    health.add_status(1 * kSecond, "channel-server", s);
+    EXPECT_EQ(health.nodes().at("channel-server").held_real_time(), max_s == 0.01);
+  }
+  EXPECT_EQ(health.nodes().at("channel-server").lateness_max_s, 0.06);
+}
+
 TEST(NodeHealth, ASilenceEndsWithAStatusOrAHeartbeat) {
   NodeHealth health;
   health.add_status(1 * kSecond, "bathymetry", status(7, 0));

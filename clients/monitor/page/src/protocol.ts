@@ -110,6 +110,7 @@ export interface NodeHealth {
   lost: number;
   duplicates: number;
   late: number;
+  lateness_max_s: number;
   text: string;
 }
 
