@@ -2,6 +2,7 @@
 #include "bus/bus.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <functional>
@@ -27,6 +28,19 @@ constexpr int kQueueCapacity = 20'000;
 // What kind of refusal this is: the channel and the field, whatever value it held.
 std::string kind_of(std::string_view channel, std::string_view reason) {
   return std::string(channel) + " " + std::string(reason.substr(0, reason.find(" is ")));
+}
+
+// Channels of results, whose utime is the instant at which they were due: not of requests, which name the
+// instant from which they hold, nor of what repairs the bus.
+bool is_result(std::string_view channel) {
+  constexpr std::array kFamilies{
+      channels::kState,    channels::kSensors,    channels::kDvl,         channels::kGps,
+      channels::kSonar,    channels::kUsbl,       channels::kBattery,     channels::kCommand,
+      channels::kEstimate, channels::kReceipt,    channels::kReceive,     channels::kLinks,
+      channels::kPlan,     channels::kModemEvent, channels::kModemEnergy, channels::kAutopilot};
+  return channel == channels::kOutcome || channel == channels::kClock ||
+         std::any_of(kFamilies.begin(), kFamilies.end(),
+                     [&](const Family& family) { return channel.starts_with(family.prefix); });
 }
 
 }  // namespace
@@ -209,34 +223,29 @@ void Bus::restore_history(std::string_view channel, std::int64_t session, std::i
   if (repair_) repair_->restore_history(channel, session, sequence, std::move(bytes));
 }
 
-// Looked at before rivals are: it tells nothing of who publishes now.
-bool Bus::is_old(std::string_view channel, std::int64_t session, std::int64_t sequence, std::int64_t utime) {
-  if (!repair_ || !flows_.is_old(steady_, channel, session, sequence, utime)) return false;
-  ++counters_.received;
-  ++counters_.duplicates;
-  return true;
-}
-
-bool Bus::is_rival(std::string_view channel, std::int64_t session, std::optional<std::int32_t> receiver) {
-  if (!repair_ || sessions_.on_message(steady_, channel, session, receiver)) return false;
-  refuse_rival(channel, session);
-  return true;
-}
-
 void Bus::refuse_rival(std::string_view channel, std::int64_t session) {
   ++counters_.rivals;
   refuse(channel, "session is " + std::to_string(session) +
                       ", a rival's: another is publisher until it has been silent for 1 s");
 }
 
-bool Bus::is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence,
-                        std::int64_t utime) {
-  const auto arrival = flows_.on_message(steady_, channel, session, sequence, is_repair_, utime);
+// A copy of an old message is looked for before rivals are: it tells nothing of who publishes now.
+bool Bus::takes(std::string_view channel, const FlowHead& head) {
+  const auto& [session, sequence, utime, receiver, is_packet] = head;
+  const bool may_come_again = is_packet && !is_repair_;
+  const bool is_old = repair_ && !may_come_again && flows_.is_old(steady_, channel, session, sequence, utime);
+  if (repair_ && !is_old && !sessions_.on_message(steady_, channel, session, receiver)) {
+    refuse_rival(channel, session);
+    return false;
+  }
+  ++counters_.received;
+  const auto arrival = is_old ? FlowWatch::Classification{.is_repeated = true}
+                              : flows_.on_message(steady_, channel, session, sequence, is_repair_, utime);
   counters_.gaps = saturating_sum(counters_.gaps, arrival.newly_missing);
   counters_.repaired += arrival.fills_gap ? 1 : 0;
-  if (!repair_ || !arrival.is_repeated) return false;
+  if (!repair_ || !arrival.is_repeated) return true;
   ++counters_.duplicates;
-  return true;
+  return may_come_again;
 }
 
 void Bus::enable_repair() {
@@ -254,22 +263,13 @@ void Bus::enable_repair() {
       channels::kStatus, [](std::string_view, const node_status_t&) {}, Wakeup::kStoreOnly);
 }
 
-void Bus::set_clock(Clock clock, SimDuration limit) {
-  clock_ = std::move(clock);
-  lateness_limit_ = limit;
-}
-
 void Bus::note_lateness(std::string_view channel, const void* data, std::size_t size) {
-  if (!clock_ || size < kSessionAt || !LatenessWatch::is_result(channel)) return;
-  const auto now = clock_();
-  if (!now) return;
-  std::int64_t utime = 0;
+  if (size < kSessionAt || !is_result(channel)) return;
+  std::uint64_t utime = 0;
   for (std::size_t i = kUtimeAt; i < kSessionAt; ++i)
-    utime = static_cast<std::int64_t>(static_cast<std::uint64_t>(utime) << 8U |
-                                      static_cast<const std::uint8_t*>(data)[i]);
-  const SimDuration lateness = *now - SimTime::from_utime(utime);
-  lateness_.add(steady_, lateness);
-  if (lateness_limit_ > SimDuration()) counters_.late += lateness > lateness_limit_ ? 1 : 0;
+    utime = utime << 8U | static_cast<const std::uint8_t*>(data)[i];
+  const bool is_late = lateness_.note(steady_, SimTime::from_utime(static_cast<std::int64_t>(utime)));
+  counters_.late += is_late ? 1 : 0;
 }
 
 void Bus::on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat) {

@@ -31,9 +31,9 @@
 #include "bus/event_log.h"
 #include "bus/flow_repair.h"
 #include "bus/flow_watch.h"
-#include "bus/lateness_watch.h"
 #include "bus/message_codec.h"
 #include "bus/node_identity.h"
+#include "bus/sending/lateness_watch.h"
 #include "bus/sending/publication_pace.h"
 #include "bus/sending/unsent_messages.h"
 #include "bus/sequence_number.h"
@@ -100,14 +100,8 @@ class Bus {
   SimTime next_repair() const;
   void forget_flows() { flows_.forget(); }  // another run has begun: sequences may start anew
   void continue_flows(FlowWatch::Knows knows) { flows_.go_on(std::move(knows)); }  // of earlier incarnations
-  // Number of messages that are missing and requested.
-  std::size_t num_missing() const { return flows_.num_missing(); }
-  // Simulation time by CLOCK at this moment, empty while unknown. From now on results that go out more than
-  // `limit` after their utime count as late.
-  using Clock = std::function<std::optional<SimTime>()>;
-  void set_clock(Clock clock, SimDuration limit);
-  SimDuration lateness_limit() const { return lateness_limit_; }
-  Lateness lateness() { return lateness_.summary(steady_); }
+  std::size_t num_missing() const { return flows_.num_missing(); }  // messages that are requested
+  LatenessWatch& lateness() { return lateness_; }                   // of the results that go out
   const NodeIdentity& identity() const { return identity_; }
   BusCounters& counters() { return counters_; }
   const BusCounters& counters() const { return counters_; }
@@ -125,12 +119,8 @@ class Bus {
   const std::vector<const Subscription*>& subscriptions_to(std::string_view channel);
   template <class Message>
   [[nodiscard]] bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
-  // True of a copy of an old message, which is counted.
-  bool is_old(std::string_view channel, std::int64_t session, std::int64_t sequence, std::int64_t utime);
-  bool is_rival(std::string_view channel, std::int64_t session, std::optional<std::int32_t> receiver);
   void refuse_rival(std::string_view channel, std::int64_t session);
-  bool is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence,
-                     std::int64_t utime);
+  bool takes(std::string_view channel, const FlowHead& head);
   void on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat);
   void note_lateness(std::string_view channel, const void* data, std::size_t size);
   bool send(const std::string& channel, const void* data, std::size_t size);
@@ -145,9 +135,7 @@ class Bus {
   std::unique_ptr<FlowRepair> repair_;
   std::unique_ptr<PublicationPace> pace_;
   UnsentMessages unsent_;
-  Clock clock_;
   LatenessWatch lateness_;
-  SimDuration lateness_limit_;
   SimTime steady_, received_at_;
   bool is_repair_ = false;  // the message being handled came on REPAIR.<channel>
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports
@@ -202,17 +190,10 @@ bool Bus::accept(std::string_view channel, const void* data, std::size_t size, M
     refuse(channel, problem);
     return false;
   }
-  bool is_duplicate = false;
   if constexpr (IsOfFlow<Message>) {
-    const bool may_come_again = IsPacketToSend<Message> && !is_repair_;
-    if (!may_come_again && is_old(channel, message.session, sequence_of(message), message.utime))
-      return false;
-    if (is_rival(channel, message.session, receiver_of(message))) return false;
-    is_duplicate =
-        is_repetition(channel, message.session, sequence_of(message), message.utime) && !may_come_again;
-  }
-  ++counters_.received;
-  if (is_duplicate) return false;
+    if (!takes(channel, flow_head_of(message))) return false;
+  } else
+    ++counters_.received;
   if (tap_) tap_(channel, data, size);
   return true;
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/random.h"
+
 namespace halocline::bus {
 
 // The order in which participants step at one instant of lockstep (lockstep_schedule.h): sources of information
@@ -23,7 +25,11 @@ struct NodeIdentity {
 // name. In a process of its own it must differ from run to run: made of the given entropy (wall clock,
 // process id) and the name. The session of what a program sends for a vehicle is made of the program's own
 // session and the vehicle's name.
-std::int64_t session_of(std::uint64_t entropy, std::string_view name);
+inline std::int64_t session_of(std::uint64_t entropy, std::string_view name) {
+  const std::uint64_t bits =
+      bits_at({.seed = entropy, .purpose = purpose_of("session"), .who = purpose_of(name)});
+  return static_cast<std::int64_t>(bits >> 1 | 1);  // positive, never 0
+}
 
 // What a node has counted since it started; published in STATUS.
 struct BusCounters {

@@ -48,4 +48,17 @@ std::optional<std::int32_t> receiver_of(const Message& message) {
   return std::nullopt;
 }
 
+// Place of a message in its flow.
+struct FlowHead {
+  std::int64_t session = 0, sequence = 0, utime = 0;
+  std::optional<std::int32_t> receiver;  // of an OUTCOME
+  bool is_packet = false;                // a SEND
+};
+
+template <class Message>
+FlowHead flow_head_of(const Message& message) {
+  return {message.session, sequence_of(message), message.utime, receiver_of(message),
+          IsPacketToSend<Message>};
+}
+
 }  // namespace halocline::bus

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/runtime/message_batches.h"
 
+#include "bus/runtime/crash_journal.h"
+
 namespace halocline::bus {
 
 SimDuration MessageBatches::wait_at(SimTime steady) {
@@ -11,6 +13,19 @@ SimDuration MessageBatches::wait_at(SimTime steady) {
     messages_ = 0;
   }
   return is_busy_ ? kBatch : SimDuration();
+}
+
+void Halt::look(SimTime steady, SimDuration used, bool waits, bool misses) {
+  constexpr SimDuration kHalted = SimDuration::from_milliseconds(1000);  // the loop sleeps 0.1 s at most
+  // A message that nobody can repair must not hold a node for long.
+  constexpr SimDuration kLongest = SimDuration::from_milliseconds(3000);
+  const SimDuration idle = (steady - looked_) - (used - used_);
+  looked_ = steady;
+  used_ = used;
+  if (idle > kHalted && waits) since_ = steady;
+  if (!since_) return;
+  const SimDuration held = steady - *since_;
+  if (held >= kLongest || (held >= CrashJournal::kRepairTime && !misses)) since_.reset();
 }
 
 }  // namespace halocline::bus

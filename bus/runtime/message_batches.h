@@ -6,6 +6,8 @@
 // message of a busy bus is handled up to kBatch later, far less than the lag of positions (docs/architecture.md).
 #pragma once
 
+#include <optional>
+
 #include "core/sim_time.h"
 
 namespace halocline::bus {
@@ -25,6 +27,22 @@ class MessageBatches {
   SimTime window_begins_;
   int messages_ = 0;  // since then
   bool is_busy_ = false;
+};
+
+// Notices that the process was halted (SIGSTOP, a debugger, a machine that slept or had no processor for it),
+// so that its socket may have run over, and holds a node until repair has brought what it missed.
+class Halt {
+ public:
+  // `used`: processor time of the process so far.
+  Halt(SimTime steady, SimDuration used) : looked_(steady), used_(used) {}
+  // To be called in each turn of the loop. `waits`: the node waits for repair; `misses`: messages are missing.
+  void look(SimTime steady, SimDuration used, bool waits, bool misses);
+  bool holds() const { return since_.has_value(); }
+
+ private:
+  SimTime looked_;
+  SimDuration used_;
+  std::optional<SimTime> since_;  // steady
 };
 
 }  // namespace halocline::bus

@@ -189,18 +189,18 @@ void Node::publish_status(const Now& now, const std::string& text) {
   status.lost = counters.lost;
   status.duplicates = counters.duplicates;
   status.late = counters.late;
-  const Lateness lateness = bus_.lateness();
+  const Lateness lateness = bus_.lateness().summary(now.steady);
   status.lateness_p50_s = lateness.p50_s;
   status.lateness_p99_s = lateness.p99_s;
   status.lateness_max_s = lateness.max_s;
-  status.lateness_limit_s = bus_.lateness_limit().seconds();
+  status.lateness_limit_s = bus_.lateness().limit().seconds();
   status.status_text = text;
   bus_.publish(channels::kStatus.of(name()), status);
   report_lateness(now, lateness);
 }
 
 void Node::report_lateness(const Now& now, const Lateness& lateness) {
-  const double limit_s = bus_.lateness_limit().seconds();
+  const double limit_s = bus_.lateness().limit().seconds();
   if (limit_s == 0 || lateness.max_s <= limit_s || now.steady < next_lateness_report_) return;
   next_lateness_report_ = now.steady + kLatenessReported;
   bus_.log().warning("real-time-not-held",

@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "bus/bus.h"
-#include "bus/lateness_watch.h"
 #include "bus/node_identity.h"
 #include "bus/runtime/state_journal.h"
+#include "bus/sending/lateness_watch.h"
 #include "bus/subscription.h"
 #include "core/archive.h"
 #include "core/sim_time.h"
@@ -77,8 +77,10 @@ class Node {
     bus_.set_steady(steady);
     is_behind_ = is_behind;
   }
-  // Results that go out more than `limit` after their instant, by this clock, are late (lateness_watch.h).
-  void set_clock(Bus::Clock clock, SimDuration limit) { bus_.set_clock(std::move(clock), limit); }
+  // Results that go out more than `limit` after their instant, by this clock, are late.
+  void set_clock(LatenessWatch::Clock clock, SimDuration limit) {
+    bus_.lateness().set_clock(std::move(clock), limit);
+  }
   // Test for messages that are missing and may still be repaired.
   bool misses_messages() const { return bus_.num_missing() > 0; }
   // True of a node whose results depend on all that others have published up to their instant: after a halt of

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <ctime>
 #include <exception>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -20,7 +19,6 @@
 
 #include "bus/event_log.h"
 #include "bus/files/output_check.h"
-#include "bus/runtime/crash_journal.h"
 #include "bus/runtime/lockstep_process.h"
 #include "bus/runtime/message_batches.h"
 #include "bus/runtime/node_command_line.h"
@@ -113,33 +111,6 @@ SimDuration processor_time() {
   return SimDuration::from_nanoseconds(used.tv_sec * 1'000'000'000 + used.tv_nsec);
 }
 
-// Notices that the process was halted (SIGSTOP, a debugger, a machine that slept or had no processor for it),
-// so that its socket may have run over, and holds its node until repair has brought what it missed.
-class Halt {
- public:
-  // To be called in each turn of the loop.
-  void look(SimTime steady, const Node& node) {
-    const SimDuration used = processor_time();
-    const SimDuration idle = (steady - looked_) - (used - used_);
-    looked_ = steady;
-    used_ = used;
-    if (idle > kHalted && node.waits_for_repair()) since_ = steady;
-    if (since_ && (steady - *since_ >= kLongest ||
-                   (steady - *since_ >= CrashJournal::kRepairTime && !node.misses_messages())))
-      since_.reset();
-  }
-  bool holds() const { return since_.has_value(); }
-
- private:
-  // The loop sleeps a tenth of a second at most.
-  static constexpr SimDuration kHalted = SimDuration::from_milliseconds(1000);
-  // A message that nobody can repair must not hold a node for long.
-  static constexpr SimDuration kLongest = SimDuration::from_milliseconds(3000);
-  SimTime looked_ = steady_now();
-  SimDuration used_ = processor_time();
-  std::optional<SimTime> since_;  // steady
-};
-
 // The time of a node's steps. It catches up with its source by slices, between which the node handles messages and the process signals.
 class NodeTime {
  public:
@@ -154,7 +125,7 @@ class NodeTime {
 
   void update() {
     now_.steady = steady_now();
-    halt_.look(now_.steady, node_);
+    halt_.look(now_.steady, processor_time(), node_.waits_for_repair(), node_.misses_messages());
     const bool restarted = source_.restarted();
     const auto known = source_.now(now_.steady);
     if (known) now_.clock = *known;
@@ -192,7 +163,7 @@ class NodeTime {
   Node& node_;
   TimeSource& source_;
   Now now_{SimTime(), steady_now(), false};
-  Halt halt_;
+  Halt halt_{steady_now(), processor_time()};
   bool is_behind_ = false;
   SimDuration slice_ = kLongestSlice;
   std::int64_t refused_ = 0;

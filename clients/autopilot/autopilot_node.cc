@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "bus/newest.h"
 #include "bus/subscription.h"
 #include "clients/autopilot/autopilot_messages.h"
 #include "clients/autopilot/formation.h"

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "bus/newest.h"
 #include "bus/runtime/scenario.h"
 #include "bus/subscription.h"
 #include "channel_server/packets/packet.h"

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "bus/channels.h"
-#include "bus/newest.h"
 #include "bus/runtime/scenario.h"
 #include "bus/subscription.h"
 #include "clients/modem_gateway/protocols/door_options.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bus/newest.h"
-
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -9,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "bus/messages.h"
+#include "bus/subscription.h"
 
 namespace halocline::bus {
 namespace {

@@ -218,27 +218,6 @@ TEST_F(ChannelServerNodeTest, ASendReceivedTooLateIsRefused) {
   EXPECT_EQ(bench.receipts.at(0).message.receipt_result, modem_receipt_t::REFUSED_STALE);
 }
 
-// It was stopped for 75 s; those who were not are that far ahead.
-TEST_F(ChannelServerNodeTest, StatesAheadOfALaggingServerAreJudgedByTheClock) {
-  NodeBench bench;
-  two_at_rest(bench, 0, 5);
-  bench.run_to(5);
-  two_at_rest(bench, 5.5, 80);
-  bench.send(1, 75, 0, 5);
-  bench.drain();
-  for (double t = 5; t <= 80; t += 0.5) {
-    bench.node().step({at_s(t), at_s(80), true, at_s(80)});
-    bench.drain();
-  }
-  EXPECT_EQ(bench.node().counters().refused, 0);
-  ASSERT_EQ(bench.outcomes.size(), 1u);
-  EXPECT_EQ(bench.outcomes[0].outcome, packet_outcome_t::RECEIVED);
-  bench.state(1, 90.1, {0, 0, 50});  // its clock is wrong
-  bench.drain();
-  bench.node().step({at_s(80), at_s(80), true, at_s(80)});
-  EXPECT_EQ(bench.node().counters().refused, 1);
-}
-
 TEST_F(ChannelServerNodeTest, AnAnnouncedModemIsUsed) {
   NodeBench bench;
   two_at_rest(bench);

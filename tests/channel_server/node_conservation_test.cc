@@ -15,6 +15,7 @@
 namespace halocline::channel_server {
 namespace {
 
+using testing::at_s;
 using testing::NodeBench;
 
 double draw(const char* purpose, std::uint64_t which) {
@@ -60,6 +61,30 @@ TEST(NodeConservation, PacketsTimesReceiversAreOutcomes) {
   EXPECT_EQ(bench.outcomes.size(), accepted.size() * (kVehicles - 1));
   EXPECT_EQ(bench.receives.size(), static_cast<std::size_t>(received));
   EXPECT_GT(bench.node().counters().late, 0);
+}
+
+// It was stopped for 75 s; those who were not are that far ahead.
+TEST(LaggingServer, StatesAheadOfALaggingServerAreJudgedByTheClock) {
+  bus::set_log_level(bus::LogLevel::kSilent);
+  NodeBench bench;
+  for (double t = 0; t <= 80; t += 0.5) {
+    if (t == 5.5) bench.run_to(5);
+    bench.state(1, t, {0, 0, 50});
+    bench.state(2, t, {3000, 0, 50});
+  }
+  bench.send(1, 75, 0, 5);
+  bench.drain();
+  for (double t = 5; t <= 80; t += 0.5) {
+    bench.node().step({at_s(t), at_s(80), true, at_s(80)});
+    bench.drain();
+  }
+  EXPECT_EQ(bench.node().counters().refused, 0);
+  ASSERT_EQ(bench.outcomes.size(), 1u);
+  EXPECT_EQ(bench.outcomes[0].outcome, packet_outcome_t::RECEIVED);
+  bench.state(1, 90.1, {0, 0, 50});  // its clock is wrong
+  bench.drain();
+  bench.node().step({at_s(80), at_s(80), true, at_s(80)});
+  EXPECT_EQ(bench.node().counters().refused, 1);
 }
 
 }  // namespace

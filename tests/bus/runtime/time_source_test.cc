@@ -237,20 +237,6 @@ TEST_F(ConductorTimeTest, AllClocksOfTheRunSentAgainAfterNineSecondsChangeNothin
   EXPECT_FALSE(time_.restarted());
 }
 
-TEST_F(ConductorTimeTest, OfAConductorWithoutNumbersAnEarlierTimeChangesNothing) {
-  const auto receive_unnumbered = [&](double steady_s, double sim_s) {
-    sim_clock_t clock = clock_at(sim_s);
-    clock.sequence = 0;
-    time_.on_clock(clock, at(steady_s));
-  };
-  receive_unnumbered(0.9, 99.9);
-  for (int tick = 0; tick <= 300; ++tick) {
-    receive_unnumbered(1 + 0.1 * tick, 100 + 0.1 * tick);
-    if (tick > 90 && tick % 20 == 0) receive_unnumbered(1.02 + 0.1 * tick, 91);
-    ASSERT_NEAR(now(1.05 + 0.1 * tick), 100.05 + 0.1 * tick, 1e-6);
-  }
-}
-
 TEST_F(ConductorTimeTest, ALeapIsFollowedAfterThreeSecondsWithoutTheExpectedTime) {
   follow(1, 100);
   for (int tick = 1; tick <= 29; ++tick) receive(1 + 0.1 * tick, 4000 + 0.1 * tick);

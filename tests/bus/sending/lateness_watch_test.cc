@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bus/lateness_watch.h"
+#include "bus/sending/lateness_watch.h"
 
 #include <gtest/gtest.h>
 
@@ -51,13 +51,16 @@ TEST(LatenessWatch, AMinuteLaterItIsForgotten) {
   EXPECT_EQ(watch.summary(at_ms(61'600)).max_s, 0.002);
 }
 
-TEST(LatenessWatch, ResultsAreWhatIsDueAtItsUtime) {
-  for (const char* channel :
-       {"OUTCOME", "CLOCK", "STATE.auv-1", "RECEIPT.auv-1", "LINKS.auv-1", "COMMAND.auv-1"})
-    EXPECT_TRUE(LatenessWatch::is_result(channel)) << channel;
-  for (const char* channel : {"SEND.auv-1", "SET_ENVIRONMENT", "FAULT.auv-1", "STATUS.traffic",
-                              "HEARTBEAT.traffic", "REPAIR.STATE.auv-1", "REPAIR_REQUEST"})
-    EXPECT_FALSE(LatenessWatch::is_result(channel)) << channel;
+TEST(LatenessWatch, WithoutALimitNothingIsLateAndWithOneWhatIsBeyondIt) {
+  LatenessWatch watch;
+  EXPECT_FALSE(watch.note(at_ms(0), at_ms(0)));  // no clock
+  watch.set_clock([] { return at_ms(1000); }, ms(0));
+  EXPECT_FALSE(watch.note(at_ms(0), at_ms(100)));
+  watch.set_clock([] { return at_ms(1000); }, ms(50));
+  EXPECT_TRUE(watch.note(at_ms(0), at_ms(949)));
+  EXPECT_FALSE(watch.note(at_ms(0), at_ms(950)));
+  EXPECT_FALSE(watch.note(at_ms(0), at_ms(2000)));
+  EXPECT_EQ(watch.summary(at_ms(1)).max_s, 0.9);
 }
 
 }  // namespace

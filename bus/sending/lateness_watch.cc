@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bus/lateness_watch.h"
+#include "bus/sending/lateness_watch.h"
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
-
-#include "bus/channels.h"
+#include <utility>
 
 namespace halocline::bus {
 namespace {
@@ -15,15 +13,16 @@ constexpr double kFirst_s = 1e-4, kBinsPerOctave = 8;
 
 }  // namespace
 
-bool LatenessWatch::is_result(std::string_view channel) {
-  constexpr std::array kFamilies{
-      channels::kState,    channels::kSensors,    channels::kDvl,         channels::kGps,
-      channels::kSonar,    channels::kUsbl,       channels::kBattery,     channels::kCommand,
-      channels::kEstimate, channels::kReceipt,    channels::kReceive,     channels::kLinks,
-      channels::kPlan,     channels::kModemEvent, channels::kModemEnergy, channels::kAutopilot};
-  return channel == channels::kOutcome || channel == channels::kClock ||
-         std::any_of(kFamilies.begin(), kFamilies.end(),
-                     [&](const Family& family) { return channel.starts_with(family.prefix); });
+void LatenessWatch::set_clock(Clock clock, SimDuration limit) {
+  clock_ = std::move(clock);
+  limit_ = limit;
+}
+
+bool LatenessWatch::note(SimTime steady, SimTime instant) {
+  const auto now = clock_ ? clock_() : std::nullopt;
+  if (!now) return false;
+  add(steady, *now - instant);
+  return limit_ > SimDuration() && *now - instant > limit_;
 }
 
 std::size_t LatenessWatch::bin_of(double seconds) {

@@ -12,7 +12,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
+#include <functional>
+#include <optional>
 
 #include "core/sim_time.h"
 
@@ -25,10 +26,13 @@ struct Lateness {
 
 class LatenessWatch {
  public:
-  // Test for a channel of results, whose utime is the instant at which they were due: not of requests, which
-  // name the instant from which they hold, nor of what repairs the bus.
-  static bool is_result(std::string_view channel);
-
+  // Simulation time by CLOCK at this moment, empty while unknown. From now on what goes out more than `limit`
+  // after its instant is late; 0: nothing is.
+  using Clock = std::function<std::optional<SimTime>()>;
+  void set_clock(Clock clock, SimDuration limit);
+  SimDuration limit() const { return limit_; }
+  // A result that was due at `instant` goes out. True when it is late.
+  bool note(SimTime steady, SimTime instant);
   void add(SimTime steady, SimDuration lateness);
   // Quantiles and maximum of the last minute.
   Lateness summary(SimTime steady);
@@ -44,6 +48,8 @@ class LatenessWatch {
   static std::size_t bin_of(double seconds);
   static double end_of(std::size_t bin);  // seconds
 
+  Clock clock_;
+  SimDuration limit_;
   std::array<Slot, kSlots> slots_;
 };
 
