@@ -116,7 +116,6 @@ class NodeTime {
  public:
   NodeTime(Node& node, TimeSource& source) : node_(node), source_(source) {}
   const Now& now() const { return now_; }
-  // The steady time of the next step, or look at the bus.
   SimTime wake() const {
     constexpr SimDuration kLook = SimDuration::from_milliseconds(10);
     if (halt_.holds()) return std::min(node_.due().steady, now_.steady + kLook);
