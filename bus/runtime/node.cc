@@ -172,7 +172,7 @@ void Node::stop(const Now& now) {
 }
 
 void Node::publish_status(const Now& now, const std::string& text) {
-  node_status_t status;
+  node_status_t status{};
   const BusCounters& counters = bus_.counters();
   status.utime = now.sim.to_utime();
   status.session = bus_.identity().session;

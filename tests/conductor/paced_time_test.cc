@@ -45,7 +45,7 @@ TEST_F(PacedTimeTest, ReceivesStatesAndStatuses) {
   bus::Bus publisher(lcm_, {"publisher", 1});
   time.now(at(0));
   time.set_steady(at(0));
-  node_status_t status;
+  node_status_t status{};
   status.utime = 50'000'000;
   status.session = status.sequence = 1;
   status.messages_received = status.messages_sent = status.messages_refused = 0;
