@@ -7,7 +7,9 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
+#include "core/files/guarded_reading.h"
 #include "core/shared_module.h"
 
 namespace halocline::ocean {
@@ -23,7 +25,7 @@ std::shared_ptr<const OceanField> read_ocean_field(const FieldQuery& query) {
       kept[{query.path, query.start_date, query.origin.latitude_rad, query.origin.longitude_rad}];
   std::shared_ptr<const OceanField> field = known.lock();
   if (field) return field;
-  field.reset(read(query));
+  field.reset(guarded_reading({query.path}, [&] { return read(query); }));
   known = field;
   return field;
 }
@@ -31,7 +33,9 @@ std::shared_ptr<const OceanField> read_ocean_field(const FieldQuery& query) {
 WaterColumn read_water_column(const ColumnQuery& query) {
   static const auto read = reinterpret_cast<WaterColumnReader*>(
       module_symbol("halocline_ocean_fields.so", "halocline_read_water_column"));
-  return std::move(*std::unique_ptr<WaterColumn>(read(query)));
+  std::vector<std::string> paths{query.temperature_path};
+  if (!query.salinity_path.empty()) paths.push_back(query.salinity_path);
+  return guarded_reading(paths, [&] { return std::move(*std::unique_ptr<WaterColumn>(read(query))); });
 }
 
 }  // namespace halocline::ocean

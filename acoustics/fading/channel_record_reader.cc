@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/files/guarded_reading.h"
 #include "core/shared_module.h"
 
 namespace halocline::acoustics {
@@ -11,7 +12,8 @@ namespace halocline::acoustics {
 ChannelRecord read_channel_record(const std::string& path, std::size_t receiver) {
   static const auto read = reinterpret_cast<ChannelRecordReader*>(
       module_symbol("halocline_channel_records.so", "halocline_read_channel_record"));
-  return std::move(*std::unique_ptr<ChannelRecord>(read(path, receiver)));
+  return guarded_reading({path},
+                         [&] { return std::move(*std::unique_ptr<ChannelRecord>(read(path, receiver))); });
 }
 
 }  // namespace halocline::acoustics

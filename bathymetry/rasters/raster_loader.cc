@@ -11,6 +11,7 @@
 #include "bathymetry/rasters/raster_source.h"
 #include "core/check.h"
 #include "core/elementary.h"
+#include "core/files/guarded_reading.h"
 #include "core/huge_page_vector.h"
 #include "core/units.h"
 
@@ -160,9 +161,7 @@ RasterReport report_on(const RasterOptions& options, const RasterSource& source,
   return report;
 }
 
-}  // namespace
-
-LoadedRaster load_raster(const RasterOptions& options, const LocalFrame& frame,
+LoadedRaster read_raster(const RasterOptions& options, const LocalFrame& frame,
                          const GridGeometry& geometry) {
   require_finite(options.datum_offset_m, "datum_offset_m");
   const std::unique_ptr<const RasterSource> opened = RasterSource::open(
@@ -184,7 +183,7 @@ LoadedRaster load_raster(const RasterOptions& options, const LocalFrame& frame,
   return {std::move(grid), std::move(report)};
 }
 
-LoadedRaster load_local_raster(const RasterOptions& options) {
+LoadedRaster read_local_raster(const RasterOptions& options) {
   require_finite(options.datum_offset_m, "datum_offset_m");
   const std::unique_ptr<const RasterSource> opened = RasterSource::open(options, 0, 0);
   const RasterSource& source = *opened;
@@ -205,6 +204,23 @@ LoadedRaster load_local_raster(const RasterOptions& options) {
                   std::move(window.depths_m));
   RasterReport report = report_on(options, source, window, counts, grid);
   return {std::move(grid), std::move(report)};
+}
+
+// As `reading` does; what HDF5 reads (netCDF-4, BAG), behind the guard.
+template <class Reading>
+LoadedRaster load(const RasterOptions& options, const Reading& reading) {
+  return is_hdf5(options.path) ? guarded_reading({options.path}, reading) : reading();
+}
+
+}  // namespace
+
+LoadedRaster load_raster(const RasterOptions& options, const LocalFrame& frame,
+                         const GridGeometry& geometry) {
+  return load(options, [&] { return read_raster(options, frame, geometry); });
+}
+
+LoadedRaster load_local_raster(const RasterOptions& options) {
+  return load(options, [&] { return read_local_raster(options); });
 }
 
 }  // namespace halocline::bathymetry

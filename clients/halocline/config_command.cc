@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "channel_server/channel_server_config.h"
+#include "channel_server/replay_config.h"
 #include "clients/halocline/commands.h"
 #include "clients/halocline/scenario/composition.h"
 
@@ -15,12 +17,20 @@ struct ConfigArguments {
   std::vector<std::string> overrides;
 };
 
+// Reads measured channels for what is wrong with them. A run reads them when it makes its channel server, once.
+void check_replay(const ScenarioConfig& config) {
+  const channel_server::ReplayConfig& replay = config.channel_server.propagation.replay;
+  if (replay.is_wanted())
+    make_measured_links(replay, make_modems(config.channel_server), config.scenario, config.folder);
+}
+
 int show(const ConfigArguments& arguments) {
   if (arguments.scenario.empty()) {
     std::cout << commented_toml();
   } else {
     const CheckedScenario checked = load_checked(arguments.scenario, arguments.overrides);
     for (const std::string& warning : checked.warnings) std::cerr << "warning: " << warning << "\n";
+    check_replay(checked.config);
     std::cout << effective_toml(checked.config);
   }
   return kDone;

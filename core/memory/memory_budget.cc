@@ -48,10 +48,8 @@ double left_of_the_control_group() {
 double left_of_the_address_space() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return HUGE_VAL;
-  const double pages = number_in("/proc/self/statm");
-  return std::isinf(pages)
-             ? HUGE_VAL
-             : static_cast<double>(limit.rlim_cur) - pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double mapped = mapped_memory_bytes();
+  return std::isinf(mapped) ? HUGE_VAL : static_cast<double>(limit.rlim_cur) - mapped;
 }
 
 }  // namespace
@@ -59,6 +57,10 @@ double left_of_the_address_space() {
 double available_memory_bytes() {
   return std::max(
       0.0, std::min({available_in_the_machine(), left_of_the_control_group(), left_of_the_address_space()}));
+}
+
+double mapped_memory_bytes() {
+  return number_in("/proc/self/statm") * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
 void require_memory(double bytes, const std::string& what, const std::string& remedy) {

@@ -12,6 +12,8 @@ namespace halocline {
 
 // Bytes; infinite where the system tells none of them.
 double available_memory_bytes();
+// Of the process's address space; infinite where the system does not tell.
+double mapped_memory_bytes();
 
 // Throws InvalidArgument where `bytes` are more: "WHAT needs about 40 GB of memory, and 17 GB are available;
 // REMEDY".

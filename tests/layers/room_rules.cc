@@ -48,9 +48,9 @@ const Words kImpure{"chrono", "ctime",   "thread",   "mutex",      "shared_mutex
                     "random", "fstream", "iostream", "filesystem", "csignal",      "syncstream",
                     "print"};
 // The named readers of files, behind an interface that gives values.
-const Words kReaders{"acoustics/noise/noise_table_reader", "acoustics/sea/profile_reader",
-                     "acoustics/sea/profile_grid_reader", "bathymetry/rasters/raster_",
-                     "bathymetry/rasters/gdal_"};
+const Words kReaders{"acoustics/noise/noise_table_reader", "acoustics/fading/channel_record_",
+                     "acoustics/sea/profile_reader",       "acoustics/sea/profile_grid_reader",
+                     "bathymetry/rasters/raster_",         "bathymetry/rasters/gdal_"};
 const Words kReaderHeaders{"fstream", "filesystem", "iostream", "mutex", "cstdio", "atomic"};
 
 // Headers that pure files may include hold these all the same (<cstdio> has snprintf, and fopen).

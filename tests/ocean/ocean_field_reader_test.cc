@@ -19,6 +19,7 @@
 #include "core/units.h"
 #include "ocean/potential_temperature.h"
 #include "tests/ocean/sea_file.h"
+#include "tests/support/channel_file.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::ocean {
@@ -254,6 +255,24 @@ TEST(OceanFieldReader, RefusesMoreValuesThanAFileCanHold) {
   EXPECT_THAT(claimed(1000, 100), HasSubstr("claims.nc: has 50000000 values a variable in "));
   EXPECT_THAT(claimed(1000, 100), HasSubstr("allowed are 100000000, and 300 a byte: cut out a region"));
   EXPECT_THAT(claimed(1000, 900), HasSubstr("claims.nc: has 450000000 values a variable in "));
+}
+
+// netCDF-4 is HDF5: netCDF follows the same addresses.
+TEST(OceanFieldReader, SurvivesAFileThatHdf5DiesOf) {
+  const std::string path =
+      halocline::testing::write_channel_file(halocline::testing::channel_file(4, 1, 2), "no_names.nc");
+  halocline::testing::lose_names(path);
+  for (const auto& reading : std::vector<std::function<void()>>{[&] {
+                                                                  read_ocean_field({path, "", kOrigin});
+                                                                },
+                                                                [&] { read_water_column({path}); }}) {
+    try {
+      reading();
+      FAIL();
+    } catch (const InvalidArgument& error) {
+      EXPECT_THAT(error.what(), HasSubstr(path + " is damaged: the library that reads it crashes on it"));
+    }
+  }
 }
 
 TEST(OceanFieldReader, ReadsCurrentsAlone) {

@@ -2,6 +2,8 @@
 #include "tests/support/channel_file.h"
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -82,6 +84,18 @@ std::string write_channel_file(const ChannelFile& contents, const std::string& n
   }
   H5Fclose(file);
   return path;
+}
+
+void lose_names(const std::string& path) {
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t heap = bytes.find("HEAP");
+  check(heap != std::string::npos, path);
+  // Signature and version, size of the names, first free place, address (HDF5 File Format Specification, III.D).
+  constexpr std::size_t kAddress = 24;
+  const std::string none(8, '\xff');
+  file.clear();
+  file.seekp(static_cast<std::streamoff>(heap + kAddress)).write(none.data(), 8);
 }
 
 }  // namespace halocline::testing

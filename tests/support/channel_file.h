@@ -36,4 +36,8 @@ std::string channel_file_folder();
 // Writes the file into the folder of temporary files; returns its path.
 std::string write_channel_file(const ChannelFile& file, const std::string& name);
 
+// Changes a file so that its first group states no address of the names in it: libhdf5 1.10 follows it all the
+// same (H5HL_protect), and the process dies.
+void lose_names(const std::string& path);
+
 }  // namespace halocline::testing

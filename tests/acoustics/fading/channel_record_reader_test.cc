@@ -108,17 +108,26 @@ TEST(ChannelRecordReader, RefusesMalformedFilesAndNamesThePlace) {
   EXPECT_THAT(refusal_of(numbered(), 2), HasSubstr("has 2 receivers; given is number 2"));
 }
 
+std::string refusal_of(const std::string& path) {
+  try {
+    read_channel_record(path, 0);
+  } catch (const InvalidArgument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ChannelRecordReader, SurvivesAFileThatHdf5DiesOf) {
+  const std::string path = write_channel_file(numbered(), "no_names.mat");
+  halocline::testing::lose_names(path);
+  EXPECT_THAT(refusal_of(path), HasSubstr(path + " is damaged: the library that reads it crashes on it"));
+}
+
 TEST(ChannelRecordReader, RefusesWhatIsNoHdf5) {
   const std::string path = ::testing::TempDir() + "text.mat";
   std::ofstream(path) << "no channel";
-  for (const std::string& name : {path, std::string("/nowhere/channel.mat")}) {
-    try {
-      read_channel_record(name, 0);
-      FAIL();
-    } catch (const InvalidArgument& error) {
-      EXPECT_THAT(error.what(), HasSubstr(name + ": cannot be read as HDF5"));
-    }
-  }
+  EXPECT_THAT(refusal_of(path), HasSubstr(path + ": cannot be read as HDF5"));
+  EXPECT_THAT(refusal_of("/nowhere/channel.mat"), HasSubstr("/nowhere/channel.mat: there is no such file"));
 }
 
 }  // namespace

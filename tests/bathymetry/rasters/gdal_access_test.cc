@@ -18,6 +18,7 @@
 #include "bathymetry/rasters/raster_loader.h"
 #include "core/check.h"
 #include "tests/bathymetry/rasters/raster_fixtures.h"
+#include "tests/support/channel_file.h"
 
 namespace halocline::bathymetry {
 namespace {
@@ -84,6 +85,14 @@ std::string map_service(const std::string& url) {
          "<LowerRightY>43</LowerRightY><SizeX>100</SizeX><SizeY>100</SizeY></DataWindow><BandsCount>1</"
          "BandsCount>"
          "<DataType>Float32</DataType></GDAL_WMS>";
+}
+
+// GDAL reads netCDF-4 and BAG by the same library.
+TEST(GdalAccess, SurvivesAFileThatHdf5DiesOf) {
+  const std::string path =
+      halocline::testing::write_channel_file(halocline::testing::channel_file(4, 1, 2), "no_names.bag");
+  halocline::testing::lose_names(path);
+  EXPECT_THAT(refusal(path), HasSubstr(path + " is damaged: the library that reads it crashes on it"));
 }
 
 TEST(GdalAccess, NoNameOfAServerIsFollowed) {

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/clients/halocline/command_fixture.h"
+#include "tests/support/channel_file.h"
 #include "tests/support/process.h"
 
 namespace halocline::testing {
@@ -74,6 +75,16 @@ TEST_F(RunCommand, ALogThatIsThereIsReplacedByForceAlone) {
   }
   EXPECT_EQ(run("run pond.toml --duration 2 --no-csv --out here --force").code, 0);
   EXPECT_GT(fs::file_size(folder_ + "/here/pond.lcm"), first.size());
+}
+
+TEST_F(RunCommand, AMeasuredChannelThatItsLibraryDiesOfIsRefused) {
+  const std::string channel = testing::write_channel_file(testing::channel_file(4, 1, 2), "no_names.mat");
+  testing::lose_names(channel);
+  for (const std::string command : {"config", "run"}) {
+    const Ended end = run(command + " pond.toml --set 'propagation.replay=\"" + channel + "\"'");
+    EXPECT_EQ(end.code, 2) << command;
+    EXPECT_THAT(end.output, HasSubstr(channel + " is damaged: the library that reads it crashes on it"));
+  }
 }
 
 TEST_F(RunCommand, APartOfARotatedLogIsALogToo) {
