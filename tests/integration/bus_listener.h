@@ -12,6 +12,7 @@
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
 #include "core/sim_time.h"
+#include "tests/support/process.h"
 
 namespace halocline::testing {
 
@@ -29,6 +30,11 @@ class BusListener {
     }
     bus_.rethrow_if_failed();
     bus_.repair(SimTime(), bus::steady_now());
+  }
+  // Until `condition` holds; false when nothing makes it hold.
+  template <class Condition>
+  bool listen_until(Condition condition) {
+    return listen_until(static_cast<double>(kHangLimit.count()), condition);
   }
   // Until `condition` holds, `seconds` at most; returns whether it does.
   template <class Condition>

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/integration/bus_monitor.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <fstream>
 #include <string>
 #include <string_view>
-#include <thread>
 
 namespace halocline::testing {
 
@@ -34,14 +31,6 @@ void BusMonitor::dispatch_for(double seconds) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
     lcm_->handleTimeout(static_cast<int>(left < 1 ? 1 : left));
   }
-}
-
-double BusMonitor::processor_share() {
-  // "0.20 0.18 0.12 3/80 11206": the fourth is the number of processes that run or could.
-  std::ifstream file("/proc/loadavg");
-  double one = 0, five = 0, fifteen = 0, runnable = 0;
-  if (!(file >> one >> five >> fifteen >> runnable) || runnable < 1) return 1;
-  return std::min(1.0, static_cast<double>(std::thread::hardware_concurrency()) / runnable);
 }
 
 std::int64_t BusMonitor::received(const std::string& channel) const {

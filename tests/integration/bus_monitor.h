@@ -2,6 +2,7 @@
 // A subscriber on udpm for tests of separate processes: counts messages by channel and keeps those that tests check.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -12,6 +13,7 @@
 
 #include "bus/bus.h"
 #include "bus/transport.h"
+#include "tests/support/process.h"
 
 namespace halocline::testing {
 
@@ -21,15 +23,15 @@ class BusMonitor {
 
   // Dispatches messages for so long.
   void dispatch_for(double seconds);
-  // Dispatches until `condition` holds; false when it did not within `seconds` of processor time: while more processes
-  // want to run than there are processors, the time passes by the share that each gets.
+  // Dispatches until `condition` holds; false when nothing makes it hold.
   template <class Condition>
-  bool wait_until(double seconds, Condition condition) {
-    for (double left = seconds; left > 0; left -= kSlice * processor_share()) {
-      dispatch_for(kSlice);
-      if (condition()) return true;
+  bool wait_until(Condition condition) {
+    const auto end = std::chrono::steady_clock::now() + kHangLimit;
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      dispatch_for(kSlice_s);
     }
-    return false;
+    return true;
   }
   // Messages received on `channel` (exact) since the last clear().
   std::int64_t received(const std::string& channel) const;
@@ -42,9 +44,7 @@ class BusMonitor {
   std::int64_t last_clock_utime = 0;
 
  private:
-  static constexpr double kSlice = 0.02;
-  // Of one process at this instant, above 0, at most 1.
-  static double processor_share();
+  static constexpr double kSlice_s = 0.02;
   void on_any(const lcm::ReceiveBuffer*, const std::string& channel) { ++counts_[channel]; }
 
   std::unique_ptr<lcm::LCM> lcm_;

@@ -28,7 +28,7 @@ std::string contents_of(const std::filesystem::path& path) {
 }
 
 bool eventually(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(100);
+  const auto deadline = std::chrono::steady_clock::now() + kHangLimit;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > deadline) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -121,8 +121,8 @@ void LockstepFleet::kill_and_restart(const std::string& name) {
   name == "conductor" ? start_conductor(conductor_options_) : start(name);
 }
 
-bool LockstepFleet::run_to_the_end(std::chrono::seconds limit) {
-  const auto end = std::chrono::steady_clock::now() + limit;
+bool LockstepFleet::run_to_the_end() {
+  const auto end = std::chrono::steady_clock::now() + kHangLimit;
   while (std::chrono::steady_clock::now() < end) {
     for (const std::string& name : participants()) {
       const int code = at(name).wait(std::chrono::milliseconds(0));
@@ -171,7 +171,7 @@ std::string LockstepFleet::output_of(const std::filesystem::path& log) const {
   auto words = command("halocline", false);
   const std::string output = log.string() + ".output";
   words.insert(words.end(), {"log", "output", log.string(), "--out", output});
-  EXPECT_EQ(Process(words).wait(std::chrono::seconds(100)), 0);
+  EXPECT_EQ(Process(words).wait(), 0);
   return contents_of(output);
 }
 
@@ -182,7 +182,7 @@ std::string LockstepFleet::log_of_one_process(const std::vector<std::string>& mo
                {"run", scenario_, "--quiet", "--no-csv", "--no-report", "--force", "--log", log});
   for (const std::string& option : settings_as_options()) words.push_back(option);
   for (const std::string& setting : more_settings) words.insert(words.end(), {"--set", setting});
-  EXPECT_EQ(Process(words).wait(std::chrono::seconds(100)), 0);
+  EXPECT_EQ(Process(words).wait(), 0);
   return contents_of(log);
 }
 

@@ -39,8 +39,8 @@ class LockstepFleet {
   Process& at(const std::string& name) { return *processes_.at(name); }
   // SIGKILL, and started again.
   void kill_and_restart(const std::string& name);
-  // Restarts whatever has ended with an error, until the conductor has ended with 0. False after `limit`.
-  bool run_to_the_end(std::chrono::seconds limit);
+  // Restarts whatever has ended with an error, until the conductor has ended with 0. False when it hangs.
+  bool run_to_the_end();
 
   // False after a generous time: until the log has so many bytes, and until the conductor's output holds a text.
   bool wait_for_log(std::size_t bytes) const;

@@ -26,8 +26,6 @@ using testing::NetworkFaults;
 using ::testing::Not;
 using testing::Process;
 
-constexpr std::chrono::seconds kLimit{120};
-
 // Bytes of the log by which a run is under way: all have joined, and the first instant, of 55 kB with terrain and scenario, is
 // over.
 constexpr std::size_t kUnderWay = 80'000;
@@ -45,22 +43,22 @@ void expect_the_log_of_one_process(LockstepFleet& fleet) {
 TEST(LockstepProcesses, WriteTheLogOfOneProcess) {
   LockstepFleet fleet = fleet_of("12");
   fleet.start_all();
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   expect_the_log_of_one_process(fleet);
-  for (const std::string& name : fleet.participants()) EXPECT_EQ(fleet.at(name).wait(5s), 0) << name;
+  for (const std::string& name : fleet.participants()) EXPECT_EQ(fleet.at(name).wait(), 0) << name;
 }
 
 TEST(LockstepProcesses, WriteItWithoutLookahead) {
   LockstepFleet fleet = fleet_of("6");
   fleet.start_all({"--no-lookahead"});
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   expect_the_log_of_one_process(fleet);
 }
 
 TEST(LockstepProcesses, WriteItWithTwoThreads) {
   LockstepFleet fleet("two_vehicles", {"scenario.duration_s=6", "channel_server.threads=2"});
   fleet.start_all();
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   EXPECT_TRUE(fleet.log_bytes() == fleet.log_of_one_process({"channel_server.threads=1"}));
 }
 
@@ -70,7 +68,7 @@ TEST_P(SplitOverShards, WriteTheOutputOfOneServerAndTheLogOfOneProcess) {
   const auto& [shards, faults] = GetParam();
   LockstepFleet fleet("ten_vehicles", {"scenario.duration_s=15"}, faults, shards);
   fleet.start_all();
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   const std::string one = fleet.output_of_one_process();
   EXPECT_GT(one.size(), 200'000u);
   EXPECT_TRUE(fleet.output_bytes() == one) << fleet.conductor_output();
@@ -99,7 +97,7 @@ TEST(LockstepProcesses, AKilledShardReturns) {
     ASSERT_TRUE(fleet.wait_for_log(size * ++kills / 5)) << fleet.conductor_output();
     fleet.kill_and_restart(shard);
   }
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   EXPECT_THAT(fleet.conductor_output(), HasSubstr("returned participant=channel-server-"));
   EXPECT_TRUE(fleet.output_bytes() == one);
 }
@@ -116,7 +114,7 @@ TEST(LockstepProcesses, AKilledBlockOfVehiclesReturns) {
     ASSERT_TRUE(fleet.wait_for_log(whole.size() * ++kills / 5)) << fleet.conductor_output();
     fleet.kill_and_restart(block);
   }
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   EXPECT_THAT(fleet.conductor_output(), HasSubstr("returned participant=vehicle-sim-"));
   EXPECT_TRUE(fleet.output_bytes() == one);
   EXPECT_TRUE(fleet.log_bytes() == whole);
@@ -127,7 +125,7 @@ class WithFaults : public ::testing::TestWithParam<NetworkFaults> {};
 TEST_P(WithFaults, WriteTheLogOfOneProcess) {
   LockstepFleet fleet = fleet_of("5", GetParam());
   fleet.start_all();
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   EXPECT_THAT(fleet.conductor_output(), Not(HasSubstr("retransmissions=0"))) << "no datagram was lost";
   expect_the_log_of_one_process(fleet);
 }
@@ -155,7 +153,7 @@ void kill_each(LockstepFleet& fleet, const std::vector<std::string>& names) {
 TEST(LockstepProcesses, AKilledParticipantReturns) {
   LockstepFleet fleet = fleet_of("120");
   kill_each(fleet, fleet.participants());
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   EXPECT_THAT(fleet.conductor_output(), HasSubstr("returned participant="));
   expect_the_log_of_one_process(fleet);
 }
@@ -163,7 +161,7 @@ TEST(LockstepProcesses, AKilledParticipantReturns) {
 TEST(LockstepProcesses, AKilledConductorReturns) {
   LockstepFleet fleet = fleet_of("120");
   kill_each(fleet, {"conductor", "conductor", "conductor", "conductor"});
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   EXPECT_THAT(fleet.conductor_output(), HasSubstr("resumed t="));
   expect_the_log_of_one_process(fleet);
 }
@@ -172,20 +170,20 @@ TEST(LockstepProcesses, AKilledConductorReturns) {
 TEST(LockstepProcesses, AConductorKilledBeforeTheEndOfItsLogWritesIt) {
   LockstepFleet fleet = fleet_of("6");
   fleet.start_all();
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   fleet.cut_log_in_half();
   fleet.start_conductor();
-  EXPECT_EQ(fleet.at("conductor").wait(kLimit), 0) << fleet.conductor_output();
+  EXPECT_EQ(fleet.at("conductor").wait(), 0) << fleet.conductor_output();
   expect_the_log_of_one_process(fleet);
 }
 
 TEST(LockstepProcesses, AConductorThatRefusesItsJournalLeavesTheLogAsItWas) {
   LockstepFleet fleet = fleet_of("6");
   fleet.start_all();
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   const std::string log = fleet.log_bytes();
   fleet.start_conductor({"--set", "scenario.seed=77"});
-  EXPECT_NE(fleet.at("conductor").wait(kLimit), 0);
+  EXPECT_NE(fleet.at("conductor").wait(), 0);
   EXPECT_THAT(fleet.conductor_output(),
               HasSubstr("the journal is of another run; remove it or name another: scenario"));
   EXPECT_EQ(fleet.log_bytes(), log);
@@ -203,7 +201,7 @@ TEST(LockstepProcesses, AllReturnWhereverTheyAreKilled) {
   std::mt19937 random(20261122);
   std::shuffle(victims.begin(), victims.end(), random);
   kill_each(fleet, victims);
-  ASSERT_TRUE(fleet.run_to_the_end(std::chrono::seconds(60 + 40 * kills))) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   expect_the_log_of_one_process(fleet);
 }
 
@@ -214,7 +212,7 @@ TEST(LockstepProcesses, ASlowParticipantIsWaitedFor) {
   fleet.at("autopilot").signal(SIGSTOP);
   std::this_thread::sleep_for(1500ms);
   fleet.at("autopilot").signal(SIGCONT);
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   expect_the_log_of_one_process(fleet);
 }
 
@@ -228,8 +226,8 @@ TEST(LockstepProcesses, ASilentParticipantIsDroppedAfterTheTimeoutAndMayReturn) 
   fleet.start("localiser");
   EXPECT_TRUE(fleet.wait_for_output("returned participant=localiser")) << fleet.conductor_output();
   fleet.at("conductor").signal(SIGTERM);
-  EXPECT_EQ(fleet.at("conductor").wait(kLimit), 0) << fleet.conductor_output();
-  EXPECT_EQ(fleet.at("localiser").wait(kLimit), 0);
+  EXPECT_EQ(fleet.at("conductor").wait(), 0) << fleet.conductor_output();
+  EXPECT_EQ(fleet.at("localiser").wait(), 0);
 }
 
 TEST(LockstepProcesses, AParticipantThatIsStoppedLeavesAndTheOthersContinue) {
@@ -237,7 +235,7 @@ TEST(LockstepProcesses, AParticipantThatIsStoppedLeavesAndTheOthersContinue) {
   fleet.start_all({"--rate", "20"});
   ASSERT_TRUE(fleet.wait_for_log(kUnderWay)) << fleet.conductor_output();
   fleet.at("traffic").signal(SIGTERM);
-  EXPECT_EQ(fleet.at("traffic").wait(kLimit), 0);
+  EXPECT_EQ(fleet.at("traffic").wait(), 0);
   EXPECT_TRUE(fleet.wait_for_output("leaves participant=traffic")) << fleet.conductor_output();
   EXPECT_TRUE(fleet.wait_for_log(fleet.log_bytes().size() + kUnderWay)) << fleet.conductor_output();
   EXPECT_TRUE(fleet.at("conductor").running());
@@ -261,8 +259,8 @@ TEST(LockstepProcesses, AConductorThatIsStoppedEndsTheRunOfAll) {
   fleet.start_all({"--rate", "20"});
   ASSERT_TRUE(fleet.wait_for_log(kUnderWay)) << fleet.conductor_output();
   fleet.at("conductor").signal(SIGTERM);
-  EXPECT_EQ(fleet.at("conductor").wait(kLimit), 0) << fleet.conductor_output();
-  for (const std::string& name : fleet.participants()) EXPECT_EQ(fleet.at(name).wait(kLimit), 0) << name;
+  EXPECT_EQ(fleet.at("conductor").wait(), 0) << fleet.conductor_output();
+  for (const std::string& name : fleet.participants()) EXPECT_EQ(fleet.at(name).wait(), 0) << name;
 }
 
 // Two vehicles that know LCM and the message types alone join the scenario's; the conductor is killed once.
@@ -275,7 +273,7 @@ TEST(LockstepProcesses, VehiclesOnTheOrdinaryBusTakePart) {
                      "40", "--north", "300", "--every", "0"});
   ASSERT_TRUE(fleet.wait_for_log(fleet.log_of_one_process().size() / 3)) << fleet.conductor_output();
   fleet.kill_and_restart("conductor");
-  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  ASSERT_TRUE(fleet.run_to_the_end()) << fleet.conductor_output();
   EXPECT_THAT(visitor.output(), HasSubstr("packet 0 accepted"));
   EXPECT_THAT(neighbour.output(), HasSubstr(": from vehicle 77, "));
   auto events = fleet.events_by_channel();

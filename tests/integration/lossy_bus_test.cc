@@ -144,11 +144,13 @@ class LossyBus : public ::testing::Test {
   }
   // Lets all send for a while, then stops them, and compares the outcomes with what was received.
   void send_and_compare() {
-    pass_until(60, [this] { return !auditor_->delivered.empty(); });  // a loaded machine starts programs late
+    pass_until(testing::kHangLimit.count(),
+               [this] { return !auditor_->delivered.empty(); });  // a loaded machine starts programs late
     pass(sending_seconds());
     processes_.at("halocline-traffic")->signal(SIGTERM);
-    pass(6);                                            // the sound under way arrives
-    pass_until(60, [this] { return missing() == 0; });  // what was lost last is repaired
+    pass(6);  // the sound under way arrives
+    pass_until(testing::kHangLimit.count(),
+               [this] { return missing() == 0; });  // what was lost last is repaired
     EXPECT_GT(auditor_->delivered.size(), static_cast<std::size_t>(sending_seconds()))
         << "too few for a test";
     EXPECT_EQ(missing(), 0u) << "of " << auditor_->delivered.size();

@@ -31,8 +31,8 @@ namespace fs = std::filesystem;
 std::string script(const std::string& name) { return std::string(HALOCLINE_SOURCE_DIR) + "/scripts/" + name; }
 
 template <class Condition>
-bool comes_true(Condition condition, std::chrono::seconds limit = 30s) {
-  const auto end = std::chrono::steady_clock::now() + limit;
+bool comes_true(Condition condition) {
+  const auto end = std::chrono::steady_clock::now() + kHangLimit;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(20ms);
@@ -49,13 +49,13 @@ class RunSlurm : public ::testing::Test {
     slurm_ = std::make_unique<Process>(std::vector<std::string>{
         script("slurm_node"), "--nodes", "2", "/bin/sh", "-c",
         "echo \"$SLURM_CONF\" >made && mv made conf && while [ ! -e stop ]; do sleep 0.1; done"});
-    ASSERT_TRUE(comes_true([&] { return fs::exists("conf"); }, 60s)) << slurm_->output();
+    ASSERT_TRUE(comes_true([&] { return fs::exists("conf"); })) << slurm_->output();
     std::getline(std::ifstream("conf"), conf_);
   }
   void TearDown() override {
     if (!slurm_) return;
     std::ofstream("stop") << "\n";
-    EXPECT_EQ(slurm_->wait(30s), 0) << slurm_->output();
+    EXPECT_EQ(slurm_->wait(), 0) << slurm_->output();
   }
 
   [[nodiscard]] std::unique_ptr<Process> started(const std::vector<std::string>& command) const {
@@ -115,7 +115,7 @@ class RunSlurm : public ::testing::Test {
 
 TEST_F(RunSlurm, TwoHostsInLockstepWriteTheLogOfOneProcess) {
   const auto run = this->run({"--hosts", "2", "--lockstep", "--log", log("run.lcm")});
-  EXPECT_EQ(run->wait(60s), 0) << run->output();
+  EXPECT_EQ(run->wait(), 0) << run->output();
   EXPECT_TRUE(text_of("run.lcm") == log_of_one_process(1));
   EXPECT_THAT(run->output(), HasSubstr("\nreport      " + here_ + "/run.html\n"));
   EXPECT_FALSE(fs::exists("run.lcm.journal"));
@@ -133,7 +133,7 @@ TEST_F(RunSlurm, ChannelServersAndVehiclesAreSpreadOverTheHostsAndAllOthersAreOn
     EXPECT_THAT(addresses, HasSubstr(on_second ? " 10.77.0.12/24" : " 10.77.0.11/24")) << name;
   }
   run->signal(SIGTERM);
-  EXPECT_EQ(run->wait(30s), 0) << run->output();
+  EXPECT_EQ(run->wait(), 0) << run->output();
 }
 
 TEST_F(RunSlurm, AKilledProcessIsStartedAgainOnItsHostAndTheLogIsTheSame) {
@@ -147,7 +147,7 @@ TEST_F(RunSlurm, AKilledProcessIsStartedAgainOnItsHostAndTheLogIsTheSame) {
     EXPECT_TRUE(comes_true([&] { return run->output().find(restart) != std::string::npos; }))
         << run->output();
   }
-  EXPECT_EQ(run->wait(60s), 0) << run->output();
+  EXPECT_EQ(run->wait(), 0) << run->output();
   EXPECT_TRUE(text_of("run.lcm") == log_of_one_process(2));
 }
 
@@ -161,7 +161,7 @@ TEST_F(RunSlurm, TwoJobsOnTheSameHostsDoNotReceiveEachOther) {
   }
   for (const auto& run : runs) programs_of(*run, 7);
   EXPECT_TRUE(runs[0]->running() && runs[1]->running()) << "one after the other: not much of a test";
-  for (const auto& run : runs) EXPECT_EQ(run->wait(60s), 0) << run->output();
+  for (const auto& run : runs) EXPECT_EQ(run->wait(), 0) << run->output();
   const std::string one = log_of_one_process(1);
   EXPECT_TRUE(text_of("first.lcm") == one);
   EXPECT_TRUE(text_of("second.lcm") == one);
@@ -172,7 +172,7 @@ TEST_F(RunSlurm, SigtermCancelsTheJobAndLeavesNoProcess) {
   const auto programs = programs_of(*run, 7);
   std::this_thread::sleep_for(3s);
   run->signal(SIGTERM);
-  EXPECT_EQ(run->wait(20s), 0) << run->output();
+  EXPECT_EQ(run->wait(), 0) << run->output();
   for (const auto& [name, program] : programs) EXPECT_FALSE(is_running(program.pid)) << name;
   EXPECT_EQ(output_of({"/usr/bin/squeue", "--noheader"}), "");
   EXPECT_THAT(run->output(), HasSubstr("\nalpha       went "));
@@ -184,7 +184,7 @@ TEST_F(RunSlurm, CtrlCCancelsTheJobWithExitCode130) {
   const auto programs = programs_of(*run, 7);
   std::this_thread::sleep_for(2s);
   run->signal(SIGINT);
-  EXPECT_EQ(run->wait(20s), 130) << run->output();
+  EXPECT_EQ(run->wait(), 130) << run->output();
   for (const auto& [name, program] : programs) EXPECT_FALSE(is_running(program.pid)) << name;
 }
 
@@ -194,7 +194,7 @@ TEST_F(RunSlurm, AJobThatIsNotWaitedForWritesItsLogOnALossyNetworkToo) {
   const auto run = this->run({"--no-wait", "--lockstep", "--log", log("run.lcm")});
   EXPECT_EQ(run->wait(), 0) << run->output();
   EXPECT_EQ(run->output(), "job 3; its output: " + here_ + "/run.txt; scancel 3 ends it\n");
-  EXPECT_TRUE(comes_true([&] { return output_of({"/usr/bin/squeue", "--noheader"}).empty(); }, 60s));
+  EXPECT_TRUE(comes_true([&] { return output_of({"/usr/bin/squeue", "--noheader"}).empty(); }));
   EXPECT_TRUE(text_of("run.lcm") == log_of_one_process(1)) << text_of("run.txt");
 }
 
@@ -203,7 +203,7 @@ TEST_F(RunSlurm, AJobCancelledBySlurmEndsWithAReadableLogAndExitCode1) {
   const auto programs = programs_of(*run, 7);
   std::this_thread::sleep_for(3s);
   output_of({"/usr/bin/scancel", "1"});
-  EXPECT_EQ(run->wait(20s), 1) << run->output();
+  EXPECT_EQ(run->wait(), 1) << run->output();
   for (const auto& [name, program] : programs) EXPECT_FALSE(is_running(program.pid)) << name;
   EXPECT_THAT(run->output(), HasSubstr("\nalpha       went "));
   EXPECT_THAT(run->output(), HasSubstr("job 1: CANCELLED; its output: " + here_ + "/run.txt\n"));
@@ -215,7 +215,7 @@ TEST_F(RunSlurm, AHostThatFailsEndsTheJobAndLeavesNoProcess) {
   const std::string status =
       text_of("/proc/" + std::to_string(programs.at("channel-server").pid) + "/status");
   kill(std::stoi(status.substr(status.find("PPid:") + 5)), SIGKILL);
-  EXPECT_EQ(run->wait(30s), 1) << run->output();
+  EXPECT_EQ(run->wait(), 1) << run->output();
   EXPECT_THAT(run->output(), HasSubstr("the other hosts ended with exit code 137\n"));
   EXPECT_THAT(run->output(), HasSubstr("job 1: FAILED; its output: "));
   for (const auto& [name, program] : programs) EXPECT_FALSE(is_running(program.pid)) << name;
@@ -224,7 +224,7 @@ TEST_F(RunSlurm, AHostThatFailsEndsTheJobAndLeavesNoProcess) {
 TEST_F(RunSlurm, HostsThatDoNotReceiveEachOtherEndTheJobWithTheReason) {
   output_of({"/usr/bin/srun", "--nodelist=host-2", "--nodes=1", script("lose"), "100", "eth0"});
   const auto run = this->run({"--lockstep", "--log", log("run.lcm")});
-  EXPECT_EQ(run->wait(60s), 1) << run->output();
+  EXPECT_EQ(run->wait(), 1) << run->output();
   EXPECT_THAT(run->output(), HasSubstr("host-2 and host 0 do not receive each other's UDP multicast"));
   EXPECT_THAT(run->output(), HasSubstr(": FAILED; its output: "));
 }

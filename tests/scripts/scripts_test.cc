@@ -180,8 +180,8 @@ std::vector<std::string> in_folder(const std::string& folder, const std::vector<
   return all;
 }
 
-bool prints(const Process& process, const std::string& text, std::chrono::seconds limit = 20s) {
-  const auto end = std::chrono::steady_clock::now() + limit;
+bool prints(const Process& process, const std::string& text) {
+  const auto end = std::chrono::steady_clock::now() + kHangLimit;
   while (process.output().find(text) == std::string::npos && std::chrono::steady_clock::now() < end)
     std::this_thread::sleep_for(20ms);
   return process.output().find(text) != std::string::npos;
@@ -274,7 +274,7 @@ class DistributedReport : public ::testing::Test {
 
 TEST_F(DistributedReport, PacedByTheWallClock) {
   Process run = distributed({"--duration", "8", "--rate", "4", "--log", here_ + "/run.lcmlog"});
-  EXPECT_EQ(run.wait(60s), 0) << run.output();
+  EXPECT_EQ(run.wait(), 0) << run.output();
   expect_report(run, here_ + "/run.lcmlog", here_ + "/run");
   Process again = distributed({"--log", here_ + "/run.lcmlog"});
   EXPECT_EQ(again.wait(), 2);
@@ -288,7 +288,7 @@ TEST_F(DistributedReport, PacedByTheWallClock) {
 // The log is that of one process, byte for byte, so the page is too, but for the log's name.
 TEST_F(DistributedReport, InLockstep) {
   Process run = distributed({"--lockstep", "--log", here_ + "/run.lcm"});
-  EXPECT_EQ(run.wait(60s), 0) << run.output();
+  EXPECT_EQ(run.wait(), 0) << run.output();
   expect_report(run, here_ + "/run.lcm", here_ + "/run");
   const std::string report = text_of(here_ + "/run.html");
   std::string one = text_of(here_ + "/one/report.html");
@@ -303,7 +303,7 @@ TEST_F(DistributedReport, CtrlCEndsItWithItsReportAnd130) {
   ASSERT_TRUE(prints(run, "to join their bus")) << run.output();
   std::this_thread::sleep_for(2s);
   run.signal(SIGINT);
-  EXPECT_EQ(run.wait(60s), 130) << run.output();
+  EXPECT_EQ(run.wait(), 130) << run.output();
   EXPECT_THAT(run.output(), EndsWith("\nreport      " + here_ + "/run.html\n"));
 }
 
@@ -312,12 +312,14 @@ TEST(JoinMissed, AVehicleOnABusWithoutARunReportsIt) {
   EXPECT_TRUE(prints(vehicle, "no CLOCK for 3 s: start this by ./scripts/join\n")) << vehicle.output();
 }
 
-TEST(Scripts, SetupIsSilentAndQuickWhenAllIsThere) {
-  const auto start = std::chrono::steady_clock::now();
-  Process setup({script("setup"), "test"});
+TEST(Scripts, SetupIsSilentAndAsksNoRegistryWhenAllIsThere) {
+  const TemporaryFolder folder;
+  std::ofstream("apt-get") << "#!/bin/sh\necho asked\n";
+  std::filesystem::permissions("apt-get", std::filesystem::perms::owner_all);
+  const std::string path = std::filesystem::current_path().string() + ":" + std::getenv("PATH");
+  Process setup({"/usr/bin/env", "PATH=" + path, script("setup"), "test"});
   EXPECT_EQ(setup.wait(), 0);
   EXPECT_EQ(setup.output(), "");
-  EXPECT_LT(std::chrono::steady_clock::now() - start, 3s);  // 0.05 s on an idle machine
 }
 
 }  // namespace

@@ -13,10 +13,18 @@
 
 #include <fcntl.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace halocline::testing {
+namespace {
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+}  // namespace
 
 Process::Process(const std::vector<std::string>& command) {
   char path[] = "/tmp/halocline-process-XXXXXX";
@@ -57,7 +65,9 @@ int Process::wait(std::chrono::milliseconds limit) {
   const auto end = std::chrono::steady_clock::now() + limit;
   while (status_ < 0) {
     int status = 0;
-    if (waitpid(pid_, &status, WNOHANG) == pid_) {
+    rusage used{};
+    if (wait4(pid_, &status, WNOHANG, &used) == pid_) {
+      processor_s_ = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
       status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     } else if (std::chrono::steady_clock::now() >= end) {
       return -1;
@@ -66,6 +76,20 @@ int Process::wait(std::chrono::milliseconds limit) {
     }
   }
   return status_;
+}
+
+double Process::processor_s() {
+  if (!running()) return processor_s_;
+  // proc(5): the fields behind the name in parentheses begin with the third; utime and stime are the 14th and 15th.
+  std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
+  std::string line;
+  std::getline(file, line);
+  std::istringstream fields(line.substr(line.rfind(')') + 1));
+  std::string skipped;
+  for (int field = 3; field < 14; ++field) fields >> skipped;
+  double user = 0, system = 0;
+  fields >> user >> system;
+  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 std::string Process::output() const {

@@ -10,6 +10,9 @@
 
 namespace halocline::testing {
 
+// Limit after which a test takes what it waits for as hung. It bounds no speed: a busy machine may need most of it.
+constexpr std::chrono::seconds kHangLimit{300};
+
 // A program running beside the test, its standard output and error kept. Ended by SIGKILL when it goes out of scope.
 class Process {
  public:
@@ -23,13 +26,16 @@ class Process {
   void signal(int number) const;
   bool running();
   // Waits for the end: the exit code, 128 + the signal that ended it, or -1 when it still runs after `limit`.
-  int wait(std::chrono::milliseconds limit = std::chrono::seconds(20));
+  int wait(std::chrono::milliseconds limit = kHangLimit);
+  // Processor time that it has used, s; in ticks of 10 ms while it runs.
+  double processor_s();
   // What it has written so far, both streams in one.
   std::string output() const;
 
  private:
   pid_t pid_ = -1;
   int status_ = -1;
+  double processor_s_ = 0;  // once it has ended
   std::string output_path_;
 };
 

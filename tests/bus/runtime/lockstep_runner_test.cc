@@ -16,6 +16,7 @@
 #include "bus/runtime/thread_pool.h"
 #include "tests/bus/runtime/test_nodes.h"
 #include "tests/support/at_ms.h"
+#include "tests/support/process.h"
 
 namespace halocline::bus {
 namespace {
@@ -76,10 +77,10 @@ TEST_F(LockstepTest, NodesOfOneStageStepOnThreadsAndAreHeardInTheOrderOfTheirNam
   std::counting_semaphore begun(0), done(0);
   a.at_step = [&] {  // not without b, which goes first
     begun.release();
-    EXPECT_TRUE(done.try_acquire_for(std::chrono::seconds(30)));
+    EXPECT_TRUE(done.try_acquire_for(halocline::testing::kHangLimit));
   };
   b.at_step = [&] {
-    EXPECT_TRUE(begun.try_acquire_for(std::chrono::seconds(30)));
+    EXPECT_TRUE(begun.try_acquire_for(halocline::testing::kHangLimit));
     done.release();
   };
   ThreadPool pool(2);

@@ -46,7 +46,7 @@ class RunCommand : public ::testing::Test {
   }
   Ended run(const std::string& arguments) {
     Process process(command(arguments));
-    const int code = process.wait(std::chrono::seconds(60));
+    const int code = process.wait();
     return {code, process.output()};
   }
   // A command for each that reads a log.
@@ -69,14 +69,14 @@ class RunCommand : public ::testing::Test {
   Ended run_until(const std::string& arguments, const std::string& text, const std::string& file,
                   int signal) {
     Process process(command(arguments));
-    for (int i = 0; i < 3000 && process.running(); ++i) {
+    while (process.running()) {
       std::error_code error;
       const auto size = std::filesystem::file_size(folder_ + "/" + file, error);
       if (process.output().find(text) != std::string::npos && !error && size > 0) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     process.signal(signal);
-    const int code = process.wait(std::chrono::seconds(60));
+    const int code = process.wait();
     return {code, process.output()};
   }
 

@@ -37,9 +37,10 @@ std::vector<pid_t> processes_with(const std::string& text) {
   return found;
 }
 
-// Polls for up to a minute: a loaded machine starts and ends processes late.
 bool becomes_true(const std::function<bool()>& condition) {
-  for (int i = 0; i < 1200 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const auto end = std::chrono::steady_clock::now() + testing::kHangLimit;
+  while (!condition() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return condition();
 }
 
@@ -82,20 +83,20 @@ class SweepCommand : public ::testing::Test {
 
 TEST_F(SweepCommand, DoesEveryRunOnceAndMakesTheTables) {
   Process first(command(four_runs()));
-  ASSERT_EQ(first.wait(std::chrono::seconds(100)), 0) << first.output();
+  ASSERT_EQ(first.wait(), 0) << first.output();
   EXPECT_EQ(results(), 4u);
   EXPECT_TRUE(fs::exists(folder_ + "/sweep.nc"));
   EXPECT_THAT(text("runs.csv"), HasSubstr("3,1,12,2,1,"));
   const std::string points = text("points.csv");
   Process again(command({}));  // its own plan, and nothing left to do
-  ASSERT_EQ(again.wait(std::chrono::seconds(20)), 0) << again.output();
+  ASSERT_EQ(again.wait(), 0) << again.output();
   EXPECT_THAT(again.output(), HasSubstr("4 runs, 0 to do here"));
   EXPECT_EQ(text("points.csv"), points);
 }
 
 TEST_F(SweepCommand, ADamagedResultIsDoneAgain) {
   Process first(command(four_runs()));
-  ASSERT_EQ(first.wait(std::chrono::seconds(100)), 0) << first.output();
+  ASSERT_EQ(first.wait(), 0) << first.output();
   const std::string points = text("points.csv");
   for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
     if (entry.path().filename() != "result.json") continue;
@@ -109,16 +110,16 @@ TEST_F(SweepCommand, ADamagedResultIsDoneAgain) {
     break;
   }
   Process again(command({}));
-  ASSERT_EQ(again.wait(std::chrono::seconds(60)), 0) << again.output();
+  ASSERT_EQ(again.wait(), 0) << again.output();
   EXPECT_THAT(again.output(), HasSubstr("4 runs, 1 to do here"));
   EXPECT_EQ(text("points.csv"), points);
 }
 
 TEST_F(SweepCommand, MoreSeedsRunOnlyWhatIsNew) {
   Process first(command(four_runs()));
-  ASSERT_EQ(first.wait(std::chrono::seconds(100)), 0) << first.output();
+  ASSERT_EQ(first.wait(), 0) << first.output();
   Process more(command({"--seeds", "1..3"}));
-  ASSERT_EQ(more.wait(std::chrono::seconds(60)), 0) << more.output();
+  ASSERT_EQ(more.wait(), 0) << more.output();
   EXPECT_THAT(more.output(), HasSubstr("6 runs, 2 to do here"));
 }
 
@@ -126,10 +127,10 @@ TEST_F(SweepCommand, AnInterruptedSweepGoesOn) {
   Process first(command(four_runs("100000")));  // longer than anyone waits
   ASSERT_TRUE(becomes_true([&] { return fs::exists(folder_ + "/runs"); })) << first.output();
   first.signal(SIGTERM);
-  EXPECT_EQ(first.wait(std::chrono::seconds(60)), 1) << first.output();
+  EXPECT_EQ(first.wait(), 1) << first.output();
   EXPECT_EQ(results(), 0u);
   Process rest(command({"--duration", "4"}));
-  EXPECT_EQ(rest.wait(std::chrono::seconds(100)), 0) << rest.output();
+  EXPECT_EQ(rest.wait(), 0) << rest.output();
   EXPECT_EQ(results(), 4u);
 }
 
@@ -139,7 +140,7 @@ TEST_F(SweepCommand, ASweepThatIsKilledLeavesNoRunBehind) {
   Process sweep(command(words));
   ASSERT_TRUE(becomes_true([&] { return processes_with(folder_ + "/runs/").size() == 2; })) << sweep.output();
   sweep.signal(SIGKILL);
-  sweep.wait(std::chrono::seconds(60));
+  sweep.wait();
   EXPECT_TRUE(becomes_true([&] { return processes_with(folder_ + "/runs/").empty(); }));
 }
 
@@ -157,7 +158,7 @@ TEST_F(SweepCommand, AFailedRunIsReportedAndStopsNoOther) {
   lines >> number >> run_folder;
   fs::create_directories(run_folder + "/run.lcm");  // a folder where the log is to be
   Process sweep(command(words));
-  EXPECT_EQ(sweep.wait(std::chrono::seconds(100)), 1);
+  EXPECT_EQ(sweep.wait(), 1);
   EXPECT_THAT(sweep.output(), HasSubstr("run 0 ("));
   EXPECT_THAT(sweep.output(), HasSubstr("1 of 4 runs have no result"));
   EXPECT_EQ(results(), 3u);
@@ -184,7 +185,7 @@ TEST_F(SweepCommand, TheTasksOfAJobArrayDoAllRunsAndGatherMakesTheSameTables) {
   for (const char* task : {"0", "1", "2"}) {  // as sbatch calls it
     Process run({"/usr/bin/env", std::string("SLURM_ARRAY_TASK_ID=") + task, "SLURM_CPUS_PER_TASK=1",
                  "/bin/bash", script});
-    EXPECT_EQ(run.wait(std::chrono::seconds(100)), 0) << text(std::string("slurm-") + task + ".txt");
+    EXPECT_EQ(run.wait(), 0) << text(std::string("slurm-") + task + ".txt");
   }
   EXPECT_EQ(results(), 4u);
   Process gather(command({"--gather"}));
@@ -203,7 +204,7 @@ TEST_F(SweepCommand, SlurmRunsTheJobArray) {
   ASSERT_EQ(write.wait(), 0) << write.output();
   Process slurm({scripts + "isolated", scripts + "slurm_node", "/bin/bash", "-ec",
                  "sbatch --test-only \"$0\"; sbatch --wait \"$0\"", script});
-  EXPECT_EQ(slurm.wait(std::chrono::seconds(200)), 0) << slurm.output();
+  EXPECT_EQ(slurm.wait(), 0) << slurm.output();
   EXPECT_THAT(slurm.output(), HasSubstr("Submitted batch job"));
   EXPECT_EQ(results(), 4u);
   EXPECT_TRUE(fs::exists(folder_ + "/slurm-2.txt"));

@@ -182,7 +182,7 @@ place = "tcp:9702"
   lander.write(port.istart());
   ASSERT_TRUE(work_until(listen, [&] { return seconds() > 0.5; })) << gateway.output();
   for (const std::string& line : testing::odata(testing::sweep(96'000, 0.1))) buoy.write(line);
-  const double at_s = heard.begin_s + seconds() + 1.5;
+  const double at_s = heard.begin_s + seconds() + 5;  // a busy machine carries it late
   buoy.write(testing::ostart(at_s));
   ASSERT_TRUE(work_until(listen, [&] { return heard.begin_s + seconds() > at_s + 0.8; }));
   const double noise = testing::rms({heard.values.begin(), heard.values.begin() + 48'000});

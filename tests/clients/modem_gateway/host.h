@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host's side of a door: a TCP connection on loopback, or a file, that never waits longer than a minute.
+// A host's side of a door: a TCP connection on loopback, or a file, that never waits longer than a few seconds.
 #pragma once
 
 #include <array>
@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "clients/modem_gateway/endpoint.h"
+#include "tests/support/process.h"
 
 namespace halocline::modem_gateway::testing {
 
@@ -61,9 +62,9 @@ class Host {
   bool is_open_ = true;
 };
 
-// Calls `work` until `done`, or for a minute, which is a fault and no measure; returns whether it was done.
+// Calls `work` until `done`; false when nothing makes it so.
 inline bool work_until(const std::function<void()>& work, const std::function<bool()>& done) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto end = std::chrono::steady_clock::now() + halocline::testing::kHangLimit;
   while (!done()) {
     if (std::chrono::steady_clock::now() > end) return false;
     work();

@@ -72,9 +72,9 @@ class Page {
   bool opened() const { return opened_; }
   WebClient& client() { return client_; }
 
-  // The next JSON message for which `fits` holds; null when none came in time.
-  json await(const std::function<bool(const json&)>& fits, double seconds = 10) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  // The next JSON message for which `fits` holds; null when none comes.
+  json await(const std::function<bool(const json&)>& fits) {
+    const auto end = std::chrono::steady_clock::now() + halocline::testing::kHangLimit;
     while (std::chrono::steady_clock::now() < end) {
       const auto message = client_.next(milliseconds(500));
       if (!message) continue;
@@ -96,9 +96,9 @@ class Page {
     return await(
         [&](const json& message) { return message["type"] == "reply" && message["id"] == last_id_; });
   }
-  // The next vehicle frame's instant, s; below 0 when none came.
-  double next_frame_s(milliseconds limit = milliseconds(2000)) {
-    const auto end = std::chrono::steady_clock::now() + limit;
+  // The next vehicle frame's instant, s; below 0 when none comes.
+  double next_frame_s() {
+    const auto end = std::chrono::steady_clock::now() + halocline::testing::kHangLimit;
     while (std::chrono::steady_clock::now() < end) {
       const auto message = client_.next(milliseconds(200));
       if (!message || !message->binary || message->bytes[0] != 1) continue;

@@ -54,10 +54,11 @@ void WebClient::send(const std::string& bytes) const {
   }
 }
 
-std::string WebClient::read_all(std::chrono::milliseconds limit) const {
+std::string WebClient::read_all() const {
+  constexpr std::chrono::milliseconds kLimit = kHangLimit;
   std::string all;
   std::array<char, 65536> bytes;
-  for (pollfd ready{socket_, POLLIN, 0}; ::poll(&ready, 1, static_cast<int>(limit.count())) > 0;) {
+  for (pollfd ready{socket_, POLLIN, 0}; ::poll(&ready, 1, static_cast<int>(kLimit.count())) > 0;) {
     const ssize_t count = ::recv(socket_, bytes.data(), bytes.size(), 0);
     if (count <= 0) break;
     all.append(bytes.data(), static_cast<std::size_t>(count));
@@ -65,8 +66,8 @@ std::string WebClient::read_all(std::chrono::milliseconds limit) const {
   return all;
 }
 
-bool WebClient::is_closed_within(std::chrono::milliseconds limit) const {
-  const auto end = Clock::now() + limit;
+bool WebClient::is_closed() const {
+  const auto end = Clock::now() + kHangLimit;
   std::array<char, 65536> bytes;
   for (pollfd ready{socket_, POLLIN, 0}; ::poll(&ready, 1, milliseconds_to(end)) > 0;) {
     if (::recv(socket_, bytes.data(), bytes.size(), 0) <= 0) return true;
@@ -83,7 +84,7 @@ std::string WebClient::open(const std::string& target, const std::string& header
   send("GET " + target + " HTTP/1.1\r\n" + headers +
        "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
-  const auto end = Clock::now() + std::chrono::seconds(5);
+  const auto end = Clock::now() + kHangLimit;
   while (received_.find("\r\n\r\n") == std::string::npos && fill(received_.size() + 1, end)) {
   }
   const std::string first = received_.substr(0, received_.find("\r\n"));

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/process.h"
+
 namespace halocline::testing {
 
 class WebClient {
@@ -20,9 +22,9 @@ class WebClient {
 
   void send(const std::string& bytes) const;
   // What the server sent until it closed, or nothing more came for `limit`.
-  std::string read_all(std::chrono::milliseconds limit = std::chrono::seconds(2)) const;
+  std::string read_all() const;
   // Whether the server has closed the connection within `limit`.
-  bool is_closed_within(std::chrono::milliseconds limit) const;
+  bool is_closed() const;
 
   // One request with these header lines (each with its end of line), and the whole answer.
   std::string request(const std::string& line, const std::string& headers) const;
@@ -35,7 +37,7 @@ class WebClient {
   };
   void send_message(const std::string& bytes, bool binary = false) const;
   // The next message; empty when none came within `limit`, or the connection ended.
-  std::optional<Message> next(std::chrono::milliseconds limit = std::chrono::seconds(5));
+  std::optional<Message> next(std::chrono::milliseconds limit = kHangLimit);
 
  private:
   bool fill(std::size_t bytes, std::chrono::steady_clock::time_point end);

@@ -186,14 +186,14 @@ TEST(WebServer, MalformedAndHugeFramesEndTheirConnectionAlone) {
     WebClient bad(server.port());
     ASSERT_EQ(bad.open("/ws", host_of(server.port()) + kProtocol), "HTTP/1.1 101 Switching Protocols");
     bad.send(bytes);
-    EXPECT_TRUE(bad.is_closed_within(std::chrono::seconds(5)));
+    EXPECT_TRUE(bad.is_closed());
   }
   for (const std::string& bytes :
        {std::string("GET / HTTP/9.9\r\n\r\n"), std::string("\x16\x03\x01\x00\xff", 5),
         "GET / HTTP/1.1\r\nX: " + std::string(40'000, 'a')}) {
     const WebClient bad(server.port());
     bad.send(bytes + "\r\n\r\n");
-    EXPECT_TRUE(bad.is_closed_within(std::chrono::seconds(5)));
+    EXPECT_TRUE(bad.is_closed());
   }
   good.send_message("still here");
   EXPECT_EQ(good.next()->bytes, "still here");
@@ -212,7 +212,7 @@ TEST(WebServer, ManyConnectionsAreRefusedAndLeaveRoomAgain) {
     EXPECT_EQ(one_more.open("/ws", host_of(server.port()) + kProtocol), "HTTP/1.1 503 Service Unavailable");
     for (std::size_t i = 0; i < 2 * WebServer::kMaxTransports; ++i)
       clients.push_back(std::make_unique<WebClient>(server.port()));
-    EXPECT_TRUE(WebClient(server.port()).is_closed_within(std::chrono::seconds(5)));
+    EXPECT_TRUE(WebClient(server.port()).is_closed());
   }
   EXPECT_TRUE(server.has_connections(0));
   EXPECT_THAT(get(server, "/"), HasSubstr("bundle"));

@@ -22,7 +22,6 @@ namespace {
 
 using testing::AttackedProcesses;
 using ::testing::HasSubstr;
-using testing::kLongest_s;
 using ::testing::Not;
 
 // One genuine CLOCK, 9 s old and older, every 2 s.
@@ -69,13 +68,13 @@ TEST_F(AttackedProcesses, OldHeartbeatsOfAKilledServerDoNotKeepItsName) {
   at("halocline-channel-server").signal(SIGKILL);
   processes_["halocline-channel-server"] = run("halocline-channel-server");
   monitor_.clear();
-  EXPECT_TRUE(monitor_.wait_until(kLongest_s, [&] {
+  EXPECT_TRUE(monitor_.wait_until([&] {
     publish(old);
     publish(status);
     return monitor_.received("RECEIVE.alpha") > 0;
   }));
   const auto rivals = [&] { return monitor_.last_status["traffic"].rivals; };
-  EXPECT_TRUE(monitor_.wait_until(kLongest_s, [&] {
+  EXPECT_TRUE(monitor_.wait_until([&] {
     publish(old);
     publish(status);
     const std::int64_t before = rivals();
@@ -93,7 +92,7 @@ TEST_F(AttackedProcesses, TheWholeBusOfTheRunReplayedOntoItChangesNothing) {
   write_log(log);
   const std::size_t before = expect_outcomes_whole();
   const auto player = play(log);
-  ASSERT_TRUE(monitor_.wait_until(kLongest_s, [&] {
+  ASSERT_TRUE(monitor_.wait_until([&] {
     EXPECT_TRUE(vehicles_keep_time()) << last_state_.utime << ' ' << latest_clock_utime_;
     return !player->running() || HasFailure();
   }));
@@ -118,7 +117,7 @@ TEST_F(AttackedProcesses, TheBusOfAnEarlierRunReplayedOntoThisOneChangesNothing)
   for (auto& [program, process] : processes_) process = run(program);
   ASSERT_TRUE(outcomes_come(1));
   const auto player = play(log);
-  ASSERT_TRUE(monitor_.wait_until(kLongest_s, [&] { return !player->running(); }));
+  ASSERT_TRUE(monitor_.wait_until([&] { return !player->running(); }));
   EXPECT_EQ(player->wait(), 0) << player->output();
   ASSERT_TRUE(outcomes_come(4));
   expect_outcomes_whole(earlier);
@@ -133,7 +132,7 @@ TEST_F(AttackedProcesses, ASendRepeatedAfterTwelveSecondsHasTheSameReceipt) {
   ASSERT_TRUE(outcomes_come(4));
   records_ = true;
   const auto is_send = [](const Datagram& datagram) { return datagram.channel == "SEND.alpha"; };
-  ASSERT_TRUE(monitor_.wait_until(kLongest_s, [&] { return std::ranges::any_of(recorded_, is_send); }));
+  ASSERT_TRUE(monitor_.wait_until([&] { return std::ranges::any_of(recorded_, is_send); }));
   const Datagram send = *std::ranges::find_if(recorded_, is_send);
   modem_send_t request;
   ASSERT_EQ(bus::decode(send.bytes, request), "");
@@ -144,11 +143,11 @@ TEST_F(AttackedProcesses, ASendRepeatedAfterTwelveSecondsHasTheSameReceipt) {
     });
     return of_it;
   };
-  ASSERT_TRUE(monitor_.wait_until(kLongest_s, [&] { return !receipts_of_it().empty(); }));
+  ASSERT_TRUE(monitor_.wait_until([&] { return !receipts_of_it().empty(); }));
   ASSERT_TRUE(time_passes(12));
   const std::size_t before = receipts_of_it().size();
   publish(send);
-  ASSERT_TRUE(monitor_.wait_until(kLongest_s, [&] { return receipts_of_it().size() > before; }));
+  ASSERT_TRUE(monitor_.wait_until([&] { return receipts_of_it().size() > before; }));
   EXPECT_EQ(receipts_of_it().back().receipt_result, receipts_of_it().front().receipt_result);
   EXPECT_EQ(receipts_of_it().back().start_utime, receipts_of_it().front().start_utime);
   EXPECT_EQ(receipts_of_it().front().receipt_result, modem_receipt_t::ACCEPTED);
