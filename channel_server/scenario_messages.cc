@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "channel_server/vehicles/modem_schedule.h"
-#include "core/utf8.h"
+#include "core/text/utf8.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/csv_table.h"
-#include "core/lower_case.h"
+#include "core/text/lower_case.h"
 #include "core/units.h"
 #include "ocean/potential_temperature.h"
 

@@ -13,7 +13,7 @@
 
 #include "core/check.h"
 #include "core/csv_table.h"
-#include "core/lower_case.h"
+#include "core/text/lower_case.h"
 #include "ocean/cf_units.h"
 
 namespace halocline::ocean {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/csv_table.h"
-#include "core/lower_case.h"
+#include "core/text/lower_case.h"
 
 namespace halocline::ocean {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "core/input_file.h"
+#include "core/files/input_file.h"
 
 namespace halocline::ocean {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/lower_case.h"
+#include "core/text/lower_case.h"
 #include "ocean/cf_units.h"
 #include "ocean/potential_temperature.h"
 

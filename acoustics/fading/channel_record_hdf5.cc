@@ -6,7 +6,6 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,7 +16,7 @@
 #include "acoustics/fading/channel_record.h"
 #include "acoustics/fading/channel_record_reader.h"
 #include "core/check.h"
-#include "core/input_file.h"
+#include "core/files/input_file.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -170,9 +169,10 @@ ChannelRecord read_record(const std::string& path, std::size_t receiver) {
               " values a receiver");
   // Deflate makes a byte of 1032 at most; a damaged header claims what no file of its size holds.
   constexpr std::uintmax_t kMaxCompression = 1032;
-  require(
-      size[0] * size[2] <= kMaxCompression * std::filesystem::file_size(path) / sizeof(std::complex<float>),
-      taps.place() + ": is of size " + taps.dimensions_text() + "; the file is too short for that");
+  hsize_t file_bytes = 0;
+  require(H5Fget_filesize(file.id(), &file_bytes) >= 0, path + ": has no size");
+  require(size[0] * size[2] <= kMaxCompression * file_bytes / sizeof(std::complex<float>),
+          taps.place() + ": is of size " + taps.dimensions_text() + "; the file is too short for that");
   record.delays = size[2];
   record.taps = read_taps(taps, receiver);
   validate(record);

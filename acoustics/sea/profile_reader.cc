@@ -13,7 +13,7 @@
 
 #include "core/check.h"
 #include "core/csv_table.h"
-#include "core/input_file.h"
+#include "core/files/input_file.h"
 #include "core/units.h"
 #include "ocean/ocean_field.h"
 

@@ -14,7 +14,7 @@
 
 #include "bathymetry/rasters/raster_options.h"
 #include "core/check.h"
-#include "core/input_file.h"
+#include "core/files/input_file.h"
 #include "ocean/netcdf_header.h"
 
 namespace halocline::bathymetry::gdal {

@@ -13,6 +13,7 @@
 #include "bathymetry/rasters/raster_windows.h"
 #include "bathymetry/rasters/vertical_sense.h"
 #include "core/check.h"
+#include "core/files/input_file.h"
 #include "ocean/cf_axis.h"
 #include "ocean/cf_units.h"
 #include "ocean/netcdf_file.h"
@@ -234,7 +235,8 @@ std::unique_ptr<NetcdfFile> open_file(const std::string& path) {
 
 std::unique_ptr<RasterSource> open_uneven_netcdf(const RasterOptions& options, double origin_latitude_deg,
                                                  double origin_longitude_deg) {
-  if (is_any_raster_allowed() || options.path.starts_with("/vsimem/") ||
+  const bool is_name = is_any_raster_allowed() && !why_unreadable(options.path).empty();
+  if (is_name || options.path.starts_with("/vsimem/") ||
       ocean::netcdf_kind_of(options.path) == ocean::NetcdfKind::kNone)
     return nullptr;
   std::unique_ptr<NetcdfFile> file = open_file(options.path);

@@ -2,7 +2,7 @@
 #include "bathymetry/rasters/vertical_sense.h"
 
 #include "core/check.h"
-#include "core/lower_case.h"
+#include "core/text/lower_case.h"
 
 namespace halocline::bathymetry {
 

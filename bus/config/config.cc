@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "core/input_file.h"
+#include "core/files/input_file.h"
 #include "core/units.h"
 
 namespace halocline::bus {

@@ -13,7 +13,7 @@
 
 #include "bus/config/config.h"
 #include "bus/config/config_document.h"
-#include "core/input_file.h"
+#include "core/files/input_file.h"
 #include "core/names.h"
 
 namespace halocline::bus {

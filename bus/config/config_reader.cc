@@ -12,7 +12,7 @@
 #include "bus/config/config_document.h"
 #include "core/frames.h"
 #include "core/names.h"
-#include "core/utf8.h"
+#include "core/text/utf8.h"
 
 namespace halocline::bus {
 namespace {

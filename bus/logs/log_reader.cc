@@ -14,7 +14,7 @@
 
 #include "bus/logs/log_series.h"
 #include "core/check.h"
-#include "core/input_file.h"
+#include "core/files/input_file.h"
 
 namespace halocline::clients {
 namespace {

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
+
+#include "core/elementary.h"
 
 namespace halocline::bus {
 namespace {
@@ -27,12 +30,13 @@ bool LatenessWatch::note(SimTime steady, SimTime instant) {
 
 std::size_t LatenessWatch::bin_of(double seconds) {
   if (seconds <= kFirst_s) return 0;
-  const double bin = std::ceil(std::log2(seconds / kFirst_s) * kBinsPerOctave);
+  const double bin = std::ceil(elementary::log2(seconds / kFirst_s) * kBinsPerOctave);
   return static_cast<std::size_t>(std::min(bin, static_cast<double>(kBins - 1)));
 }
 
 double LatenessWatch::end_of(std::size_t bin) {
-  return bin == 0 ? 0 : kFirst_s * std::exp2(static_cast<double>(bin) / kBinsPerOctave);
+  return bin == 0 ? 0
+                  : kFirst_s * elementary::exp(std::numbers::ln2 * static_cast<double>(bin) / kBinsPerOctave);
 }
 
 void LatenessWatch::add(SimTime steady, SimDuration lateness) {

@@ -11,7 +11,7 @@
 #include "clients/halocline/calc/quantity.h"
 #include "clients/halocline/commands.h"
 #include "core/check.h"
-#include "core/input_file.h"
+#include "core/files/input_file.h"
 
 namespace halocline::clients {
 namespace {

@@ -26,7 +26,7 @@
 #include "clients/halocline/sweep/sweep_summary.h"
 #include "core/atomic_file.h"
 #include "core/check.h"
-#include "core/input_file.h"
+#include "core/files/input_file.h"
 #include "core/memory/memory_budget.h"
 
 namespace halocline::clients {

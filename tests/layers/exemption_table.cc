@@ -40,9 +40,9 @@ const std::vector<Exemption>& exemptions() {
       {"clients/halocline/analysis/confidence", "boost/", "the one place of statistics"},
       {"core/hash", "xxhash.h", "the one place of hashing"},
       {"core/huge_page_vector", "sys/mman.h", "the one place that asks for large pages"},
-      {"core/input_file", "", "files that a user names are looked at in one place"},
       {"core/atomic_file", "", "files are replaced as a whole in one place"},
       {"core/files/guarded_reading", "", "the one place that reads in a child process first"},
+      {"core/files/input_file", "", "what a user names is looked at in one place before it is opened"},
       {"core/memory/memory_budget", "", "the one place that asks how much memory there is"},
   };
   return table;

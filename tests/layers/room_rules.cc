@@ -99,7 +99,9 @@ bool is_ours(std::string_view path) {
 }
 
 bool stands_on(const Room& room, std::string_view path) {
-  return folder_of(path) == room.path || is_one_of(folder_of(path), room.stands_on) ||
+  const std::string_view folder = folder_of(path);
+  const bool is_in_core = folder.starts_with("core/") && is_one_of("core", room.stands_on);
+  return folder == room.path || is_in_core || is_one_of(folder, room.stands_on) ||
          is_one_of(path, room.stands_on);
 }
 

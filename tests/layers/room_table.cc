@@ -8,12 +8,10 @@ namespace halocline::layers {
 const std::vector<Room>& rooms() {
   static const std::vector<Room> table{
       {"core", {}, {"Eigen/", "sleef.h"}, "values that every room may use stand on no room"},
-      {"core/memory", {"core"}, {}, "how much memory there is depends on the system alone"},
-      {"core/files",
-       {"core", "core/memory"},
-       {},
-       "a file is read with care whatever it holds, and by whichever library"},
-      {"ocean", {"core", "core/files"}, {}, "the ocean moves vehicles and carries sound, and knows neither"},
+      {"core/files", {"core", "core/memory"}, {}, "who stands on core may stand on all of it"},
+      {"core/memory", {"core"}, {}, "who stands on core may stand on all of it"},
+      {"core/text", {}, {}, "who stands on core may stand on all of it"},
+      {"ocean", {"core"}, {}, "the ocean moves vehicles and carries sound, and knows neither"},
       {"acoustics/math", {"core"}, {}, "quadrature and grids know no sea"},
       {"acoustics/noise", {"core", "acoustics/math"}, {}, "what noise sounds like is the same in every sea"},
       {"acoustics/sea",

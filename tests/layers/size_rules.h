@@ -9,9 +9,9 @@
 
 namespace halocline::layers {
 
-inline constexpr int kMaxSourceLines = 350;  // of a .cc
+inline constexpr int kMaxSourceLines = 450;  // of a .cc
 inline constexpr int kMaxHeaderLines = 200;
-inline constexpr int kMaxFilesOfAFolder = 30;
+inline constexpr int kMaxFilesOfAFolder = 35;
 
 // Files longer than their limit, without the line of the licence: "path: 372 lines, at most 350". Tests are held to the same limits.
 std::vector<std::string> long_files(const std::vector<SourceFile>& sources);

@@ -17,7 +17,7 @@
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/mission/mission_summary.h"
 #include "clients/mission/mission_time.h"
-#include "core/input_file.h"
+#include "core/files/input_file.h"
 
 namespace halocline::clients {
 namespace {

@@ -17,7 +17,7 @@
 #include "core/check.h"
 #include "core/csv_table.h"
 #include "core/elementary.h"
-#include "core/input_file.h"
+#include "core/files/input_file.h"
 
 namespace halocline::clients {
 namespace {

@@ -15,8 +15,8 @@
 #include "clients/halocline/scenario/vehicle_track.h"
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/files/input_file.h"
 #include "core/frames.h"
-#include "core/input_file.h"
 
 namespace halocline::clients {
 

@@ -230,7 +230,12 @@ TEST(NodeCommandLine, LogAndJournalAreTwoFiles) {
 
 TEST(NodeCommandLine, AScenarioWithoutEndIsRefused) {
   EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "/dev/zero"}, 2),
-              HasSubstr("/dev/zero: is longer than 64 MB"));
+              HasSubstr("/dev/zero: cannot be read: it is a device; allowed is a regular file"));
+  const std::string path = ::testing::TempDir() + "halocline-long-" + std::to_string(getpid()) + ".toml";
+  std::ofstream(path).close();
+  std::filesystem::resize_file(path, 65u << 20);
+  EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, path}, 2), HasSubstr(path + ": is longer than 64 MB"));
+  std::filesystem::remove(path);
 }
 
 TEST(NodeCommandLine, AFullStandardOutputIsAFailure) {

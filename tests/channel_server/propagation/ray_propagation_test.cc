@@ -206,7 +206,7 @@ TEST_F(RayPropagationTest, WithoutAPathTheStateIsTheCause) {
   }
 }
 
-TEST_F(RayPropagationTest, EndsAtOnePlaceAreHeldAMetreApart) {
+TEST_F(RayPropagationTest, TheLevelIsThatOfAMetreBelowOneAndTheDelayThatOfTheDistance) {
   for (const double off_m : {0.0, 0.001, 0.5}) {
     for (const double reuse_m : {0.0, 5.0}) {
       RayModel model;
@@ -215,7 +215,7 @@ TEST_F(RayPropagationTest, EndsAtOnePlaceAreHeldAMetreApart) {
       EXPECT_EQ(reception.state, PathState::kOpen);
       // The direct path at 1 m, and echoes 30 dB and more below.
       EXPECT_NEAR(reception.budget.received_level.value, 185, 0.05) << off_m;
-      EXPECT_NEAR(reception.budget.delay_s, 1 / kSpeedMps, tolerance(1e-9)) << off_m;
+      EXPECT_NEAR(reception.budget.delay_s, off_m / kSpeedMps, tolerance(1e-9)) << off_m;
       EXPECT_NEAR(reception.budget.mean_sound_speed_mps, kSpeedMps, tolerance(1e-6)) << off_m;
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/input_file.h"
+#include "core/files/input_file.h"
 
 #include <cerrno>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/utf8.h"
+#include "core/text/utf8.h"
 
 namespace halocline {
 
