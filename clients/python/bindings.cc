@@ -112,6 +112,8 @@ void set(SeaDescription& sea, const std::string& option, const py::handle& value
                 std::variant<std::string SeaDescription::*, double SeaDescription::*, int SeaDescription::*,
                              bool SeaDescription::*, std::optional<double> SeaDescription::*>>>
       kOptions{{"water", &SeaDescription::water},
+               {"latitude", &SeaDescription::latitude_deg},
+               {"longitude", &SeaDescription::longitude_deg},
                {"sound_speed_mps", &SeaDescription::sound_speed_mps},
                {"bottom", &SeaDescription::bottom},
                {"bottom_depth_m", &SeaDescription::bottom_depth_m},

@@ -118,7 +118,8 @@ def link(scenario: Path, source: Place, receiver: Place, overrides: Sequence[str
 
 
 def arrivals(source_depth_m: float, receiver_depth_m: float, range_m: float, *, solver: str = "auto",
-             water: Path | None = None, sound_speed_mps: float | None = None, bottom: Path | None = None,
+             water: Path | None = None, latitude: float | None = None, longitude: float | None = None,
+             sound_speed_mps: float | None = None, bottom: Path | None = None,
              bottom_depth_m: float | None = None, sediment: str | None = None, bottom_density_ratio: float | None = None,
              bottom_sound_speed_mps: float | None = None, bottom_attenuation_db: float | None = None,
              crease_angle_deg: float | None = None, surface: str | None = None, wind_mps: float | None = None,
@@ -129,7 +130,8 @@ def arrivals(source_depth_m: float, receiver_depth_m: float, range_m: float, *, 
     """The paths of sound through a sea given by numbers and tables, as `halocline arrivals` finds them.
 
     solver is auto, images, snell or arcs. The sea is given by the options of that command (`halocline arrivals --help`); None is
-    their default. water and bottom name files, water also a built-in profile.
+    their default. water and bottom name files, water also a built-in profile; latitude and longitude, degrees, are the place
+    in a grid of water.
     """
     sea = {name: os.fspath(value) if isinstance(value, os.PathLike) else value for name, value in locals().items()
            if name not in ("source_depth_m", "receiver_depth_m", "range_m", "solver") and value is not None}

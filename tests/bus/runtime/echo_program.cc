@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) {
     v.section("echo", "The echo", [&](halocline::bus::ConfigVisitor& section) {
       section.number("gain", gain, {0, 10, "", "not used"});
-      section.number("work_s", work_s, {0, 100, "s", "how long a step takes that answers"});
+      section.number("work_s", work_s, {0, 10'000, "s", "how long a step takes that answers"});
     });
   };
   program.make_node = [&](const halocline::bus::NodeProgram::Context& context) {
