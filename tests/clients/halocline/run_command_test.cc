@@ -287,7 +287,7 @@ TEST_F(RunCommand, AnInterruptedReplayExitsWith130) {
 TEST_F(RunCommand, AnInterruptedSweepExitsWith130) {
   const Ended end =
       run_until("sweep pond.toml --axis environment.wind_mps=2,5 --duration 100000 --out wind --jobs 1",
-                "to do here", "wind/sweep.toml", SIGINT);
+                "to do here", "pond.toml", SIGINT);
   EXPECT_EQ(end.code, 130) << end.output;
 }
 
