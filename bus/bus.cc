@@ -258,9 +258,13 @@ void Bus::enable_repair() {
   subscribe<flow_heartbeat_t>(
       channels::kHeartbeat,
       [this](std::string_view node, const flow_heartbeat_t& heartbeat) { on_heartbeat(node, heartbeat); });
-  // Its session claims the node's name (session_watch.h), also where the program has no heartbeats.
-  subscribe<node_status_t>(
-      channels::kStatus, [](std::string_view, const node_status_t&) {}, Wakeup::kStoreOnly);
+  // A STATUS claims its node's name (session_watch.h), also of programs without heartbeats. Where this program
+  // subscribes to it, that subscription judges it: judged twice it would be its own duplicate.
+  const auto claim = [this](std::string_view channel, const void* data, std::size_t size) {
+    node_status_t status;
+    if (subscriptions_to(channel).size() == 1) (void)accept(channel, data, size, status);
+  };
+  subscribe_raw(escaped(channels::kStatus.prefix) + ".*", claim, Wakeup::kStoreOnly);
 }
 
 void Bus::note_lateness(std::string_view channel, const void* data, std::size_t size) {
