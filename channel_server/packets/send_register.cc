@@ -58,7 +58,9 @@ void SendRegister::occupy(const std::string& vehicle, SimTime start, SimDuration
 }
 
 void SendRegister::forget_before(SimTime time) {
-  while (entries_.size() > kMaxOld && by_start_.begin()->first < time) forget_earliest();
+  while (!by_start_.empty() && by_start_.begin()->first < time &&
+         (entries_.size() > kMaxOld || time - by_start_.begin()->first > kOldAge))
+    forget_earliest();
   for (auto vehicle = occupations_.begin(); vehicle != occupations_.end();) {
     std::erase_if(vehicle->second, [&](const Occupation& o) { return o.end < time; });
     vehicle = vehicle->second.empty() ? occupations_.erase(vehicle) : std::next(vehicle);

@@ -7,8 +7,8 @@
 //
 // A request's name is (vehicle, session, packet_sequence); of a sender that keeps no session (0) also the
 // start, because its numbers may begin anew. Nothing is ever transmitted twice: a request is known for as
-// long as its start may be accepted, and kMaxOld of those beyond are kept, 3 MB, so that who repeats a SEND
-// late is told what became of it.
+// long as its start may be accepted; beyond that kMaxOld are kept for kOldAge, 3 MB at most, so that who
+// repeats a SEND late is told what became of it.
 #pragma once
 
 #include <compare>
@@ -40,6 +40,7 @@ class SendRegister {
   static constexpr std::size_t kMaxPackets = 100'000;
   // Packets that stay known when their starts are too old to be accepted.
   static constexpr std::size_t kMaxOld = 10'000;
+  static constexpr SimDuration kOldAge = SimDuration::from_nanoseconds(600'000'000'000);
 
   // True for a packet that is new; it is known from now on, its receipt outstanding.
   [[nodiscard]] bool enter(const SendRequest& request);

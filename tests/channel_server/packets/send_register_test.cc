@@ -78,12 +78,20 @@ TEST(SendRegister, TwoPacketsWithoutDurationDoNotStartTogether) {
 TEST(SendRegister, OfOldPacketsTheLatestTenThousandStayKnown) {
   SendRegister sends;
   constexpr int kAll = 12'000;
-  for (int i = 0; i < kAll; ++i) EXPECT_TRUE(sends.enter(request_of(1, i, i)));
-  sends.forget_before(at_s(1000));
+  for (int i = 0; i < kAll; ++i) EXPECT_TRUE(sends.enter(request_of(1, 0.01 * i, i)));
+  sends.forget_before(at_s(10));
   EXPECT_EQ(sends.size(), std::size_t{kAll} - 1000);
-  sends.forget_before(at_s(kAll));
+  sends.forget_before(at_s(0.01 * kAll));
   EXPECT_EQ(sends.size(), SendRegister::kMaxOld);
-  EXPECT_FALSE(sends.enter(request_of(1, kAll - 1, kAll - 1)));
+  EXPECT_FALSE(sends.enter(request_of(1, 0.01 * (kAll - 1), kAll - 1)));
+}
+
+TEST(SendRegister, OldPacketsStayKnownForTenMinutes) {
+  SendRegister sends;
+  for (int i = 0; i < 2000; ++i) EXPECT_TRUE(sends.enter(request_of(1, i, i)));
+  sends.forget_before(at_s(2000));
+  EXPECT_EQ(sends.size(), 600u);  // those of 1400 s and later
+  EXPECT_FALSE(sends.enter(request_of(1, 1400, 1400)));
 }
 
 TEST(SendRegister, AFloodDoesNotGrowMemoryWithoutBound) {
