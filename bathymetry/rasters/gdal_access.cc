@@ -4,6 +4,7 @@
 #include <array>
 #include <mutex>
 #include <string_view>
+#include <vector>
 
 #include <cpl_error.h>
 #include <cpl_string.h>
@@ -49,11 +50,14 @@ class Refusal final : public VSIFilesystemHandler {
 };
 
 void close_virtual_files() {
+  // Handlers that GDAL forgets when others take their places: kept for as long as the process, in use or not.
+  static auto& replaced = *new std::vector<VSIFilesystemHandler*>;
   char** prefixes = VSIFileManager::GetPrefixes();
   for (int i = 0; prefixes != nullptr && prefixes[i] != nullptr; ++i) {
     const std::string_view prefix = prefixes[i];
-    if (prefix.starts_with("/vsi") && prefix != kInMemory)
-      VSIFileManager::InstallHandler(prefixes[i], new Refusal);  // GDAL's from then on
+    if (!prefix.starts_with("/vsi") || prefix == kInMemory) continue;
+    replaced.push_back(VSIFileManager::GetHandler(prefixes[i]));
+    VSIFileManager::InstallHandler(prefixes[i], new Refusal);  // GDAL's from then on
   }
   CSLDestroy(prefixes);
 }
