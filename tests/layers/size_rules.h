@@ -13,10 +13,10 @@ inline constexpr int kMaxSourceLines = 450;  // of a .cc
 inline constexpr int kMaxHeaderLines = 200;
 inline constexpr int kMaxFilesOfAFolder = 35;
 
-// Files longer than their limit, without the line of the licence: "path: 372 lines, at most 350". Tests are held to the same limits.
+// Files longer than their limit, without the line of the licence: "path: 472 lines, at most 450". Tests are held to the same limits.
 std::vector<std::string> long_files(const std::vector<SourceFile>& sources);
 
-// Folders with too many files: "path: 32 source files, at most 30".
+// Folders with too many files: "path: 37 source files, at most 35".
 std::vector<std::string> full_folders(const std::vector<SourceFile>& sources);
 
 // Classes whose members are defined in several source files: "Class: a.cc, b.cc". Approximate: a definition is a line
