@@ -211,7 +211,7 @@ void visit_broadcast(ConfigVisitor& v, Broadcast& broadcast) {
   double period_s = broadcast.period.seconds(), start_s = broadcast.start.seconds();
   v.number("period_s", period_s, {0, 3600, "s", "between reports of 17 bytes; 0: none"});
   v.when(period_s > 0, "period_s above 0", [&] {
-    v.number("start_s", start_s, {0, 1e7, "s", "simulation time of the first"});
+    v.number("start_s", start_s, {0, 1e7, "s", "time of the first, by the vehicle's clock"});
   });
   broadcast = {SimDuration::from_seconds(period_s), SimTime::from_seconds(start_s)};
 }
@@ -299,10 +299,8 @@ void check_listeners(ConfigVisitor& v, const AutopilotConfig& config) {
     for (const Behaviour& behaviour : seeker.behaviours) {
       if (behaviour.kind != BehaviourKind::kSeekLink) continue;
       for (const std::string& name : listeners_of(behaviour.search)) {
-        const bool is_known = name != seeker.vehicle &&
-                              std::any_of(config.vehicles.begin(), config.vehicles.end(),
-                                          [&](const PilotConfig& other) { return other.vehicle == name; });
-        if (!is_known)
+        const auto listener = std::ranges::find(config.vehicles, name, &PilotConfig::vehicle);
+        if (listener == config.vehicles.end() || name == seeker.vehicle)
           v.problem("vehicle", "for the search.listeners of " + seeker.vehicle +
                                    " other vehicles of the scenario; given is '" + name + "'");
       }
@@ -316,8 +314,7 @@ std::map<std::int32_t, Vec3> beacons_of(const AutopilotConfig& config, const Pil
   std::map<std::int32_t, Vec3> beacons;
   std::istringstream names(pilot.usbl_beacons);
   for (std::string name; names >> name;) {
-    const auto found = std::find_if(config.vehicles.begin(), config.vehicles.end(),
-                                    [&](const PilotConfig& other) { return other.vehicle == name; });
+    const auto found = std::ranges::find(config.vehicles, name, &PilotConfig::vehicle);
     require(found != config.vehicles.end() && name != pilot.vehicle,
             "vehicle " + pilot.vehicle + ": mission.navigator.usbl_beacons names '" + name +
                 "'; allowed are other vehicles of the scenario, with spaces between");
@@ -345,6 +342,7 @@ void visit(ConfigVisitor& v, AutopilotConfig& config) {
       "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) { visit_vehicle(item, config.vehicles[i]); });
   if (v.writing()) return;
+  visit(v, config.clocks);
   check_leaders(v, config);
   check_listeners(v, config);
 }

@@ -15,6 +15,7 @@
 #include "clients/autopilot/navigation/acoustic_fix.h"
 #include "clients/autopilot/navigation/navigator.h"
 #include "clients/autopilot/plan.h"
+#include "clients/clocks/clock_set_config.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 
@@ -59,6 +60,7 @@ struct AutopilotConfig {
   SimDuration state_timeout = SimDuration::from_milliseconds(1000);
   std::string only_vehicle;           // empty: all with a mission
   std::vector<PilotConfig> vehicles;  // one for each of the scenario, piloted or not
+  ClockSetConfig clocks = {};
 };
 
 void visit(bus::ConfigVisitor& v, AutopilotConfig& config);

@@ -24,7 +24,10 @@ SimTime grid_instant(SimTime time, SimDuration period) { return next_on_grid(tim
 }  // namespace
 
 AutopilotNode::AutopilotNode(lcm::LCM& lcm, bus::NodeIdentity identity, const AutopilotConfig& config)
-    : Node(lcm, std::move(identity)), period_(config.command_period), state_timeout_(config.state_timeout) {
+    : Node(lcm, std::move(identity)),
+      period_(config.command_period),
+      state_timeout_(config.state_timeout),
+      clocks_(bus(), config.clocks) {
   for (const PilotConfig& vehicle : config.vehicles) {
     const bool wanted = config.only_vehicle.empty() || config.only_vehicle == vehicle.vehicle;
     if (wanted && vehicle.is_piloted()) add_pilot(config, vehicle);
@@ -114,7 +117,7 @@ void AutopilotNode::join_formation(const AutopilotConfig& all, Pilot& pilot) {
   const auto listener = [&pilot](const std::string& leader, const LeaderReport& report) {
     pilot.pilot.on_leader_report(leader, report);
   };
-  pilot.link = std::make_unique<FormationLink>(bus(), pilot.config, std::move(leaders), listener);
+  pilot.link = std::make_unique<FormationLink>(bus(), pilot.config, std::move(leaders), listener, clocks_);
 }
 
 bus::Due AutopilotNode::on_due() const {
@@ -129,6 +132,7 @@ bus::Due AutopilotNode::on_due() const {
 }
 
 void AutopilotNode::on_step(const bus::Now& now) {
+  clocks_.set_now(now.sim);
   if (now.sim >= next_command_) {
     command_all(grid_instant(now.sim, period_));
     next_command_ = next_on_grid(now.sim, period_);
@@ -247,6 +251,7 @@ void AutopilotNode::report_progress(const Pilot& pilot, const std::optional<Plan
 
 void AutopilotNode::on_restart(const bus::Now& now) {
   next_command_ = SimTime();
+  clocks_.restart(now.sim);
   for (const auto& pilot : pilots_) {
     pilot->state.reset();
     pilot->sensors.reset();
@@ -264,7 +269,7 @@ void AutopilotNode::on_restart(const bus::Now& now) {
 }
 
 void AutopilotNode::on_archive(Archive& a) {
-  a(next_command_, publisher_);
+  a(next_command_, publisher_, clocks_);
   for (const auto& pilot : pilots_) a(*pilot);
 }
 

@@ -29,6 +29,7 @@
 #include "clients/autopilot/place_finder.h"
 #include "clients/autopilot/plan.h"
 #include "clients/autopilot/vehicle_pilot.h"
+#include "clients/clocks/vehicle_time.h"
 #include "core/archive.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
@@ -93,6 +94,7 @@ class AutopilotNode : public bus::Node {
   void report_progress(const Pilot& pilot, const std::optional<PlanProgress>& before);
 
   SimDuration period_, state_timeout_;
+  VehicleTime clocks_;
   SimTime next_command_;
   bus::NumberedPublisher publisher_{bus()};
   std::vector<std::unique_ptr<Pilot>> pilots_;  // in the scenario's order; handlers hold their addresses

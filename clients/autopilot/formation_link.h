@@ -2,8 +2,9 @@
 // The acoustic side of a formation: a leader's reports out on a time grid, those of the leaders it follows
 // in.
 //
-// Reports start at start + k period; one whose instant passed while nothing ran is not sent late. The
-// position in a report is the latest situation's, stamped with its own time.
+// Reports start at start + k period by the vehicle's clock; one whose instant passed while nothing ran is not
+// sent late. The position in a report is the latest situation's, stamped with its own time by the sender's
+// clock, which the receiver takes for its own: two clocks that differ misdate it.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +17,7 @@
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/formation.h"
 #include "clients/autopilot/vehicle_pilot.h"
+#include "clients/clocks/vehicle_time.h"
 #include "clients/modem/modem_client.h"
 #include "core/archive.h"
 #include "core/sim_time.h"
@@ -26,24 +28,32 @@ class FormationLink {
  public:
   using Listener = std::function<void(const std::string& leader, const LeaderReport& report)>;
 
-  // `leaders`: id to name of those whose reports are passed on. Bus and listener must outlive the link.
+  // `leaders`: id to name of those whose reports are passed on. Bus, listener and clocks must outlive the
+  // link.
   FormationLink(bus::Bus& bus, const PilotConfig& pilot, std::map<std::int32_t, std::string> leaders,
-                Listener listener);
+                Listener listener, const VehicleTime& clocks);
 
   // Sends the report that is due, and repeats what the bus may have lost.
   void step(const bus::Now& now, const std::optional<Situation>& situation);
-  bus::Due due() const { return {.sim = next_report_, .steady = modem_.next_resend()}; }
+  bus::Due due() const {
+    return {.sim = clocks_.due(own_id(), next_report_), .steady = modem_.next_resend()};
+  }
   void restart(SimTime now);
   void archive(Archive& a) { a(modem_, next_report_); }
 
  private:
+  std::int32_t own_id() const { return modem_.address().vehicle_id; }
+  // Ahead of simulation time, s.
+  double clock_error_s(double time_s) const;
   void take(const modem_receive_t& packet) const;
+  void send(SimTime steady, SimTime at, LeaderReport report);
 
   Broadcast broadcast_;
   std::map<std::int32_t, std::string> leaders_;
   Listener listener_;
   ModemClient modem_;
-  SimTime next_report_;
+  const VehicleTime& clocks_;
+  SimTime next_report_;  // by the vehicle's clock
 };
 
 }  // namespace halocline::clients

@@ -16,7 +16,7 @@ void visit_ranging(ConfigVisitor& v, VehicleLocaliser& l) {
   v.text("beacons", l.beacons, {}, "names of vehicles that do not move, with spaces between; empty: none");
   v.number("ping_period_s", period_s,
            {0, 1e6, "s", "between pings, to one beacon after the other; 0: none are sent"});
-  v.number("ping_start_s", start_s, {0, 1e7, "s", "simulation time of the first ping"});
+  v.number("ping_start_s", start_s, {0, 1e7, "s", "time of the first ping, by the vehicle's clock"});
   l.ping_period = SimDuration::from_seconds(period_s);
   l.ping_start = SimTime::from_seconds(start_s);
   v.boolean("use_stamps", l.use_stamps, "take ranges from the stamped packets of the beacons, too");
@@ -76,6 +76,7 @@ void visit(ConfigVisitor& v, LocaliserConfig& config) {
   v.list(
       "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) { visit_vehicle(item, config.vehicles[i]); });
+  visit(v, config.clocks);
 }
 
 std::vector<Beacon> beacons_of(const LocaliserConfig& config, const VehicleLocaliser& vehicle) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bus/config/config.h"
+#include "clients/clocks/clock_set_config.h"
 #include "clients/localiser/position_estimator.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
@@ -32,6 +33,7 @@ struct VehicleLocaliser {
 struct LocaliserConfig {
   SimDuration estimate_period = SimDuration::from_milliseconds(1000);
   std::vector<VehicleLocaliser> vehicles;  // one for each of the scenario, localised or not
+  ClockSetConfig clocks = {};
 };
 
 void visit(bus::ConfigVisitor& v, LocaliserConfig& config);

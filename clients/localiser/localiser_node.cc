@@ -44,15 +44,15 @@ std::optional<StatedStart> stated_start(const VehicleLocaliser& config) {
 }  // namespace
 
 LocaliserNode::Vehicle::Vehicle(bus::Bus& bus, const ModemAddress& address, const VehicleLocaliser& settings,
-                                std::vector<Beacon> known_beacons)
+                                std::vector<Beacon> known_beacons, SimTime own_time)
     : config(settings),
       beacons(std::move(known_beacons)),
       modem(bus, address),
       estimator(settings.rules, stated_start(settings)),
-      next_ping(next_ping_at(settings, SimTime())) {}
+      next_ping(next_ping_at(settings, own_time)) {}
 
 LocaliserNode::LocaliserNode(lcm::LCM& lcm, bus::NodeIdentity identity, const LocaliserConfig& config)
-    : Node(lcm, std::move(identity)), period_(config.estimate_period) {
+    : Node(lcm, std::move(identity)), period_(config.estimate_period), clocks_(bus(), config.clocks) {
   for (const VehicleLocaliser& vehicle : config.vehicles) {
     if (!vehicle.beacons.empty()) add_vehicle(config, vehicle);
   }
@@ -67,7 +67,8 @@ void LocaliserNode::add_vehicle(const LocaliserConfig& config, const VehicleLoca
   const auto entropy = static_cast<std::uint64_t>(bus().identity().session);
   const ModemAddress address{settings.vehicle, settings.vehicle_id,
                              bus::session_of(entropy, settings.vehicle)};
-  vehicles_.push_back(std::make_unique<Vehicle>(bus(), address, settings, beacons_of(config, settings)));
+  vehicles_.push_back(std::make_unique<Vehicle>(bus(), address, settings, beacons_of(config, settings),
+                                                clocks_.shown(settings.vehicle_id, SimTime())));
   Vehicle* vehicle = vehicles_.back().get();
   vehicle->modem.on_receive([vehicle](const modem_receive_t& packet) { vehicle->packets.push_back(packet); });
   bus().subscribe<vehicle_sensors_t>(
@@ -95,16 +96,18 @@ void LocaliserNode::take_environment(const environment_t& message) {
 bus::Due LocaliserNode::on_due() const {
   bus::Due due;
   for (const auto& vehicle : vehicles_) {
-    due.sim = std::min({due.sim, vehicle->next_ping, next_estimate_});
+    due.sim =
+        std::min({due.sim, clocks_.due(vehicle->config.vehicle_id, vehicle->next_ping), next_estimate_});
     due.steady = std::min(due.steady, vehicle->modem.next_resend());
   }
   return due;
 }
 
 void LocaliserNode::on_step(const bus::Now& now) {
+  clocks_.set_now(now.sim);
   for (const auto& vehicle : vehicles_) {
     vehicle->modem.resend(now.steady);
-    if (now.sim >= vehicle->next_ping) ping(*vehicle, now);
+    if (clocks_.shown(vehicle->config.vehicle_id, now.sim) >= vehicle->next_ping) ping(*vehicle, now);
   }
   if (now.sim < next_estimate_) return;
   const SimTime instant = next_on_grid(now.sim, period_) - period_;
@@ -114,8 +117,10 @@ void LocaliserNode::on_step(const bus::Now& now) {
 
 // Started into a running simulation, or late: pings of the past stay unsent.
 void LocaliserNode::ping(Vehicle& vehicle, const bus::Now& now) {
-  const SimTime next = next_ping_at(vehicle.config, now.sim + SimDuration::from_nanoseconds(1));
-  const SimTime due = next - vehicle.config.ping_period;
+  const std::int32_t id = vehicle.config.vehicle_id;
+  const SimTime own = clocks_.shown(id, now.sim);
+  const SimTime next = next_ping_at(vehicle.config, own + SimDuration::from_nanoseconds(1));
+  const SimTime due = clocks_.instant_of(id, next - vehicle.config.ping_period, now.sim);
   const auto index = static_cast<std::size_t>(vehicle.pings++) % vehicle.beacons.size();
   vehicle.modem.ping(now.steady, due, vehicle.beacons[index].id);
   vehicle.next_ping = next;
@@ -232,6 +237,7 @@ void LocaliserNode::on_restart(const bus::Now& now) {
   next_estimate_ = SimTime();
   water_.reset();
   environment_.reset();
+  clocks_.restart(now.sim);
   for (const auto& vehicle : vehicles_) {
     vehicle->estimator = PositionEstimator(vehicle->config.rules, stated_start(vehicle->config));
     vehicle->sensors.clear();
@@ -240,12 +246,12 @@ void LocaliserNode::on_restart(const bus::Now& now) {
     vehicle->fixes.clear();
     vehicle->truth.reset();
     vehicle->used = vehicle->refused = 0;
-    vehicle->next_ping = next_ping_at(vehicle->config, now.sim);
+    vehicle->next_ping = next_ping_at(vehicle->config, clocks_.shown(vehicle->config.vehicle_id, now.sim));
   }
 }
 
 void LocaliserNode::on_archive(Archive& a) {
-  a(next_estimate_, environment_);
+  a(next_estimate_, environment_, clocks_);
   for (const auto& vehicle : vehicles_) a(*vehicle);
   if (a.is_loading() && environment_) take_environment(environment_t(*environment_));
 }

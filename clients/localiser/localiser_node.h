@@ -25,6 +25,7 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/node_identity.h"
 #include "bus/runtime/node.h"
+#include "clients/clocks/vehicle_time.h"
 #include "clients/localiser/localiser_config.h"
 #include "clients/localiser/position_estimator.h"
 #include "clients/modem/modem_client.h"
@@ -53,7 +54,7 @@ class LocaliserNode : public bus::Node {
   };
   struct Vehicle {
     Vehicle(bus::Bus& bus, const ModemAddress& address, const VehicleLocaliser& settings,
-            std::vector<Beacon> known_beacons);
+            std::vector<Beacon> known_beacons, SimTime own_time);
 
     VehicleLocaliser config;
     std::vector<Beacon> beacons;
@@ -66,7 +67,7 @@ class LocaliserNode : public bus::Node {
     std::optional<vehicle_state_t> truth;
     position_estimate_t last{};  // published
     std::int64_t pings = 0, used = 0, refused = 0;
-    SimTime next_ping;
+    SimTime next_ping;  // by the vehicle's clock
 
     void archive(Archive& a);
   };
@@ -82,6 +83,7 @@ class LocaliserNode : public bus::Node {
   void report(const Vehicle& vehicle, const position_estimate_t& message);
 
   SimDuration period_;
+  VehicleTime clocks_;
   SimTime next_estimate_;
   std::optional<environment_t> environment_;  // the latest, from which water_ is made
   std::optional<Water> water_;

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   program.keeps_state = true;
   program.interface =
       "receives:  CLOCK, ENVIRONMENT, SENSORS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>,\n"
-      "           GPS.<vehicle> (where its clock is estimated);\n"
+      "           GPS.<vehicle> (where it sets its clock, or that is estimated);\n"
       "           STATE.<vehicle>, to compute the error\n"
       "publishes: SEND.<vehicle>, ESTIMATE.<vehicle>, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };

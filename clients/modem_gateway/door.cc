@@ -35,8 +35,8 @@ clients::ModemAddress address_of(const bus::Bus& bus, const DoorConfig& door) {
 }  // namespace
 
 Door::Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway,
-           const channel_server::VehicleClocks& clocks, AddressBook& addresses, SoundField* sound,
-           Writer writer, DatagramWriter datagram_writer, Disconnect disconnect, Trace trace)
+           const clients::VehicleTime& clocks, AddressBook& addresses, SoundField* sound, Writer writer,
+           DatagramWriter datagram_writer, Disconnect disconnect, Trace trace)
     : bus_(bus),
       clocks_(clocks),
       writer_(std::move(writer)),

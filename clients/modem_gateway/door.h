@@ -20,7 +20,7 @@
 
 #include "bus/bus.h"
 #include "bus/runtime/node.h"
-#include "channel_server/vehicles/vehicle_clocks.h"
+#include "clients/clocks/vehicle_time.h"
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/gateway_config.h"
 #include "clients/modem_gateway/protocols/address_book.h"
@@ -44,7 +44,7 @@ class Door : private ProtocolPort {
   // Subscribes on the bus. Throws InvalidArgument for a configuration that makes no door.
   // `clocks` must outlive it, and `sound`, which may be null where the kind needs none.
   Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway,
-       const channel_server::VehicleClocks& clocks, AddressBook& addresses, SoundField* sound, Writer writer,
+       const clients::VehicleTime& clocks, AddressBook& addresses, SoundField* sound, Writer writer,
        DatagramWriter datagram_writer, Disconnect disconnect, Trace trace);
 
   const std::string& vehicle() const { return modem_.address().vehicle; }
@@ -80,9 +80,7 @@ class Door : private ProtocolPort {
                                  vehicle_usbl_t, link_reply_t>;
 
   SimTime now() const override { return now_.sim; }
-  SimTime clock_at(SimTime time) const override {
-    return time + SimDuration::from_seconds(clocks_.error_s(vehicle_id(), time));
-  }
+  SimTime clock_at(SimTime time) const override { return clocks_.shown(vehicle_id(), time); }
   void sleep_until(SimTime wakes) override;
   void write(ClientId client, std::string_view bytes) override;
   void send_datagram(ClientId client, std::uint16_t port, std::string_view bytes) override {
@@ -115,7 +113,7 @@ class Door : private ProtocolPort {
   void pair_losses();
 
   bus::Bus& bus_;
-  const channel_server::VehicleClocks& clocks_;
+  const clients::VehicleTime& clocks_;
   Writer writer_;
   DatagramWriter datagram_writer_;
   Disconnect disconnect_;

@@ -8,7 +8,6 @@
 
 #include <arpa/inet.h>
 
-#include "channel_server/modems/clock_config.h"
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/door_options.h"
@@ -144,18 +143,8 @@ void visit(ConfigVisitor& v, GatewayConfig& config) {
         item.text("name", config.vehicles[i].name, {}, "");
         bus::integer_as(item, "id", config.vehicles[i].id, {1, 2147483647, "", ""});
         item.boolean("transponder", config.vehicles[i].is_transponder, "");
-        if (v.writing() || !item.given("clock")) return;
-        channel_server::ClockOf clock{config.vehicles[i].name, config.vehicles[i].id, {}};
-        item.section("clock", "",
-                     [&](ConfigVisitor& section) { channel_server::visit_clock(section, clock.settings); });
-        config.clocks.push_back(clock);
       });
-  if (!v.writing()) {
-    v.section("channel_server", "", [&](ConfigVisitor& section) {
-      section.shared_with_others();
-      bus::seconds(section, "state_lag_s", config.state_lag, {0, 10, "s", ""});
-    });
-  }
+  visit(v, config.clocks);
   v.list(
       "door", "A front door: the modem of a vehicle as a real one (halocline-modem-gateway)",
       config.doors.size(), [&](std::size_t n) { config.doors.resize(n); },

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "bus/config/config.h"
-#include "channel_server/vehicles/vehicle_clocks.h"
+#include "clients/clocks/clock_set_config.h"
 #include "clients/modem_gateway/protocols/address_book.h"
-#include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 
@@ -43,10 +42,7 @@ struct GatewayConfig {
   // Not among its keys: of the scenario, for the caller to fill in.
   double rate = 1;                                           // simulated seconds per wall second
   double origin_latitude_deg = 0, origin_longitude_deg = 0;  // of the world frame
-  std::uint64_t seed = 0;
-  // Of vehicles with a clock of their own, and after how long a GPS fix sets it: keys of the channel server.
-  std::vector<channel_server::ClockOf> clocks;
-  SimDuration state_lag = SimDuration::from_milliseconds(50);
+  clients::ClockSetConfig clocks;
 };
 
 void visit(bus::ConfigVisitor& v, GatewayConfig& config);

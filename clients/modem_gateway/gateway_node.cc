@@ -18,7 +18,7 @@ GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Gatewa
                          const SoundFieldMaker& make_sound)
     : Node(lcm, std::move(identity)),
       config_(config),
-      clocks_(config.clocks, config.seed, config.state_lag),
+      clocks_(bus(), config.clocks),
       look_period_(look_period),
       next_look_(look_period == SimDuration() ? SimTime::never() : SimTime()) {
   if (!trace_path.empty()) trace_ = std::make_unique<TraceLog>(trace_path);
@@ -26,14 +26,6 @@ GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Gatewa
     bus().log().warning("rate", "rate=" + std::to_string(config.rate) + ": hosts keep wall time");
   assign_all_addresses();
   for (const DoorConfig& door : config.doors) add_door(door, make_sound);
-  if (clocks_.need_fixes()) {
-    bus().subscribe<vehicle_gps_t>(
-        bus::channels::kGps,
-        [this](std::string_view vehicle, const vehicle_gps_t& fix) {
-          clocks_.add_fix(vehicle, SimTime::from_utime(fix.utime));
-        },
-        bus::Wakeup::kStoreOnly);
-  }
   const bool wants_outcomes =
       std::any_of(doors_.begin(), doors_.end(), [](const auto& door) { return door->wants_outcomes(); });
   if (!wants_outcomes) return;
@@ -121,11 +113,12 @@ void GatewayNode::serve_hosts(SimTime steady) {
 void GatewayNode::on_restart(const bus::Now& now) {
   assign_all_addresses();
   for (const auto& door : doors_) door->restart();
-  clocks_.clear();
+  clocks_.restart(now.sim);
   if (look_period_ > SimDuration()) next_look_ = now.sim;
 }
 
 void GatewayNode::on_archive(Archive& a) {
+  a(clocks_);
   for (const auto& door : doors_) a(*door);
 }
 

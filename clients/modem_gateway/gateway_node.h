@@ -15,7 +15,7 @@
 
 #include "bus/node_identity.h"
 #include "bus/runtime/node.h"
-#include "channel_server/vehicles/vehicle_clocks.h"
+#include "clients/clocks/vehicle_time.h"
 #include "clients/modem_gateway/connections.h"
 #include "clients/modem_gateway/door.h"
 #include "clients/modem_gateway/gateway_config.h"
@@ -69,7 +69,7 @@ class GatewayNode : public bus::Node {
   };
 
   GatewayConfig config_;
-  channel_server::VehicleClocks clocks_;
+  clients::VehicleTime clocks_;
   SimDuration look_period_;
   SimTime next_look_;  // at hosts, simulation time; with a look_period
   Connections connections_;

@@ -56,7 +56,6 @@ int main(int argc, char** argv) {
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   program.make_node = [&](const NodeProgram::Context& context) {
     config.rate = context.scenario.rate;
-    config.seed = context.scenario.seed;
     config.origin_latitude_deg = context.scenario.origin_latitude_deg;
     config.origin_longitude_deg = context.scenario.origin_longitude_deg;
     for (const std::string& door : doors) add_door(config, door);

@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
   program.stage = halocline::bus::Stage::kTraffic;
   program.keeps_state = true;
   program.interface =
-      "receives:  CLOCK, RECEIPT.<vehicle>, RECEIVE.<vehicle>\n"
+      "receives:  CLOCK, RECEIPT.<vehicle>, RECEIVE.<vehicle>, GPS.<vehicle> (where it sets the vehicle's "
+      "clock)\n"
       "publishes: SEND.<vehicle>, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   program.make_node = [&](const NodeProgram::Context& context) {

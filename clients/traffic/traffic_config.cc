@@ -59,12 +59,13 @@ void visit_hops(ConfigVisitor& v, RelayRules& relay) {
 
 void visit_traffic(ConfigVisitor& v, VehicleTraffic& t) {
   double period_s = t.period.seconds(), start_s = t.start.seconds();
-  v.number("period_s", period_s, {0, 1e6, "s", "simulated time between packets; 0: none are sent"});
+  v.number("period_s", period_s,
+           {0, 1e6, "s", "time between packets, by the vehicle's clock; 0: none are sent"});
   const auto when_it_sends = [&](const std::function<void()>& body) {
     v.when(period_s > 0, "period_s above 0", body);
   };
   when_it_sends([&] {
-    v.number("start_s", start_s, {0, 1e7, "s", "simulation time of the first packet"});
+    v.number("start_s", start_s, {0, 1e7, "s", "time of the first packet, by the vehicle's clock"});
     v.text("destination", t.destination, {}, "name of a vehicle, or all");
     visit_kind(v, t);
     v.when(kind_of(t.kind).has_payload, "kind = \"data\" or \"janus-cargo\"", [&] {
@@ -128,6 +129,7 @@ void visit(ConfigVisitor& v, TrafficConfig& config) {
       "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) { visit_vehicle(item, config.vehicles[i]); });
   if (v.writing()) return;
+  visit(v, config.clocks);
   // Once all names are known.
   v.list(
       "vehicle", "", config.vehicles.size(), [](std::size_t) {},

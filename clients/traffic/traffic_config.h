@@ -10,6 +10,7 @@
 
 #include "bus/config/config.h"
 #include "bus/messages.h"
+#include "clients/clocks/clock_set_config.h"
 #include "clients/traffic/relay.h"
 #include "clients/traffic/relay_packet.h"
 #include "core/names.h"
@@ -22,7 +23,7 @@ struct VehicleTraffic {
   std::string vehicle;
   std::int32_t vehicle_id = 0;
   SimDuration period;  // between packets; 0: none are sent
-  SimTime start;       // of the first packet
+  SimTime start;       // of the first packet, by the vehicle's clock
   std::string destination = "all";
   std::int32_t payload_bytes = 32;  // of data, and of JANUS's cargo; the other kinds have their own sizes
   std::int8_t kind = modem_send_t::DATA;
@@ -37,6 +38,7 @@ struct VehicleTraffic {
 
 struct TrafficConfig {
   std::vector<VehicleTraffic> vehicles;  // one for each of the scenario
+  ClockSetConfig clocks = {};
 
   // Whether packets may be passed on: otherwise nobody looks for the header of relays in what it receives.
   bool uses_relays() const {

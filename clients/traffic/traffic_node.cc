@@ -48,7 +48,7 @@ std::vector<std::uint8_t> payload_of(const VehicleTraffic& traffic, std::int64_t
 }
 
 TrafficNode::TrafficNode(lcm::LCM& lcm, bus::NodeIdentity identity, const TrafficConfig& config)
-    : Node(lcm, std::move(identity)), uses_relays_(config.uses_relays()) {
+    : Node(lcm, std::move(identity)), uses_relays_(config.uses_relays()), clocks_(bus(), config.clocks) {
   for (const VehicleTraffic& traffic : config.vehicles) add_sender(config, traffic);
 }
 
@@ -62,10 +62,10 @@ void TrafficNode::add_sender(const TrafficConfig& config, const VehicleTraffic& 
                                    destination_id(config, traffic),
                                    {bus(), address, {}, wakeup},
                                    Relay(traffic.vehicle_id, traffic.relay, entropy),
-                                   next_packet_at(traffic, SimTime())});
+                                   next_packet_at(traffic, clocks_.shown(traffic.vehicle_id, SimTime()))});
   Sender* sender = senders_.back().get();
   sender->modem.on_receive([this, sender](const modem_receive_t& packet) { on_packet(*sender, packet); });
-  sender->modem.on_receipt([sender](const modem_receipt_t& receipt) { on_receipt(*sender, receipt); });
+  sender->modem.on_receipt([this, sender](const modem_receipt_t& receipt) { on_receipt(*sender, receipt); });
 }
 
 void TrafficNode::on_packet(Sender& sender, const modem_receive_t& packet) {
@@ -73,7 +73,7 @@ void TrafficNode::on_packet(Sender& sender, const modem_receive_t& packet) {
                                            " source=" + std::to_string(packet.source_id) +
                                            " packet=" + std::to_string(packet.packet_sequence));
   if (uses_relays_ && is_whole(packet) && packet.packet_kind == modem_receive_t::DATA)
-    sender.relay.take(packet.payload, SimTime::from_utime(packet.utime));
+    sender.relay.take(packet.payload, shown(sender, SimTime::from_utime(packet.utime)));
 }
 
 void TrafficNode::on_receipt(Sender& sender, const modem_receipt_t& receipt) {
@@ -92,19 +92,22 @@ void TrafficNode::on_receipt(Sender& sender, const modem_receipt_t& receipt) {
     default:
       break;
   }
-  sender.relay.on_receipt(receipt.packet_sequence, verdict, SimTime::from_utime(receipt.utime));
+  sender.relay.on_receipt(receipt.packet_sequence, verdict,
+                          shown(sender, SimTime::from_utime(receipt.utime)));
 }
 
 bus::Due TrafficNode::on_due() const {
   bus::Due due;
   for (const auto& sender : senders_) {
-    due.sim = std::min({due.sim, sender->next_packet, sender->relay.next()});
+    const SimTime next = std::min(sender->next_packet, sender->relay.next());
+    due.sim = std::min(due.sim, clocks_.due(sender->traffic.vehicle_id, next));
     due.steady = std::min(due.steady, sender->modem.next_resend());
   }
   return due;
 }
 
 void TrafficNode::on_step(const bus::Now& now) {
+  clocks_.set_now(now.sim);
   for (const auto& sender : senders_) {
     send_due(*sender, now);
     transmit_due(*sender, now);
@@ -113,10 +116,11 @@ void TrafficNode::on_step(const bus::Now& now) {
 }
 
 void TrafficNode::send_due(Sender& sender, const bus::Now& now) {
-  if (now.sim < sender.next_packet) return;
+  const SimTime own = shown(sender, now.sim);
+  if (own < sender.next_packet) return;
   const VehicleTraffic& traffic = sender.traffic;
   // Started into a running simulation: packets of the past stay unsent.
-  const SimTime latest = next_packet_at(traffic, now.sim + SimDuration::from_nanoseconds(1)) - traffic.period;
+  const SimTime latest = next_packet_at(traffic, own + SimDuration::from_nanoseconds(1)) - traffic.period;
   sender.set_next_packet(latest + traffic.period);
   if (traffic.is_relayed()) {
     const auto number = sender.relay.counters().originated;
@@ -125,12 +129,15 @@ void TrafficNode::send_due(Sender& sender, const bus::Now& now) {
   const auto number = sender.modem.counters().sent;
   SendOptions options{.kind = traffic.kind, .wants_ack = traffic.ack};
   if (traffic.rate >= 0) options.rate_number = traffic.rate;
-  sender.modem.send(now.steady, latest, sender.destination, payload_of(traffic, number), std::move(options));
+  sender.modem.send(now.steady, clocks_.instant_of(traffic.vehicle_id, latest, now.sim), sender.destination,
+                    payload_of(traffic, number), std::move(options));
 }
 
 void TrafficNode::transmit_due(Sender& sender, const bus::Now& now) {
-  while (const auto transmission = sender.relay.transmit_due(now.sim)) {
-    const SimTime start = now.sim - transmission->at < kPromptly ? transmission->at : now.sim;
+  const SimTime own = shown(sender, now.sim);
+  while (const auto transmission = sender.relay.transmit_due(own)) {
+    const SimTime at = own - transmission->at < kPromptly ? transmission->at : own;
+    const SimTime start = clocks_.instant_of(sender.traffic.vehicle_id, at, now.sim);
     SendOptions options;
     if (sender.traffic.rate >= 0) options.rate_number = sender.traffic.rate;
     sender.relay.on_sent(
@@ -139,13 +146,15 @@ void TrafficNode::transmit_due(Sender& sender, const bus::Now& now) {
 }
 
 void TrafficNode::on_restart(const bus::Now& now) {
+  clocks_.restart(now.sim);
   for (const auto& sender : senders_) {
-    sender->set_next_packet(next_packet_at(sender->traffic, now.sim));
+    sender->set_next_packet(next_packet_at(sender->traffic, shown(*sender, now.sim)));
     sender->relay.clear();
   }
 }
 
 void TrafficNode::on_archive(Archive& a) {
+  a(clocks_);
   for (const auto& sender : senders_) a.part(sender->changes(), *sender);
 }
 

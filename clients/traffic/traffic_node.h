@@ -15,6 +15,7 @@
 
 #include "bus/node_identity.h"
 #include "bus/runtime/node.h"
+#include "clients/clocks/vehicle_time.h"
 #include "clients/modem/modem_client.h"
 #include "clients/traffic/relay.h"
 #include "clients/traffic/traffic_config.h"
@@ -49,7 +50,7 @@ class TrafficNode : public bus::Node {
     VehicleTraffic traffic;
     std::int32_t destination;
     ModemClient modem;
-    Relay relay;
+    Relay relay;  // in the vehicle's time, as next_packet
     SimTime next_packet;
     std::uint64_t moves = 0;  // of next_packet
 
@@ -63,12 +64,17 @@ class TrafficNode : public bus::Node {
 
   void add_sender(const TrafficConfig& config, const VehicleTraffic& traffic);
   void on_packet(Sender& sender, const modem_receive_t& packet);
-  static void on_receipt(Sender& sender, const modem_receipt_t& receipt);
+  void on_receipt(Sender& sender, const modem_receipt_t& receipt);
   void send_due(Sender& sender, const bus::Now& now);
-  static void transmit_due(Sender& sender, const bus::Now& now);
+  void transmit_due(Sender& sender, const bus::Now& now);
   std::string relay_text() const;
 
+  SimTime shown(const Sender& sender, SimTime at) const {
+    return clocks_.shown(sender.traffic.vehicle_id, at);
+  }
+
   bool uses_relays_;
+  VehicleTime clocks_;
   std::vector<std::unique_ptr<Sender>> senders_;
 };
 

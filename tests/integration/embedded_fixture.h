@@ -38,6 +38,10 @@ class EmbeddedTest : public ::testing::Test {
   ScenarioConfig load(const std::string& name, const std::vector<std::string>& overrides) {
     return load_scenario(std::string(HALOCLINE_SOURCE_DIR) + "/scenarios/" + name + ".toml", overrides);
   }
+  ScenarioConfig load_text(const std::string& text) {
+    std::ofstream(folder_ + "/scenario.toml") << text;
+    return load_scenario(folder_ + "/scenario.toml", {});
+  }
   std::string log_path(const std::string& name) const { return folder_ + "/" + name + ".lcm"; }
 
   using MakeNode = std::function<std::unique_ptr<bus::Node>(lcm::LCM&)>;

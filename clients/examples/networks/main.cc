@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
   program.example_scenario = "scenarios/networks/one_hop.toml";
   program.stage = halocline::bus::Stage::kTraffic;
   program.interface =
-      "receives:  CLOCK, RECEIPT.<vehicle>, RECEIVE.<vehicle>, MODEM_EVENT.<vehicle>\n"
+      "receives:  CLOCK, RECEIPT.<vehicle>, RECEIVE.<vehicle>, MODEM_EVENT.<vehicle>,\n"
+      "           GPS.<vehicle> (where it sets the vehicle's clock)\n"
       "publishes: SEND.<vehicle>, LISTEN.<vehicle>, NETWORK_EVENT.<vehicle>, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   program.make_node = [&](const NodeProgram::Context& context) {

@@ -142,6 +142,7 @@ void visit(ConfigVisitor& v, NetworkConfig& config) {
       "vehicle", "A vehicle", config.members.size(), [&](std::size_t n) { config.members.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) { visit_member(item, config.rules, config.members[i]); });
   if (v.writing()) return;
+  visit(v, config.clocks);
   // Once all names are known.
   v.list(
       "vehicle", "", config.members.size(), [](std::size_t) {},

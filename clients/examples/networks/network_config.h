@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bus/config/config.h"
+#include "clients/clocks/clock_set_config.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 
@@ -47,6 +48,7 @@ struct NetworkMember {
 struct NetworkConfig {
   NetworkRules rules;
   std::vector<NetworkMember> members;  // one for each vehicle of the scenario
+  clients::ClockSetConfig clocks = {};
 };
 
 void visit(bus::ConfigVisitor& v, NetworkConfig& config);

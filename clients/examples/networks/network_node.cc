@@ -24,7 +24,7 @@ SimTime whole_microsecond_from(SimTime time) {
 
 NetworkNode::NetworkNode(lcm::LCM& lcm, bus::NodeIdentity identity, const NetworkConfig& config,
                          std::uint64_t seed)
-    : Node(lcm, std::move(identity)), rules_(config.rules), seed_(seed) {
+    : Node(lcm, std::move(identity)), rules_(config.rules), seed_(seed), clocks_(bus(), config.clocks) {
   require(rules_.mac != MacKind::kNone,
           "network.mac is none; allowed is a protocol where a network is to run");
   for (const NetworkMember& member : config.members) starts_[member.vehicle_id] = member.start_ned_m;
@@ -40,29 +40,51 @@ void NetworkNode::add_station(const NetworkConfig& config, std::size_t i) {
   Station& station = *stations_.back();
   make_protocols(station, config, i);
   station.next_offer = member.destination.empty() ? SimTime::never() : offer_after(station, SimTime());
-  station.modem.on_receive([&station](const modem_receive_t& packet) {
-    station.mac->on_packet(packet, station.member.vehicle_id);
-  });
-  station.modem.on_event([&station](const modem_event_t& event) { station.mac->on_event(event); });
-  station.modem.on_receipt([&station](const modem_receipt_t& receipt) {
+  station.modem.on_receive([this, &station](const modem_receive_t& packet) { take_packet(station, packet); });
+  station.modem.on_event([this, &station](const modem_event_t& event) { take_event(station, event); });
+  station.modem.on_receipt([this, &station](const modem_receipt_t& receipt) {
     const bool is_accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
                              receipt.receipt_result == modem_receipt_t::QUEUED;
-    if (!is_accepted) station.mac->on_refused(SimTime::from_utime(receipt.utime));
+    if (!is_accepted) station.mac->on_refused(enter(station, SimTime::from_utime(receipt.utime)));
   });
+}
+
+SimTime NetworkNode::enter(Station& station, SimTime instant) const {
+  station.instant = instant;
+  return clocks_.shown(station.member.vehicle_id, instant);
+}
+
+// Its arrival is by the vehicle's clock as it is.
+void NetworkNode::take_packet(Station& station, const modem_receive_t& packet) {
+  const std::int32_t id = station.member.vehicle_id;
+  const SimTime own = enter(station, SimTime::from_utime(packet.utime));
+  if (!clocks_.has_clock(id)) return station.mac->on_packet(packet, id);
+  modem_receive_t told = packet;
+  told.utime = own.to_utime();
+  station.mac->on_packet(told, id);
+}
+
+void NetworkNode::take_event(Station& station, const modem_event_t& event) {
+  const std::int32_t id = station.member.vehicle_id;
+  modem_event_t told = event;
+  told.utime = enter(station, SimTime::from_utime(event.utime)).to_utime();
+  if (event.source_id != 0)
+    told.packet_end_utime = clocks_.shown(id, SimTime::from_utime(event.packet_end_utime)).to_utime();
+  station.mac->on_event(told);
 }
 
 void NetworkNode::make_protocols(Station& station, const NetworkConfig& config, std::size_t i) {
   RouterPort router;
   router.hand_down = [&station](SimTime at, Frame frame) { station.mac->offer(std::move(frame), at); };
-  router.deliver = [this, &station](SimTime at, const NetworkPacket& packet) {
-    report(station, network_event_t::DELIVERED, packet, at);
+  router.deliver = [this, &station](SimTime, const NetworkPacket& packet) {
+    report(station, network_event_t::DELIVERED, packet);
   };
-  router.drop = [this, &station](SimTime at, const NetworkPacket& packet) {
-    report(station, network_event_t::DROPPED, packet, at);
+  router.drop = [this, &station](SimTime, const NetworkPacket& packet) {
+    report(station, network_event_t::DROPPED, packet);
   };
   MacPort mac;
-  mac.transmit = [this, &station](SimTime at, const Frame& frame) {
-    station.modem.send(steady_, whole_microsecond_from(at), frame.destination, frame.bytes);
+  mac.transmit = [this, &station](SimTime, const Frame& frame) {
+    station.modem.send(steady_, whole_microsecond_from(station.instant), frame.destination, frame.bytes);
   };
   mac.deliver = [&station](SimTime at, const Frame& frame) { station.router->take(frame, at); };
   mac.drop = [&station, drop = router.drop](SimTime at, const Frame& frame) {
@@ -129,7 +151,8 @@ SimTime NetworkNode::offer_after(const Station& station, SimTime before) const {
 bus::Due NetworkNode::on_due() const {
   bus::Due due{.sim = reports_.empty() ? next_listen_ : SimTime::at_once()};
   for (const auto& station : stations_) {
-    due.sim = std::min({due.sim, station->next_offer, station->router->next(), station->mac->next()});
+    const SimTime protocols = std::min(station->router->next(), station->mac->next());
+    due.sim = std::min({due.sim, station->next_offer, clocks_.due(station->member.vehicle_id, protocols)});
     due.steady = std::min(due.steady, station->modem.next_resend());
   }
   return due;
@@ -137,6 +160,7 @@ bus::Due NetworkNode::on_due() const {
 
 void NetworkNode::on_step(const bus::Now& now) {
   steady_ = now.steady;
+  clocks_.set_now(now.sim);
   const bool tells_modems = now.sim_known && now.sim >= next_listen_;
   if (tells_modems) next_listen_ = now.sim + kListenPeriod;
   for (const auto& station : stations_) {
@@ -146,8 +170,9 @@ void NetworkNode::on_step(const bus::Now& now) {
                                       .carrier_threshold_db = rules_.carrier_threshold_db});
     if (now.sim_known) {
       offer_due(*station, now.sim);
-      station->router->step(now.sim);
-      station->mac->step(now.sim);
+      const SimTime own = enter(*station, now.sim);
+      station->router->step(own);
+      station->mac->step(own);
     }
     station->modem.resend(now.steady);
   }
@@ -159,15 +184,16 @@ void NetworkNode::offer_due(Station& station, SimTime now) {
     const NetworkPacket packet{
         station.member.vehicle_id, station.destination, station.offered++, station.next_offer.to_utime(), 0,
         rules_.data_bytes};
-    report(station, network_event_t::OFFERED, packet, station.next_offer);
-    station.router->offer(packet, station.next_offer);
+    const SimTime own = enter(station, station.next_offer);
+    report(station, network_event_t::OFFERED, packet);
+    station.router->offer(packet, own);
     station.next_offer = offer_after(station, station.next_offer);
   }
 }
 
-void NetworkNode::report(Station& station, std::int8_t event, const NetworkPacket& packet, SimTime at) {
+void NetworkNode::report(Station& station, std::int8_t event, const NetworkPacket& packet) {
   network_event_t message{};
-  message.utime = at.to_utime();
+  message.utime = station.instant.to_utime();
   message.session = bus().identity().session;
   message.sequence = station.events++;
   message.network_event = event;

@@ -2,9 +2,11 @@
 // Runs the example protocols for the vehicles of a scenario, on top of the modem library: each offers packets at random instants, a router
 // says to whom they go, a MAC when they are transmitted.
 //
-// Packets are offered as a Poisson process: the time between two is exponentially distributed, drawn from seed, vehicle and number. What
-// becomes of them is published as NETWORK_EVENT. The modems are told to report events, and to be promiscuous where the MAC overhears
-// packets of others (LISTEN).
+// Protocols run in the vehicle's own time (clients/clocks/vehicle_time.h): what the modem says is told to
+// them by the vehicle's clock, and their deadlines are turned into simulation time. Packets are offered as a
+// Poisson process: the time between two is exponentially distributed, drawn from seed, vehicle and number, in
+// simulation time. What becomes of them is published as NETWORK_EVENT. The modems are told to report events,
+// and to be promiscuous where the MAC overhears packets of others (LISTEN).
 #pragma once
 
 #include <cstdint>
@@ -17,6 +19,7 @@
 
 #include "bus/node_identity.h"
 #include "bus/runtime/node.h"
+#include "clients/clocks/vehicle_time.h"
 #include "clients/examples/networks/mac.h"
 #include "clients/examples/networks/network_config.h"
 #include "clients/examples/networks/network_packet.h"
@@ -49,21 +52,27 @@ class NetworkNode : public bus::Node {
     std::uint64_t draws = 0;
     std::int64_t events = 0;
     std::int64_t sent = -1;  // packet_sequence of the latest SEND
+    SimTime instant = {};    // simulation time at which its protocols are called
   };
 
   void add_station(const NetworkConfig& config, std::size_t i);
   void make_protocols(Station& station, const NetworkConfig& config, std::size_t i);
   std::unique_ptr<Mac> make_mac(MacPort port, std::size_t i, std::size_t count) const;
+  void take_packet(Station& station, const modem_receive_t& packet);
+  void take_event(Station& station, const modem_event_t& event);
+  // The vehicle's own time, by which its protocols are called now for what happens at `instant`.
+  SimTime enter(Station& station, SimTime instant) const;
   bool overhears_packets() const;
   SimDuration travel_time(std::int32_t from, std::int32_t to) const;  // by the places at the start
   double draw(std::string_view purpose, const Station& station, std::uint64_t which) const;
   SimTime offer_after(const Station& station, SimTime before) const;
   void offer_due(Station& station, SimTime now);
-  void report(Station& station, std::int8_t event, const NetworkPacket& packet, SimTime at);
+  void report(Station& station, std::int8_t event, const NetworkPacket& packet);
   void publish_reports();
 
   NetworkRules rules_;
   std::uint64_t seed_;
+  clients::VehicleTime clocks_;
   std::map<std::int32_t, Vec3> starts_;  // by vehicle
   std::vector<std::unique_ptr<Station>> stations_;
   std::vector<std::pair<std::string, network_event_t>> reports_;  // by vehicle, for the next step

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Routing: to which neighbours a packet goes on its way.
 //
-// Values in, values out, as a MAC (mac.h), which transmits what a router hands down.
+// Values in, values out, as a MAC (mac.h), which transmits what a router hands down. Time is by the vehicle's
+// clock.
 #pragma once
 
 #include <cstdint>

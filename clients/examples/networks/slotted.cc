@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // MACs whose frames leave at the begin of a slot: slotted ALOHA (Roberts 1975) in any slot, TDMA in the vehicle's own.
 //
-// Slots begin at multiples of `slot`, by the vehicles' clocks. Slotted ALOHA has S = G exp(-G) where all sound takes the same time to
-// the receiver; different distances bring it down to pure ALOHA unless slots are longer by the greatest difference (Syed, Ye,
-// Heidemann and Krishnamachari 2008). TDMA's slots never collide when they are longer by the greatest travel time.
+// Slots begin at multiples of `slot`, by the vehicle's clock. A slot that began more than a tenth of it ago,
+// because the clock was set ahead or the step came late, is left out: its end would not hold the packet.
+// Slotted ALOHA has S = G exp(-G) where all sound takes the same time to the receiver; different distances
+// bring it down to pure ALOHA unless slots are longer by the greatest difference (Syed, Ye, Heidemann and
+// Krishnamachari 2008). TDMA's slots never collide when they are longer by the greatest travel time.
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -21,6 +23,10 @@ class SlottedMac : public Mac {
       : Mac(std::move(port), rules), index_(index), count_(count) {}
 
  protected:
+  void attempt(SimTime now) override {
+    if ((now - due_).nanoseconds() * kLateShare <= rules_.slot.nanoseconds()) return transmit_first(now);
+    due_ = first_try(now);
+  }
   SimTime first_try(SimTime now) const override {
     const std::int64_t slot = rules_.slot.nanoseconds();
     std::int64_t number = (now.nanoseconds() + slot - 1) / slot;
@@ -29,6 +35,7 @@ class SlottedMac : public Mac {
   }
 
  private:
+  static constexpr std::int64_t kLateShare = 10;  // a tenth of a slot
   std::int64_t index_, count_;
 };
 

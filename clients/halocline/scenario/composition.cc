@@ -195,7 +195,6 @@ void Composition::add_gateway(const ScenarioConfig& config,
                               const modem_gateway::SoundFieldMaker& make_sound) {
   if (config.gateway.doors.empty()) return;
   modem_gateway::GatewayConfig gateway = config.gateway;
-  gateway.seed = config.scenario.seed;
   gateway.origin_latitude_deg = config.scenario.origin_latitude_deg;
   gateway.origin_longitude_deg = config.scenario.origin_longitude_deg;
   add<modem_gateway::GatewayNode>(bus::Stage::kClients, "modem-gateway", gateway,

@@ -36,11 +36,6 @@
 namespace halocline::clients {
 namespace {
 
-const channel_server::VehicleModem& modem_of(const ScenarioConfig& config, std::size_t vehicle) {
-  const auto& own = config.channel_server.vehicles.at(vehicle);
-  return own.has_modem ? own.modem : config.channel_server.modem;
-}
-
 // A source of packets: the section that says so, and what it sends.
 struct PacketSource {
   std::string section, size_key;
@@ -206,6 +201,11 @@ void check_profile(const ScenarioConfig& config, bus::ConfigFile& file) {
 
 }  // namespace
 
+const channel_server::VehicleModem& modem_of(const ScenarioConfig& config, std::size_t vehicle) {
+  const auto& own = config.channel_server.vehicles.at(vehicle);
+  return own.has_modem ? own.modem : config.channel_server.modem;
+}
+
 void check_water(const ScenarioConfig& config, bus::ConfigFile& file) {
   if (!check_ocean(config, file)) return;
   check_names(config, file);
@@ -216,6 +216,7 @@ void check_water(const ScenarioConfig& config, bus::ConfigFile& file) {
 void check_missions(const ScenarioConfig& config, bus::ConfigFile& file) {
   check_modems(config, file);
   check_relays(config, file);
+  check_network(config, file);
   check_pilots(config, file);
   check_intent(config, file);
 }

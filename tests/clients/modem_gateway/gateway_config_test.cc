@@ -36,12 +36,13 @@ TEST(GatewayConfig, KnowsTheClocksOfVehicles) {
   const GatewayConfig config = read(
       "[[vehicle]]\nname = \"late\"\nid = 7\n[vehicle.clock]\noffset_s = 0.5\ndrift_ppm = 2\n"
       "[channel_server]\nstate_lag_s = 0.125\n");
-  ASSERT_EQ(config.clocks.size(), 1u);
-  EXPECT_EQ(config.clocks[0].vehicle, "late");
-  EXPECT_EQ(config.clocks[0].id, 7);
-  EXPECT_EQ(config.clocks[0].settings.offset_s, 0.5);
-  EXPECT_EQ(config.clocks[0].settings.drift, 2e-6);
-  EXPECT_EQ(config.state_lag, SimDuration::from_milliseconds(125));
+  const auto& clocks = config.clocks.clocks;
+  ASSERT_EQ(clocks.size(), 1u);
+  EXPECT_EQ(clocks[0].vehicle, "late");
+  EXPECT_EQ(clocks[0].id, 7);
+  EXPECT_EQ(clocks[0].settings.offset_s, 0.5);
+  EXPECT_EQ(clocks[0].settings.drift, 2e-6);
+  EXPECT_EQ(config.clocks.fix_lag, SimDuration::from_milliseconds(125));
 }
 
 std::string errors_of(const std::string& doors) {
