@@ -22,10 +22,11 @@ void visit_domain(ConfigVisitor& v, DomainRecipe& d) {
   v.number("size_north_m", d.size_north_m, {0.1, 1e6, "m", "extent, a whole multiple of the spacing"});
   v.number("size_east_m", d.size_east_m, {0.1, 1e6, "m", "extent, a whole multiple of the spacing"});
   v.number("spacing_m", d.spacing_m, {0.01, 1e5, "m", "distance between posts"});
-  if (!d.is_possible()) {
-    v.problem("spacing_m",
-              "allowed is a spacing that divides size_north_m and size_east_m, 1 to 32768 times");
-  }
+}
+
+void check_domain(ConfigVisitor& v, const DomainRecipe& d) {
+  if (d.is_possible()) return;
+  v.problem("spacing_m", "allowed is a spacing that divides size_north_m and size_east_m, 1 to 32768 times");
 }
 
 void visit_bounds(ConfigVisitor& v, RasterOptions& r) {
@@ -131,6 +132,7 @@ void visit_relief(ConfigVisitor& v, FractalRelief& r) {
 
 void visit_nested(ConfigVisitor& v, NestedRecipe& n) {
   visit_domain(v, n.domain);
+  check_domain(v, n.domain);
   v.number("blend_width_m", n.blend_width_m,
            {0, 1e5, "m", "inside its border, drawn to the grid around over this"});
   bus::choice(v, "holes", n.holes, {"keep", "fill_from_around"}, "posts without data in the finer raster");
@@ -166,6 +168,8 @@ void visit(ConfigVisitor& v, TerrainRecipe& t) {
     s.list(
         "nested", "A finer raster inside", t.nested.size(), [&](std::size_t n) { t.nested.resize(n); },
         [&](ConfigVisitor& item, std::size_t n) { visit_nested(item, t.nested[n]); });
+    const bool uses_grid = !t.is_level() && !(t.kind == TerrainKind::kRaster && t.whole_file);
+    if (uses_grid) check_domain(s, t.domain);
   });
 }
 

@@ -261,6 +261,15 @@ VehicleEquipment make_equipment(const ChannelServerConfig& config, const bus::Sc
           VehicleNoise(std::move(noise), lag), std::move(transponders)};
 }
 
+ServerRules make_rules(const ChannelServerConfig& config, const bus::Scenario& scenario) {
+  ServerRules rules = config.rules;
+  rules.medium.seed = scenario.seed;
+  rules.medium.fading = rules.reach.fading = config.propagation.fading;
+  rules.medium.noise = config.environment.noise_variation;
+  rules.reach.noise_spread_db = config.environment.noise_variation.spread_db;
+  return rules;
+}
+
 LinkPredictor make_predictor(const ServerRules& rules) {
   LinkPredictor::Rule rule{static_cast<std::size_t>(rules.predicted_payload_bytes), rules.medium.fading, {}};
   for (const std::string& name : built_in_modems()) rule.profiles.push_back(built_in_modem(name));

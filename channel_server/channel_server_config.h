@@ -173,6 +173,9 @@ RayModel make_rays(const ChannelServerConfig& config);
 
 ConfiguredModems make_modems(const ChannelServerConfig& config);
 
+// The rules with what other sections say of them: seed, fading, the noise that varies.
+ServerRules make_rules(const ChannelServerConfig& config, const bus::Scenario& scenario);
+
 // Of the vehicles that have some.
 VehicleEquipment make_equipment(const ChannelServerConfig& config, const bus::Scenario& scenario);
 

@@ -330,17 +330,13 @@ std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus:
   const Shard& shard = config.rules.medium.shard;
   require(shard.index < shard.count, "channel_server.shard is " + std::to_string(shard.index) +
                                          "; allowed is 0 to shards - 1, " + std::to_string(shard.count - 1));
-  ServerRules rules = config.rules;
+  ServerRules rules = make_rules(config, scenario);
   if (!shard.is_alone()) {
     std::vector<StartPlace> places;
     for (const bus::VehicleEntry& vehicle : scenario.vehicles)
       places.push_back({vehicle.id, vehicle.start_ned_m});
     rules.medium.shard.servers = servers_by_place(std::move(places), shard.count);
   }
-  rules.medium.seed = scenario.seed;
-  rules.medium.fading = rules.reach.fading = config.propagation.fading;
-  rules.medium.noise = config.environment.noise_variation;
-  rules.reach.noise_spread_db = config.environment.noise_variation.spread_db;
   const ConfiguredModems modems = make_modems(config);
   return std::make_unique<ChannelServerNode>(lcm, identity, make_water_model(config, scenario, folder),
                                              modems, rules, to_messages(scenario, modems),

@@ -50,34 +50,56 @@ void set_field(const bus::Scenario& scenario, const std::string& folder,
   environment.profile = environment_at(environment, 0, 0).profile;
 }
 
-WaterModel straight_model(const acoustics::Environment& environment, const acoustics::FadingModel& fading) {
-  auto waters = std::make_shared<EnvironmentTimeline>(environment);
+namespace {
+
+WaterModel straight_in(std::shared_ptr<EnvironmentTimeline> waters, const acoustics::FadingModel& fading) {
   auto propagation = std::make_unique<StraightPropagation>(waters, fading);
   return {waters, std::make_shared<SeabedMap>(SeabedRule{}), std::move(propagation), {"straight", {}, {}}};
 }
 
-WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
-                     const SeabedRule& rule) {
-  auto waters = std::make_shared<EnvironmentTimeline>(environment);
+WaterModel rays_in(std::shared_ptr<EnvironmentTimeline> waters, const RayModel& rays,
+                   const SeabedRule& rule) {
   auto seabed = std::make_shared<SeabedMap>(rule);
   auto propagation = std::make_unique<RayPropagation>(waters, seabed, rays);
   return {waters, seabed, std::move(propagation), {"rays", rays.bottom, rays.surface}};
 }
 
+}  // namespace
+
+WaterModel straight_model(const acoustics::Environment& environment, const acoustics::FadingModel& fading) {
+  return straight_in(std::make_shared<EnvironmentTimeline>(environment), fading);
+}
+
+WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
+                     const SeabedRule& rule) {
+  return rays_in(std::make_shared<EnvironmentTimeline>(environment), rays, rule);
+}
+
+WaterSources read_water(const ChannelServerConfig& config, const bus::Scenario& scenario,
+                        const std::string& folder) {
+  WaterSources sources{EnvironmentTimeline(make_environment(config.environment, scenario, folder)), {}};
+  const ReplayConfig& replay = config.propagation.replay;
+  if (replay.is_wanted())
+    sources.measured = make_measured_links(replay, make_modems(config), scenario, folder);
+  schedule_changes(config, scenario, folder, sources.timeline);
+  return sources;
+}
+
+WaterModel make_water_model(const ChannelServerConfig& config, const WaterSources& sources) {
+  auto waters = std::make_shared<EnvironmentTimeline>(sources.timeline);
+  WaterModel water = config.propagation.model == PropagationModel::kRays
+                         ? rays_in(std::move(waters), make_rays(config), config.rules.seabed)
+                         : straight_in(std::move(waters), config.propagation.fading);
+  if (config.propagation.replay.is_wanted()) {
+    water.propagation =
+        std::make_unique<MeasuredPropagation>(std::move(water.propagation), water.waters, sources.measured);
+  }
+  return water;
+}
+
 WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario,
                             const std::string& folder) {
-  const acoustics::Environment environment = make_environment(config.environment, scenario, folder);
-  WaterModel water = config.propagation.model == PropagationModel::kRays
-                         ? ray_model(environment, make_rays(config), config.rules.seabed)
-                         : straight_model(environment, config.propagation.fading);
-  const ReplayConfig& replay = config.propagation.replay;
-  if (replay.is_wanted()) {
-    water.propagation = std::make_unique<MeasuredPropagation>(
-        std::move(water.propagation), water.waters,
-        make_measured_links(replay, make_modems(config), scenario, folder));
-  }
-  schedule_changes(config, scenario, folder, *water.waters);
-  return water;
+  return make_water_model(config, read_water(config, scenario, folder));
 }
 
 }  // namespace halocline::channel_server

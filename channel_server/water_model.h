@@ -10,6 +10,7 @@
 #include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/measured_propagation.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
@@ -25,6 +26,12 @@ struct WaterModel {
   std::unique_ptr<Propagation> propagation;
   WaterDescription description;  // for ENVIRONMENT
 };
+// What water models of a scenario are made of, read from its files once.
+struct WaterSources {
+  EnvironmentTimeline timeline;  // with the scenario's changes
+  MeasuredLinks measured;
+};
+
 WaterModel straight_model(const acoustics::Environment& environment,
                           const acoustics::FadingModel& fading = {});
 WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays, const SeabedRule& rule);
@@ -34,6 +41,10 @@ void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& sc
                       const std::string& folder, EnvironmentTimeline& timeline);
 
 // As a scenario whose file lies in `folder` describes it. Throws InvalidArgument when that is impossible.
+WaterSources read_water(const ChannelServerConfig& config, const bus::Scenario& scenario,
+                        const std::string& folder);
+// The one way from a scenario to its propagation: of the server, of surveys of links, of waveforms.
+WaterModel make_water_model(const ChannelServerConfig& config, const WaterSources& sources);
 WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario,
                             const std::string& folder);
 

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "bathymetry/rasters/raster_options.h"
+#include "bathymetry/terrain/endless_bottom.h"
 #include "bathymetry/terrain/height_grid.h"
 #include "bathymetry/terrain/local_frame.h"
 #include "core/check.h"
@@ -38,21 +40,43 @@ RasterOptions located(RasterOptions options, const std::string& folder) {
   return options;
 }
 
-HeightGrid base_grid(const TerrainRecipe& recipe, const LocalFrame& frame, const Site& site,
-                     std::vector<RasterReport>& reports) {
-  const auto shaped = [&](const Shape& shape) { return make_grid(recipe.domain.geometry(), shape); };
+// None of a raster.
+std::optional<Shape> shape_of(const TerrainRecipe& recipe) {
   switch (recipe.kind) {
     case TerrainKind::kFlat:
-      return shaped(recipe.flat);
+      return recipe.flat;
     case TerrainKind::kSlope:
-      return shaped(recipe.slope);
+      return recipe.slope;
     case TerrainKind::kRidge:
-      return shaped(recipe.ridge);
+      return recipe.ridge;
     case TerrainKind::kSeamount:
-      return shaped(recipe.seamount);
+      return recipe.seamount;
     case TerrainKind::kRaster:
       break;
   }
+  return std::nullopt;
+}
+
+// Of a level bottom one cell over the area, where the spacing does not divide it.
+GridGeometry grid_of(const TerrainRecipe& recipe) {
+  DomainRecipe domain = recipe.domain;
+  if (recipe.is_level() && !domain.is_possible())
+    domain.spacing_m = domain.size_north_m = domain.size_east_m =
+        std::max(domain.size_north_m, domain.size_east_m);
+  return domain.geometry();
+}
+
+// What every post of the grid holds, and every one beyond it.
+BottomFormula formula_of(const TerrainRecipe& recipe, const Shape& shape) {
+  if (recipe.relief.rms_m == 0) return [shape](double x_m, double y_m) { return depth_of(shape, x_m, y_m); };
+  return [shape, relief = ReliefFormula(recipe.relief, recipe.domain.spacing_m)](double x_m, double y_m) {
+    return static_cast<float>(depth_of(shape, x_m, y_m)) + relief(x_m, y_m);
+  };
+}
+
+HeightGrid base_grid(const TerrainRecipe& recipe, const LocalFrame& frame, const Site& site,
+                     std::vector<RasterReport>& reports) {
+  if (const auto shape = shape_of(recipe)) return make_grid(grid_of(recipe), *shape);
   const RasterOptions options = located(recipe.raster, site.folder);
   LoadedRaster loaded =
       recipe.whole_file ? load_local_raster(options) : load_raster(options, frame, recipe.domain.geometry());
@@ -140,7 +164,9 @@ PreparedTerrain prepare_terrain(const TerrainRecipe& recipe, const Site& site) {
     prepared.rasters.push_back(std::move(loaded.report));
     nested.push_back({std::move(loaded.grid), inner.blend_width_m, inner.holes});
   }
-  prepared.terrain = std::make_shared<const Terrain>(std::move(base), std::move(nested));
+  const std::optional<Shape> shape = shape_of(recipe);
+  prepared.terrain = std::make_shared<const Terrain>(std::move(base), std::move(nested),
+                                                     shape ? formula_of(recipe, *shape) : BottomFormula());
   prepared.summary = summary_of(recipe, *prepared.terrain, prepared.rasters);
   return prepared;
 }

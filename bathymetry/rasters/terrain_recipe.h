@@ -3,7 +3,9 @@
 //
 // Order: the base is made (shape sampled, or raster resampled once into the local frame), relief is added, nested
 // grids are read and blended in, each with relief of its own. Relief is synthetic and labelled so in the summary.
-// A nested grid's relief is that of the base where both hold the same octaves: relief belongs to the place.
+// A nested grid's relief is that of the base where both hold the same octaves: relief belongs to the place. A
+// shape and its relief go on beyond the grid without end, at the grid's spacing; a raster ends where its grid
+// does.
 //
 //   const PreparedTerrain prepared = prepare_terrain(recipe, {29.9167, -28.4167, scenario_folder});
 #pragma once
@@ -31,7 +33,7 @@ struct DomainRecipe {
   double size_north_m = 4000, size_east_m = 4000;  // whole multiples of the spacing
   double spacing_m = 20;
 
-  // The grid; its posts lie symmetrically about the centre.
+  // The grid; its posts lie symmetrically about the centre. Throws InvalidArgument unless it is possible.
   GridGeometry geometry() const;
   // True when both sizes are whole multiples of the spacing, at least one.
   [[nodiscard]] bool is_possible() const;
@@ -58,6 +60,9 @@ struct TerrainRecipe {
   FractalRelief relief{
       .rms_m = 0, .longest_wavelength_m = 500, .shortest_wavelength_m = 50, .hurst = 0.9, .seed = 1};
   std::vector<NestedRecipe> nested;
+
+  // A level bottom, for which any grid will do.
+  bool is_level() const { return kind == TerrainKind::kFlat && relief.rms_m == 0 && nested.empty(); }
 };
 
 // Where the scenario lies.

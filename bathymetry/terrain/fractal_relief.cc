@@ -21,13 +21,7 @@ struct Gradient {
   double x = 0, y = 0;
 };
 
-struct Octave {
-  double wavelength_m = 0;
-  double amplitude_m = 0;  // the octave's noise is multiplied by this
-  std::uint32_t number = 0;
-  double shift_x_m = 0,
-         shift_y_m = 0;  // of its lattice: noise is 0 at lattice points, which must not coincide
-};
+using Octave = ReliefOctave;
 
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
@@ -129,18 +123,27 @@ void add_octave(const Octave& octave, std::uint64_t seed, const GridGeometry& g,
 
 }  // namespace
 
-double relief_at(const FractalRelief& relief, double x_m, double y_m) {
+ReliefFormula::ReliefFormula(const FractalRelief& relief, double spacing_m) : seed_(relief.seed) {
   require_possible(relief);
+  octaves_ = octaves_of(relief);
+  std::erase_if(octaves_, [&](const Octave& octave) { return octave.wavelength_m < 2 * spacing_m; });
+}
+
+double ReliefFormula::operator()(double x_m, double y_m) const {
   double sum = 0;
-  for (const Octave& octave : octaves_of(relief)) {
+  for (const Octave& octave : octaves_) {
     const LatticePlace x = place_x(octave, x_m), y = place_y(octave, y_m);
     const auto corner = [&](int di, int dj) {
-      return gradient_at(relief.seed, octave.number, x.cell + di, y.cell + dj);
+      return gradient_at(seed_, octave.number, x.cell + di, y.cell + dj);
     };
     sum += octave.amplitude_m *
            noise(corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1), x.fraction, y.fraction);
   }
   return sum;
+}
+
+double relief_at(const FractalRelief& relief, double x_m, double y_m) {
+  return ReliefFormula(relief, 0)(x_m, y_m);
 }
 
 void add_relief(const FractalRelief& relief, HeightGrid& grid) {

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "bathymetry/terrain/height_grid.h"
 
@@ -26,9 +27,30 @@ struct FractalRelief {
   std::uint64_t seed = 1;
 };
 
+// One octave of the sum.
+struct ReliefOctave {
+  double wavelength_m = 0;
+  double amplitude_m = 0;  // the octave's noise is multiplied by this
+  std::uint32_t number = 0;
+  // Of its lattice: noise is 0 at lattice points, which must not coincide.
+  double shift_x_m = 0, shift_y_m = 0;
+};
+
 // The relief at (x, y), local NED, |coordinate| below 1e6 wavelengths: metres to add to z. Slow: for single
 // points.
 double relief_at(const FractalRelief& relief, double x_m, double y_m);
+
+// The relief at the posts of grids of one spacing, wherever they lie: to the last bit what add_relief() adds
+// to them. Throws as that does.
+class ReliefFormula {
+ public:
+  ReliefFormula(const FractalRelief& relief, double spacing_m);
+  double operator()(double x_m, double y_m) const;
+
+ private:
+  std::uint64_t seed_;
+  std::vector<ReliefOctave> octaves_;
+};
 
 // Adds the relief to every post that has data. Octaves shorter than two posts are left out. Throws
 // InvalidArgument for parameters outside of what FractalRelief states.

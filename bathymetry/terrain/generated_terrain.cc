@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathymetry/terrain/generated_terrain.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -22,8 +23,9 @@ double gaussian(double distance_m, double scale_m) {
 double depth_at(const FlatShape& flat, double, double) { return flat.depth_m; }
 
 double depth_at(const SlopeShape& slope, double x_m, double y_m) {
-  return slope.depth_m +
-         slope.slope * (x_m * elementary::cos(slope.azimuth_rad) + y_m * elementary::sin(slope.azimuth_rad));
+  const double z_m = slope.depth_m + slope.slope * (x_m * elementary::cos(slope.azimuth_rad) +
+                                                    y_m * elementary::sin(slope.azimuth_rad));
+  return std::clamp(z_m, -kMaxDepthM, kMaxDepthM);
 }
 
 double depth_at(const RidgeShape& ridge, double x_m, double y_m) {

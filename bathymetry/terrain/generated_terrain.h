@@ -19,7 +19,8 @@ struct FlatShape {
   double depth_m = 100;
 };
 
-// A plane: depth_m at the origin, deeper by slope a metre in the direction `azimuth_rad`.
+// A plane: depth_m at the origin, deeper by slope a metre in the direction `azimuth_rad`, level from 12 000 m
+// down and up on.
 struct SlopeShape {
   double depth_m = 100;
   double slope = 0.05;     // dz / d(distance), 0.05 is 2.9 degrees

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "bathymetry/terrain/height_grid.h"
@@ -32,14 +33,19 @@ bool is_finite(const Line& line) {
   return std::isfinite(line.from.x_m) && std::isfinite(line.from.y_m) && std::isfinite(line.length_m);
 }
 
+// Of a grid that goes on without end, those that are looked at on either side: beyond them a piece is one
+// cell's.
+constexpr int kMaxLinesBeyond = 1 << 20;
+
 // Distances at which the line crosses the grid's lines of one axis, inside (0, length).
 void append_crossings(double from, double direction, double length, double first, double spacing, int lines,
-                      std::vector<double>& out) {
+                      int lines_beyond, std::vector<double>& out) {
   if (direction == 0) return;
   const double a = (from - first) / spacing, b = a + direction / spacing * length;
-  const auto line_index = [&](double g) { return static_cast<int>(std::clamp(g, -1.0, lines + 1.0)); };
-  const int lowest = std::max(0, line_index(std::floor(std::min(a, b))));
-  const int highest = std::min(lines - 1, line_index(std::ceil(std::max(a, b))));
+  const double least = -lines_beyond, most = lines - 1 + lines_beyond;
+  const auto line_index = [&](double g) { return static_cast<int>(std::clamp(g, least - 1, most + 1)); };
+  const int lowest = std::max(-lines_beyond, line_index(std::floor(std::min(a, b))));
+  const int highest = std::min(lines - 1 + lines_beyond, line_index(std::ceil(std::max(a, b))));
   for (int n = lowest; n <= highest; ++n) {
     const double distance = (first + n * spacing - from) / direction;
     if (distance > 0 && distance < length) out.push_back(distance);
@@ -50,8 +56,11 @@ std::vector<double> all_crossings(const Terrain& terrain, const Line& line) {
   std::vector<double> out{0};
   for (std::size_t n = 0; n < terrain.grid_count(); ++n) {
     const GridGeometry& g = terrain.grid(n).geometry();
-    append_crossings(line.from.x_m, line.north, line.length_m, g.first_x_m, g.spacing_m, g.posts_x, out);
-    append_crossings(line.from.y_m, line.east, line.length_m, g.first_y_m, g.spacing_m, g.posts_y, out);
+    const int beyond = n == 0 && terrain.is_endless() ? kMaxLinesBeyond : 0;
+    append_crossings(line.from.x_m, line.north, line.length_m, g.first_x_m, g.spacing_m, g.posts_x, beyond,
+                     out);
+    append_crossings(line.from.y_m, line.east, line.length_m, g.first_y_m, g.spacing_m, g.posts_y, beyond,
+                     out);
   }
   out.push_back(line.length_m);
   std::sort(out.begin(), out.end());
@@ -72,10 +81,11 @@ Piece piece_between(const Terrain& terrain, const Line& line, double begin_m, do
   Piece piece{.begin_m = begin_m, .end_m = end_m};
   const PlanePoint middle = line.at(0.5 * (begin_m + end_m));
   const int index = terrain.grid_index_at(middle.x_m, middle.y_m);
-  if (index < 0) return piece;
-  const HeightGrid& grid = terrain.grid(static_cast<std::size_t>(index));
-  const CellPosition at = *grid.locate(middle.x_m, middle.y_m);
-  const BilinearCell cell = grid.cell(at.i, at.j);
+  const HeightGrid& grid = terrain.grid(static_cast<std::size_t>(std::max(index, 0)));
+  const auto beyond = index < 0 ? terrain.cell_beyond(middle.x_m, middle.y_m) : std::nullopt;
+  if (index < 0 && !beyond) return piece;
+  const CellPosition at = beyond ? beyond->second : *grid.locate(middle.x_m, middle.y_m);
+  const BilinearCell cell = beyond ? beyond->first : grid.cell(at.i, at.j);
   piece.status = is_no_data(cell) ? DepthStatus::kNoData : DepthStatus::kOk;
   const double du = line.north / grid.geometry().spacing_m, dv = line.east / grid.geometry().spacing_m;
   const double half = 0.5 * (end_m - begin_m);
@@ -178,11 +188,10 @@ std::vector<ProfilePoint> uniform_profile(const Terrain& terrain, PlanePoint fro
       x[block.size() - 1] = to.x_m;
       y[block.size() - 1] = to.y_m;
     }
-    if (one_grid) {
-      sampler.sample(x.data(), y.data(), block);
-      continue;
-    }
+    if (one_grid) sampler.sample(x.data(), y.data(), block);
     for (std::size_t k = 0; k < block.size(); ++k) {
+      const bool is_sampled = one_grid && !(terrain.is_endless() && block[k].status == DepthStatus::kOutside);
+      if (is_sampled) continue;
       const DepthSample sample = terrain.depth_at(x[k], y[k]);
       block[k].z_m = sample.z_m;
       block[k].status = sample.status;

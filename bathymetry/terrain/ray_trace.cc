@@ -79,7 +79,8 @@ class Walk {
           descend();
           continue;
         }
-      } else if (const TraceResult result = trace_cell(grid_, ray_, at_.i, at_.j, {t_, exit});
+      } else if (const TraceResult result =
+                     trace_cell(grid_.cell(at_.i, at_.j), ray_, at_.i, at_.j, {t_, exit});
                  result.end != TraceEnd::kPassed) {
         return result;
       }
@@ -153,9 +154,8 @@ Block start_block(const GridGeometry& geometry, const ShallowestPyramid& pyramid
   return {level, i >> level, j >> level};
 }
 
-TraceResult trace_cell(const HeightGrid& grid, const GridRay& ray, int i, int j, Interval interval) {
+TraceResult trace_cell(const BilinearCell& cell, const GridRay& ray, int i, int j, Interval interval) {
   const double t = interval.begin_m, length = interval.end_m - t;
-  const BilinearCell cell = grid.cell(i, j);
   const double u = std::clamp(ray.origin_x + ray.direction_x * t - i, 0.0, 1.0);
   const double v = std::clamp(ray.origin_y + ray.direction_y * t - j, 0.0, 1.0);
   const double du = ray.direction_x, dv = ray.direction_y;

@@ -75,8 +75,8 @@ struct Block {
 Block start_block(const GridGeometry& geometry, const ShallowestPyramid& pyramid, const GridRay& ray,
                   double t);
 
-// The end of the ray in cell (i, j), where it lies within `interval`.
-TraceResult trace_cell(const HeightGrid& grid, const GridRay& ray, int i, int j, Interval interval);
+// The end of the ray over the cell whose indices are (i, j), where it lies within `interval`.
+TraceResult trace_cell(const BilinearCell& cell, const GridRay& ray, int i, int j, Interval interval);
 
 // True when the ray leaves the pyramid's shallowest post above all of `interval`: nothing to follow.
 bool clears_grid(const ShallowestPyramid& pyramid, const GridRay& ray, Interval interval);

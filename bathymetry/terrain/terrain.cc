@@ -15,6 +15,9 @@
 namespace halocline::bathymetry {
 namespace {
 
+// Beyond the base grid a ray is followed over so many cells: as many as the largest grid has along a side.
+constexpr double kFarthestCells = 32'768;
+
 RayHit ended(RayStatus status, double range_m = kUnknown) { return {status, range_m, Vec3::Zero()}; }
 
 // The ray with a direction of length 1; a length of 0 when the ray is impossible.
@@ -63,7 +66,8 @@ std::vector<std::uint32_t> in_morton_order(const GridGeometry& grid, std::span<c
 
 Vec3 DepthSample::normal_ned() const { return upward_normal(slope_north, slope_east); }
 
-Terrain::Terrain(HeightGrid base, std::vector<NestedGrid> nested) {
+Terrain::Terrain(HeightGrid base, std::vector<NestedGrid> nested, const BottomFormula& beyond) {
+  if (beyond) beyond_.emplace(base.geometry(), beyond);
   patches_.reserve(nested.size() + 1);
   ShallowestPyramid pyramid(base);
   patches_.push_back({.grid = std::move(base), .pyramid = std::move(pyramid)});
@@ -111,13 +115,21 @@ int Terrain::grid_index_at(double x_m, double y_m) const {
 }
 
 DepthSample Terrain::sample(const Patch& patch, double x_m, double y_m) const {
-  const auto at = patch.grid.locate(x_m, y_m);
-  if (!at) return {};
-  const BilinearCell cell = patch.grid.cell(at->i, at->j);
-  const double z = cell.depth(at->u, at->v);
-  if (is_no_data(cell)) return {.status = DepthStatus::kNoData};
   const double spacing = patch.grid.geometry().spacing_m;
-  return {DepthStatus::kOk, z, cell.slope_u(at->v) / spacing, cell.slope_v(at->u) / spacing};
+  const auto sampled = [&](const BilinearCell& cell, const CellPosition& at) -> DepthSample {
+    if (is_no_data(cell)) return {.status = DepthStatus::kNoData};
+    return {DepthStatus::kOk, cell.depth(at.u, at.v), cell.slope_u(at.v) / spacing,
+            cell.slope_v(at.u) / spacing};
+  };
+  if (const auto at = patch.grid.locate(x_m, y_m)) return sampled(patch.grid.cell(at->i, at->j), *at);
+  const auto beyond = cell_beyond(x_m, y_m);
+  return beyond ? sampled(beyond->first, beyond->second) : DepthSample{};
+}
+
+std::optional<std::pair<BilinearCell, CellPosition>> Terrain::cell_beyond(double x_m, double y_m) const {
+  const auto at = beyond_ ? beyond_->locate(x_m, y_m) : std::nullopt;
+  if (!at) return std::nullopt;
+  return std::pair(beyond_->cell(at->i, at->j), *at);
 }
 
 DepthSample Terrain::depth_at(double x_m, double y_m) const {
@@ -198,6 +210,8 @@ Terrain::Departure Terrain::depart(const Ray& ray) const {
   const GridGeometry& base = extent();
   out.base_ray = to_grid_ray(base, unit.origin_ned_m, unit.direction);
   out.inside = clip_to_cells(all_cells(base), out.base_ray, {0, unit.max_range_m});
+  const bool leaves = out.inside.empty() || out.inside.begin_m > 0 || out.inside.end_m < unit.max_range_m;
+  if (beyond_ && leaves && unit.max_range_m > 0) return decided(follow_beyond(out));
   if (out.inside.empty())
     return decided(ended(unit.max_range_m == 0 ? RayStatus::kMiss : RayStatus::kOutside, 0));
   return out;
@@ -205,7 +219,36 @@ Terrain::Departure Terrain::depart(const Ray& ray) const {
 
 RayHit Terrain::closest_hit(const Ray& ray) const {
   const Departure departure = depart(ray);
-  if (departure.answer) return *departure.answer;
+  return departure.answer ? *departure.answer : follow_inside(departure);
+}
+
+// A ray that comes from beyond the base grid, or goes there: before it, over it, after it.
+RayHit Terrain::follow_beyond(const Departure& departure) const {
+  const GridRay& ray = departure.base_ray;
+  const double max_range_m = departure.ray.max_range_m, spacing_m = extent().spacing_m;
+  const bool meets_grid = !departure.inside.empty();
+  const Interval before{0, meets_grid ? departure.inside.begin_m : max_range_m};
+  const Interval after{meets_grid ? departure.inside.end_m : max_range_m, max_range_m};
+  const auto follow = [&](const Interval& part) -> std::optional<RayHit> {
+    const double reach_m = part.begin_m + kFarthestCells * spacing_m;
+    const TraceResult result = beyond_->trace(ray, {part.begin_m, std::min(part.end_m, reach_m)});
+    if (result.end == TraceEnd::kHit) {
+      const BilinearCell cell = beyond_->cell(result.at.i, result.at.j);
+      return RayHit{
+          RayStatus::kHit, result.range_m,
+          upward_normal(cell.slope_u(result.at.v) / spacing_m, cell.slope_v(result.at.u) / spacing_m)};
+    }
+    return part.end_m > reach_m ? std::optional(ended(RayStatus::kOutside, reach_m)) : std::nullopt;
+  };
+  if (const auto hit = follow(before)) return *hit;
+  if (meets_grid) {
+    const RayHit hit = follow_inside(departure);
+    if (hit.status != RayStatus::kMiss && hit.status != RayStatus::kOutside) return hit;
+  }
+  return follow(after).value_or(ended(RayStatus::kMiss, max_range_m));
+}
+
+RayHit Terrain::follow_inside(const Departure& departure) const {
   const Patch& base = patches_.front();
   if (base.inside.empty()) {
     return finish(departure, trace_grid(base.grid, base.pyramid, departure.base_ray, departure.inside), base);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The seabed as others see it: how deep the bottom is, where a ray meets it, what a line crosses.
 //
-// Model: one base grid, and finer grids nested in it (and in each other); beyond the base grid is `outside`.
-// The surface is bilinear in each cell (height_grid.h). A nested grid covers whole cells of the grid around
-// it, its spacing divides that grid's, and inside its border, over `blend_width_m`, its posts are drawn
-// linearly to the surface around: so the surface has no step where grids meet (but for the rounding of float
-// posts, 0.25 mm at 4000 m, which rays meet as a wall of that height, never as a gap). No data: a point over
-// a no-data cell has no depth, and a ray that comes over such a cell before it hits anything ends there as
-// `no_data`, at whatever depth it passes: what is not known to be deep may not be taken as water. There is no
-// sea surface here: a ray upwards goes on until its greatest range or the edge of the terrain. Answers are
-// never made up: what is not known has a status, and NaN where the number would be.
+// Model: one base grid, and finer grids nested in it (and in each other). Terrain from a formula goes on
+// beyond the base grid without end (endless_bottom.h); beyond another one is `outside`. The surface is
+// bilinear in each cell (height_grid.h). A nested grid covers whole cells of the grid around it, its spacing
+// divides that grid's, and inside its border, over `blend_width_m`, its posts are drawn linearly to the
+// surface around: so the surface has no step where grids meet (but for the rounding of float posts, 0.25 mm
+// at 4000 m, which rays meet as a wall of that height, never as a gap). No data: a point over a no-data cell
+// has no depth, and a ray that comes over such a cell before it hits anything ends there as `no_data`, at
+// whatever depth it passes: what is not known to be deep may not be taken as water. There is no sea surface
+// here: a ray upwards goes on until its greatest range or the edge of the terrain. Answers are never made up:
+// what is not known has a status, and NaN where the number would be.
 //
 //   const Terrain terrain(make_grid(geometry, FlatShape{.depth_m = 100}));
 //   const RayHit hit =
@@ -23,8 +24,10 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "bathymetry/terrain/endless_bottom.h"
 #include "bathymetry/terrain/height_grid.h"
 #include "bathymetry/terrain/ray_trace.h"
 #include "bathymetry/terrain/shallowest_pyramid.h"
@@ -47,9 +50,10 @@ struct DepthSample {
 };
 
 enum class RayStatus : std::uint8_t {
-  kHit,                 // met the bottom at range_m
-  kMiss,                // water over known bottom all the way to max_range_m
-  kOutside,             // left the terrain at range_m without a hit (0: began there)
+  kHit,   // met the bottom at range_m
+  kMiss,  // water over known bottom all the way to max_range_m
+  // Left the terrain at range_m without a hit (0: began there); of endless terrain, was followed no further.
+  kOutside,
   kNoData,              // came over a no-data cell at range_m without a hit before
   kStartedBelowBottom,  // the origin lies below the bottom
   kBadInput,            // not finite, no direction, or a range below 0
@@ -83,9 +87,16 @@ class Terrain {
  public:
   // nested: coarse before fine; each lies in the base or in an earlier one, without overlapping others beside
   // it. Throws InvalidArgument, naming the grid, when one is not aligned as stated above.
-  explicit Terrain(HeightGrid base, std::vector<NestedGrid> nested = {});
+  // `beyond`: of terrain from a formula, z at every post of the base grid and of its continuation; empty: it
+  // ends there.
+  explicit Terrain(HeightGrid base, std::vector<NestedGrid> nested = {}, const BottomFormula& beyond = {});
 
   DepthSample depth_at(double x_m, double y_m) const;
+
+  // The surface over the piece of the plane that holds a point beyond the base grid, and where in it the
+  // point is; empty where it ends at its edge.
+  std::optional<std::pair<BilinearCell, CellPosition>> cell_beyond(double x_m, double y_m) const;
+  bool is_endless() const { return beyond_.has_value(); }
 
   // Where the ray first meets the bottom. A ray that begins exactly on the bottom hits at range 0.
   RayHit closest_hit(const Ray& ray) const;
@@ -99,7 +110,7 @@ class Terrain {
   // the bottom.
   RayHit occluded(const Vec3& from_ned_m, const Vec3& to_ned_m, double skin_m) const;
 
-  // The base grid's geometry: the terrain is the rectangle between its first and last post.
+  // The base grid's geometry: the rectangle between its first and last post, which maps show.
   const GridGeometry& extent() const { return patches_.front().grid.geometry(); }
   // Nested grids after blending, base first.
   std::size_t grid_count() const { return patches_.size(); }
@@ -141,9 +152,12 @@ class Terrain {
                        std::vector<Segment>& out) const;
   void trace_some(std::span<const Ray> rays, std::span<const std::uint32_t> numbers, VectorUnit unit,
                   std::vector<RayHit>& hits) const;
+  RayHit follow_inside(const Departure& departure) const;
+  RayHit follow_beyond(const Departure& departure) const;
   RayHit finish(const Departure& departure, const TraceResult& result, const Patch& owner) const;
 
   std::vector<Patch> patches_;
+  std::optional<EndlessBottom> beyond_;
   std::uint64_t version_ = 0;
 };
 

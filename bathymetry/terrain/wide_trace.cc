@@ -248,8 +248,8 @@ void WideWalk<N>::decide_cells(Group<N>& w, const Integers& open, const Reals& e
   for (int k = 0; k < N; ++k) {
     if (open[k] == 0) continue;
     GridTrace& trace = *w.trace[k];
-    trace.result = trace_cell(grid_, trace.ray, static_cast<int>(w.first_x[k]),
-                              static_cast<int>(w.first_y[k]), {w.t[k], exit[k]});
+    const int i = static_cast<int>(w.first_x[k]), j = static_cast<int>(w.first_y[k]);
+    trace.result = trace_cell(grid_.cell(i, j), trace.ray, i, j, {w.t[k], exit[k]});
     if (trace.result.end == TraceEnd::kPassed) {
       cleared[k] = -1;
     } else {

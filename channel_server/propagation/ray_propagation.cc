@@ -56,10 +56,14 @@ Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const 
   return answer(task, *searches_.find(task, line), kCapacity);
 }
 
-acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
-                                                  const std::shared_ptr<const SeabedProfile>& seabed) {
-  const LinkSearches::Paths found_paths = searches_.find(searches_.over(at, from, to, seabed));
+acoustics::Arrivals RayPropagation::arrivals(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  const Task task = searches_.for_itself(at, from, to);
+  const LinkSearches::Paths found_paths = searches_.find(task);
+  if (!found_paths) return {};
   acoustics::Arrivals all = found_paths->arrivals;
+  if (task.reversed) {
+    for (acoustics::Arrival& path : all.paths) path = backwards(path);
+  }
   const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
   std::erase_if(all.paths,
                 [&](const acoustics::Arrival& path) { return !(weighted_pressure(path, beams) > 0); });

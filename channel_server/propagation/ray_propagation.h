@@ -99,10 +99,9 @@ class RayPropagation : public Propagation {
   // The same without a capacity, of links from one end that share rays; null: of one by itself.
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed, SharedLine* line);
-  // The paths behind reception_over(), one for each of its own but those of reverberation, in their order. Amplitudes
-  // are without the beams of the modems.
-  acoustics::Arrivals arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
-                                    const std::shared_ptr<const SeabedProfile>& seabed);
+  // The paths behind reception() along rays, one for each of its own but those of reverberation, in their
+  // order. Amplitudes are without the beams of the modems.
+  acoustics::Arrivals arrivals(SimTime at, const LinkEnd& from, const LinkEnd& to);
   LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
                           const Vec3& from_ned_m, const Vec3& to_ned_m,

@@ -12,13 +12,6 @@
 namespace halocline::channel_server {
 namespace {
 
-acoustics::Arrival backwards(acoustics::Arrival path) {
-  const double launch = path.launch_angle_rad;
-  path.launch_angle_rad = -path.arrival_angle_rad;
-  path.arrival_angle_rad = -launch;
-  return path;
-}
-
 double kept_share_of(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
                      double frequency_hz, const acoustics::Arrival& path, double bottom_sine_squares) {
   return kept_share(
@@ -27,6 +20,13 @@ double kept_share_of(const RoughBoundaries& boundaries, const acoustics::Environ
 }
 
 }  // namespace
+
+acoustics::Arrival backwards(acoustics::Arrival path) {
+  const double launch = path.launch_angle_rad;
+  path.launch_angle_rad = -path.arrival_angle_rad;
+  path.arrival_angle_rad = -launch;
+  return path;
+}
 
 std::optional<SoundPath> received_path(const RoughBoundaries& boundaries,
                                        const acoustics::Environment& environment, const EndPair& ends,

@@ -20,6 +20,9 @@ struct RoughBoundaries {
   double trapped_share;  // of acoustics/fading/scattering_loss.h
 };
 
+// The same path, followed from its other end.
+acoustics::Arrival backwards(acoustics::Arrival path);
+
 // `reversed`: the arrival was found from the receiver to the transmitter. Empty where nothing is left of it.
 std::optional<SoundPath> received_path(const RoughBoundaries& boundaries,
                                        const acoustics::Environment& environment, const EndPair& ends,

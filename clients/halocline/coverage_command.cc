@@ -62,6 +62,15 @@ CoverageArea area_of(const CoverageOptions& options, const LinkSurveyEnd& from) 
 
 constexpr std::size_t kMany = 100'000;  // links, of a millisecond or more
 
+// Of the run's predictions, those that hold between vehicles alone.
+void note_what_is_left_out(const ScenarioConfig& config) {
+  const auto& vehicles = config.channel_server.vehicles;
+  if (config.channel_server.propagation.replay.is_wanted())
+    fmt::print(std::cerr, "note: measured channels hold between vehicles: the map is modelled\n");
+  if (std::any_of(vehicles.begin(), vehicles.end(), [](const auto& vehicle) { return vehicle.noise; }))
+    fmt::print(std::cerr, "note: the noise of vehicles is left out of the map\n");
+}
+
 int map(const CoverageOptions& options, const ScenarioConfig& config, const LinkSurveyEnd& from) {
   const CoverageArea area = area_of(options, from);
   const auto quantities = quantities_of(options.quantities);
@@ -69,6 +78,7 @@ int map(const CoverageOptions& options, const ScenarioConfig& config, const Link
   require_memory(static_cast<double>(area.side * area.side * area.depths_m.size()) * kBytesACell +
                      estimated_memory_bytes(config),
                  "the map", "take larger cells, a shorter range or fewer depths");
+  note_what_is_left_out(config);
   const CoverageFile file{quantities,
                           {config.terrain.frame, to_radians(config.scenario.origin_latitude_deg),
                            to_radians(config.scenario.origin_longitude_deg)},
@@ -99,6 +109,7 @@ int map(const CoverageOptions& options, const ScenarioConfig& config, const Link
 
 int along_track(const CoverageOptions& options, const ScenarioConfig& config, const LinkSurveyEnd& from) {
   const auto depths_m = depths_of(options.depths);
+  note_what_is_left_out(config);
   const auto terrain = make_terrain(config);
   const bool is_vehicle = config.scenario.find(options.track) != nullptr;
   const auto track =

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
 #include "bus/runtime/thread_pool.h"
 #include "channel_server/channel_server_config.h"
@@ -41,8 +40,7 @@ CoverageLinks::CoverageLinks(const Scene& scene)
       terrain_(scene.terrain),
       from_(scene.from),
       to_(make_modems(scene.config.channel_server).standard),
-      environment_(make_environment(scene.config.channel_server.environment, scene.config.scenario,
-                                    scene.config.folder)) {}
+      sources_(read_water(scene.config.channel_server, scene.config.scenario, scene.config.folder)) {}
 
 void CoverageLinks::share(int threads, std::size_t count,
                           const std::function<void(LinkSurveyor&, std::size_t)>& item) const {
@@ -57,13 +55,7 @@ bool CoverageLinks::along_rays() const {
   return config_.channel_server.propagation.model == channel_server::PropagationModel::kRays;
 }
 
-double CoverageLinks::noise_level_db() const {
-  return surveyor()
-      .straight()
-      .kernel_of(SimTime(), from_.modem.modem, receiving_modem(to_, from_.modem.modem))
-      ->noise_level()
-      .value;
-}
+double CoverageLinks::noise_level_db() const { return surveyor().noise_level(from_.modem.modem).value; }
 
 channel_server::SeabedMap CoverageLinks::seabed_map() const {
   return channel_server::SeabedMap(config_.channel_server.rules.seabed);
@@ -110,7 +102,7 @@ std::vector<Sample> CoverageLinks::links_to_one_place(LinkSurveyor& surveyor, co
 acoustics::BottomProfile CoverageLinks::bottom_profile(const Vec3& to_ned_m,
                                                        const channel_server::SeabedProfile& seabed) const {
   const Vec3 way = to_ned_m - from_.position_ned_m;
-  return bottom_under(seabed, {0, 0, elementary::hypot(way.x(), way.y())}, environment_.sea_surface_z_m);
+  return bottom_under(seabed, {0, 0, elementary::hypot(way.x(), way.y())}, environment().sea_surface_z_m);
 }
 
 }  // namespace halocline::clients

@@ -14,11 +14,13 @@
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/water_model.h"
 #include "clients/halocline/coverage/sampling.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/link_survey.h"
 #include "clients/halocline/scenario/link_surveyor.h"
 #include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 
@@ -42,7 +44,7 @@ class CoverageLinks {
   void share(int threads, std::size_t count,
              const std::function<void(LinkSurveyor&, std::size_t)>& item) const;
   // Whether the water changes from place to place.
-  bool is_in_a_field() const { return static_cast<bool>(environment_.field); }
+  bool is_in_a_field() const { return static_cast<bool>(environment().field); }
   double noise_level_db() const;
   // Empty, of the kind that links of the scenario take their profiles from.
   channel_server::SeabedMap seabed_map() const;
@@ -66,7 +68,8 @@ class CoverageLinks {
   }
 
  private:
-  LinkSurveyor surveyor() const { return {config_, terrain_, environment_}; }
+  LinkSurveyor surveyor() const { return {config_, terrain_, sources_}; }
+  const acoustics::Environment& environment() const { return sources_.timeline.at(SimTime()); }
   bool along_rays() const;
   Sample sample(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed,
                 channel_server::SharedLine* line) const;
@@ -75,7 +78,7 @@ class CoverageLinks {
   std::shared_ptr<const bathymetry::Terrain> terrain_;
   LinkSurveyEnd from_;
   channel_server::VehicleModem to_;
-  acoustics::Environment environment_;
+  channel_server::WaterSources sources_;
 };
 
 }  // namespace halocline::clients

@@ -23,6 +23,7 @@
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/terrain_rays.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "clients/halocline/scenario/link_surveyor.h"
 #include "core/check.h"
 #include "core/csv_table.h"
@@ -81,6 +82,19 @@ bool parse_position(const std::string& text, Vec3& position) {
   return count == 3;
 }
 
+// Measured taps as arrivals: what the levels hold, all of it as spreading.
+acoustics::Arrivals measured_arrivals(const channel_server::Reception& reception, Decibels source_level) {
+  acoustics::Arrivals arrivals;
+  for (const channel_server::SoundPath& tap : reception.paths) {
+    acoustics::Arrival path;
+    path.delay_s = tap.delay_s;
+    path.amplitude = elementary::exp10((tap.level - source_level).value / 20);
+    path.phase_rad = tap.phase_rad;
+    arrivals.paths.push_back(path);
+  }
+  return arrivals;
+}
+
 // The one straight path as an arrival: what the transmission loss holds besides absorption and beams is spreading.
 acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
                                      const acoustics::Transducers& beams) {
@@ -110,11 +124,49 @@ LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& fr
   all.modems_known = true;
   all.beams = {from.modem.modem.beam, to.modem.modem.beam};
   all.blocked = reception.state == channel_server::PathState::kBlocked;
-  if (reception.used != channel_server::PropagationUsed::kRays) all.found_by = "straight";
+  if (reception.measured)
+    all.found_by = "measured";
+  else if (reception.used != channel_server::PropagationUsed::kRays)
+    all.found_by = "straight";
   for (const channel_server::SoundPath& path : reception.paths) {
     if (!is_reverberation(path)) all.received.push_back({path.level.value, path.doppler_factor});
   }
   return all;
+}
+
+acoustics::Arrivals arrivals_of(LinkSurveyor& surveyor, const channel_server::LinkEnd& from,
+                                const channel_server::LinkEnd& to,
+                                const channel_server::Reception& reception) {
+  if (reception.measured) return measured_arrivals(reception, from.modem->source_level);
+  if (reception.used == channel_server::PropagationUsed::kRays) return surveyor.arrivals(from, to);
+  return reception.paths.empty() ? acoustics::Arrivals()
+                                 : straight_arrival(reception, {from.modem->beam, to.modem->beam});
+}
+
+channel_server::Multipath echo_likelihood(const ScenarioConfig& config, const bathymetry::Terrain& terrain,
+                                          const LinkSurveyEnd& from, const LinkSurveyEnd& to,
+                                          channel_server::Propagation& propagation) {
+  const auto echoes = survey_echoes(terrain, from.position_ned_m, to.position_ned_m,
+                                    config.channel_server.rules.bottom_points);
+  return multipath_of(echoes, /*reversed=*/false, SimTime(), propagation, from.modem.modem, to.modem.modem);
+}
+
+// What the reader of a prediction has to know.
+std::vector<std::string> notes_of(const ScenarioConfig& config, const bathymetry::Terrain& terrain,
+                                  const LinkSurveyEnd& from, const LinkSurveyEnd& to,
+                                  LinkSurveyor& surveyor) {
+  const acoustics::Environment& environment = surveyor.propagation().environment(SimTime());
+  std::vector<std::string> notes = acoustics::beyond_published_ranges(
+      environment, from.modem.modem.band(),
+      std::max(depth_below_surface_m(from.position_ned_m, environment.sea_surface_z_m),
+               depth_below_surface_m(to.position_ned_m, environment.sea_surface_z_m)));
+  if (!surveyor.along_rays() && is_cut(terrain, from.position_ned_m, to.position_ned_m))
+    notes.emplace_back(
+        "the terrain stands in the straight line: propagation.model = straight knows no terrain");
+  const bool has_position = from.id == 0 || to.id == 0;
+  if (has_position && config.channel_server.propagation.replay.is_wanted())
+    notes.emplace_back("measured channels hold between vehicles: a link with a position is modelled");
+  return notes;
 }
 
 }  // namespace
@@ -130,6 +182,7 @@ LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text) {
   LinkSurveyEnd end{.name = text, .modem = modems.standard};
   if (const bus::VehicleEntry* vehicle = config.scenario.find(text)) {
     end.position_ned_m = vehicle->start_ned_m;
+    end.id = vehicle->id;
     end.modem = modems.of(text);
   } else {
     require(parse_position(text, end.position_ned_m),
@@ -180,52 +233,27 @@ void answer_requests(const bathymetry::Terrain& terrain, channel_server::SeabedM
   }
 }
 
-std::shared_ptr<const channel_server::SeabedProfile> survey_bottom(const bathymetry::Terrain& terrain,
-                                                                   const Vec3& from_ned_m,
-                                                                   const Vec3& to_ned_m,
-                                                                   const channel_server::SeabedRule& rule) {
-  channel_server::SeabedMap seabed(rule);
-  while (!seabed.is_surveyed(from_ned_m, to_ned_m)) answer_requests(terrain, seabed);
-  return seabed.between(from_ned_m, to_ned_m);
-}
-
 LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to) {
   const auto terrain = make_terrain(config).terrain;
-  const channel_server::LinkEnd here{0, from.position_ned_m, from.velocity_ned_mps, &from.modem.modem};
-  const acoustics::Modem &transmitter = from.modem.modem, &receiver = receiving_modem(to.modem, transmitter);
-  const channel_server::LinkEnd there{0, to.position_ned_m, to.velocity_ned_mps, &receiver};
-  const acoustics::Environment environment =
-      make_environment(config.channel_server.environment, config.scenario, config.folder);
-  LinkSurveyor surveyor(config, terrain, environment);
-  const channel_server::ServerRules rules = rules_of(config);
-  const acoustics::Transducers beams{from.modem.modem.beam, to.modem.modem.beam};
   require_above_seabed(*terrain, from);
   require_above_seabed(*terrain, to);
+  const acoustics::Modem &transmitter = from.modem.modem, &receiver = receiving_modem(to.modem, transmitter);
+  // Of a link to a position the transmitter's id would only turn the search of the paths round.
+  const channel_server::VehicleId from_id = to.id == 0 ? 0 : from.id;
+  const channel_server::LinkEnd here{from_id, from.position_ned_m, from.velocity_ned_mps, &transmitter};
+  const channel_server::LinkEnd there{to.id, to.position_ned_m, to.velocity_ned_mps, &receiver};
+  LinkSurveyor surveyor(config, terrain, read_water(config.channel_server, config.scenario, config.folder));
   LinkSurvey answer;
-  answer.notes = acoustics::beyond_published_ranges(
-      environment, from.modem.modem.band(),
-      std::max(depth_below_surface_m(from.position_ned_m, config.scenario.sea_surface_z_m),
-               depth_below_surface_m(to.position_ned_m, config.scenario.sea_surface_z_m)));
-  const LinkSurveyor::Seabed seabed =
-      surveyor.along_rays() ? survey_bottom(*terrain, from.position_ned_m, to.position_ned_m, rules.seabed)
-                            : nullptr;
-  auto [reception, forecast] = surveyor.survey(here, there, seabed);
+  answer.notes = notes_of(config, *terrain, from, to, surveyor);
+  auto [reception, forecast] = surveyor.survey(here, there);
   answer.reception = std::move(reception);
   answer.forecast = forecast;
-  const bool has_rays = answer.reception.used == channel_server::PropagationUsed::kRays;
   answer.arrivals =
-      link_arrivals(config, from, to, answer.reception,
-                    has_rays                         ? surveyor.arrivals(here, there, seabed)
-                    : answer.reception.paths.empty() ? acoustics::Arrivals()
-                                                     : straight_arrival(answer.reception, beams));
+      link_arrivals(config, from, to, answer.reception, arrivals_of(surveyor, here, there, answer.reception));
   answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
-  if (surveyor.along_rays()) {
-    answer.multipath = multipath_of(answer.reception, receiver.min_receivable_level);
-    return answer;
-  }
-  const auto echoes = survey_echoes(*terrain, from.position_ned_m, to.position_ned_m, rules.bottom_points);
-  answer.multipath = multipath_of(echoes, /*reversed=*/false, SimTime(), surveyor.straight(),
-                                  from.modem.modem, to.modem.modem);
+  answer.multipath = surveyor.along_rays()
+                         ? multipath_of(answer.reception, receiver.min_receivable_level)
+                         : echo_likelihood(config, *terrain, from, to, surveyor.propagation());
   return answer;
 }
 

@@ -2,8 +2,8 @@
 // One link of a scenario between two points, computed here and now: budget, paths, and whether the bottom sends
 // echoes.
 //
-// The same computation as a channel server's table: channel_server/links/link_table.h for the water, echo_survey.h over the
-// scenario's terrain.
+// The same computation as that of the scenario's channel server (link_surveyor.h), with echo_survey.h over
+// the scenario's terrain where sound goes straight.
 #pragma once
 
 #include <memory>
@@ -17,6 +17,7 @@
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "clients/halocline/arrivals/arrival_output.h"
 #include "clients/halocline/scenario/composition.h"
 #include "core/frames.h"
@@ -24,7 +25,8 @@
 namespace halocline::clients {
 
 struct LinkSurveyEnd {
-  std::string name;  // of the vehicle, or the position as text
+  std::string name;                  // of the vehicle, or the position as text
+  channel_server::VehicleId id = 0;  // of the vehicle; 0: a position
   Vec3 position_ned_m = Vec3::Zero();
   Vec3 velocity_ned_mps = Vec3::Zero();  // for Doppler alone
   channel_server::VehicleModem modem;
@@ -45,7 +47,8 @@ LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text);
 // "1,2,3" as three numbers; throws InvalidArgument, naming `what`, when `text` is something else.
 Vec3 parse_vector(const std::string& text, const std::string& what);
 
-// Throws InvalidArgument when an end lies inside the seabed. A straight path that the terrain cuts is blocked.
+// Throws InvalidArgument when an end lies inside the seabed. A straight path goes through terrain, as in a
+// run: a note says so.
 LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to);
 
 // z of the seabed under a place, m; empty where it is not known.
@@ -63,11 +66,5 @@ channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, con
 
 // Answers what the map has requested.
 void answer_requests(const bathymetry::Terrain& terrain, channel_server::SeabedMap& seabed);
-
-// How the bottom runs between them; null where the terrain does not reach.
-std::shared_ptr<const channel_server::SeabedProfile> survey_bottom(const bathymetry::Terrain& terrain,
-                                                                   const Vec3& from_ned_m,
-                                                                   const Vec3& to_ned_m,
-                                                                   const channel_server::SeabedRule& rule);
 
 }  // namespace halocline::clients

@@ -138,14 +138,14 @@ TEST(Beams, ArrivalsAreThoseOfTheReceptionAlsoWhereABeamSilencesThem) {
   plain.centre_frequency_hz = 1e6;
   acoustics::Modem insensitive = plain;
   insensitive.beam = acoustics::BeamPattern({{0, 200}});
-  const auto bottom = std::make_shared<const SeabedProfile>(SeabedProfile::flat(5000));
   const Vec3 from(0, 0, 2400), to(19'000, 0, 2500);
-  RayPropagation rays(std::make_shared<EnvironmentTimeline>(even_water()),
-                      std::make_shared<SeabedMap>(SeabedRule{}), {});
+  const auto seabed = std::make_shared<SeabedMap>(SeabedRule{});
+  testing::survey(*seabed, from, to, [](const Vec3&) { return 5000.0; });
+  RayPropagation rays(std::make_shared<EnvironmentTimeline>(even_water()), seabed, {});
   const auto counts = [&](const acoustics::Modem& modem) {
     const LinkEnd here = end_at(from, modem), there = end_at(to, modem);
-    return std::pair(rays.reception_over(at_s(0), here, there, bottom).paths.size(),
-                     rays.arrivals_over(at_s(0), here, there, bottom).paths.size());
+    return std::pair(rays.reception(at_s(0), here, there).paths.size(),
+                     rays.arrivals(at_s(0), here, there).paths.size());
   };
   const auto [received, stated] = counts(plain);
   ASSERT_GT(received, 0u);

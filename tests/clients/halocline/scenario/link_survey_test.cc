@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/link/link_budget.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
@@ -17,6 +18,7 @@
 #include "clients/halocline/arrivals/arrival_output.h"
 #include "clients/halocline/scenario/composition.h"
 #include "core/check.h"
+#include "core/units.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::clients {
@@ -148,14 +150,14 @@ TEST(LinkSurvey, DopplerIsThatOfTheGivenVelocities) {
   EXPECT_NEAR(answer.arrivals.received.at(0).doppler_factor, 1 + 2 / speed_mps, 1e-9);
 }
 
-TEST(LinkSurvey, EchoIsLikelyOverAShallowBottomAndUnknownBeyondTheTerrain) {
+TEST(LinkSurvey, EchoIsLikelyOverAShallowBottomHoweverFarAway) {
   ScenarioConfig config = two_vehicles();
   config.terrain.flat.depth_m = 50;
   const LinkSurveyEnd from = link_end(config, "auv-1");
   EXPECT_EQ(survey_link(config, from, link_end(config, "500,0,0")).multipath,
             channel_server::Multipath::kLikely);
   const LinkSurveyEnd outside = link_end(config, "90000,0,10"), farther = link_end(config, "91000,0,10");
-  EXPECT_EQ(survey_link(config, outside, farther).multipath, channel_server::Multipath::kUnknown);
+  EXPECT_EQ(survey_link(config, outside, farther).multipath, channel_server::Multipath::kLikely);
 }
 
 constexpr auto kBothModels = {channel_server::PropagationModel::kRays,
@@ -173,20 +175,60 @@ TEST(LinkSurvey, AnEndInsideTheSeabedIsRefused) {
   }
 }
 
-TEST(LinkSurvey, AStraightPathThroughTheTerrainIsBlocked) {
+TEST(LinkSurvey, AStraightPathGoesThroughTheTerrainAsInARunAndANoteSaysSo) {
   ScenarioConfig config = two_vehicles();
   config.terrain.kind = bathymetry::TerrainKind::kRidge;
   config.terrain.ridge = {.depth_m = 200, .height_m = 150, .half_width_m = 100, .azimuth_rad = 1.5707963};
   config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
   const LinkSurvey over = survey_link(config, link_end(config, "-600,0,20"), link_end(config, "600,0,20"));
-  EXPECT_EQ(over.reception.state, channel_server::PathState::kOpen);
+  EXPECT_TRUE(over.notes.empty());
   const LinkSurvey through =
       survey_link(config, link_end(config, "-600,0,150"), link_end(config, "600,0,150"));
-  EXPECT_EQ(through.reception.state, channel_server::PathState::kBlocked);
-  EXPECT_TRUE(through.arrivals.arrivals.silent());
-  EXPECT_TRUE(through.arrivals.blocked);
-  EXPECT_FALSE(through.reception.budget.receivable);
-  EXPECT_LT(through.reception.budget.received_level.value, -200);
+  EXPECT_EQ(through.reception.state, channel_server::PathState::kOpen);
+  ASSERT_EQ(through.notes.size(), 1u);
+  EXPECT_NE(through.notes.front().find("the terrain stands in the straight line"), std::string::npos);
+}
+
+// The sea does not end where the area does that maps show: sound meets the bottom there as before.
+class BeyondTheArea : public ::testing::TestWithParam<bathymetry::TerrainKind> {};
+
+TEST_P(BeyondTheArea, DeliveryFallsWithTheRange) {
+  ScenarioConfig config = two_vehicles();
+  config.terrain.kind = GetParam();
+  config.terrain.flat.depth_m = 100;
+  config.terrain.slope = {.depth_m = 100, .slope = 0.005};
+  config.terrain.ridge = {.depth_m = 100, .height_m = 30, .half_width_m = 300, .azimuth_rad = 0};
+  config.channel_server.modem.modem.source_level = Decibels{160};
+  double before = 1;
+  for (const double range_m : {500.0, 2000.0, 2500.0, 3000.0, 6000.0}) {
+    const LinkSurvey link = survey_link(config, link_end(config, "0,900,40"),
+                                        link_end(config, std::to_string(range_m) + ",900,40"));
+    EXPECT_EQ(link.reception.used, channel_server::PropagationUsed::kRays) << range_m;
+    EXPECT_GT(link.reception.paths.size(), 1U) << range_m;
+    EXPECT_LE(link.forecast.delivery_probability, before + 0.02) << range_m;
+    before = link.forecast.delivery_probability;
+  }
+  EXPECT_LT(before, 0.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(LinkSurvey, BeyondTheArea,
+                         ::testing::Values(bathymetry::TerrainKind::kFlat, bathymetry::TerrainKind::kSlope,
+                                           bathymetry::TerrainKind::kRidge));
+
+TEST(LinkSurvey, TwoVehiclesThirtyCentimetresApartAreAsFarApartAsThat) {
+  for (const auto model :
+       {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {
+    ScenarioConfig config = two_vehicles();
+    config.channel_server.propagation.model = model;
+    const LinkSurvey link = survey_link(config, link_end(config, "0,0,30"), link_end(config, "0.3,0,30"));
+    const acoustics::LinkBudget& budget = link.reception.budget;
+    EXPECT_NEAR(budget.delay_s * budget.mean_sound_speed_mps, 0.3, tolerance(1e-3));
+    EXPECT_NEAR(budget.mean_sound_speed_mps, 1510, 10);
+    EXPECT_LE(budget.received_level.value, config.channel_server.modem.modem.source_level.value + 0.1);
+    const LinkSurvey none = survey_link(config, link_end(config, "0,0,30"), link_end(config, "0,0,30"));
+    EXPECT_NEAR(none.reception.budget.delay_s, 0, 1e-6);
+    EXPECT_TRUE(std::isfinite(none.reception.budget.mean_sound_speed_mps + none.forecast.sinr_db));
+  }
 }
 
 // `link` and `link --arrivals` mean the same by a delay spread.
