@@ -38,6 +38,14 @@ void append(RayAnswers& answers, RayStatus status, double result_m) {
   answers.results_m.push_back(status == RayStatus::kHit ? result_m : 0);
 }
 
+// Of a tile, whose depths are for sound.
+void append_held(const Terrain& terrain, double x_m, double y_m, RayAnswers& answers) {
+  const DepthStatus known = terrain.depth_at(x_m, y_m).status;
+  const auto held = terrain.held_depth_at(x_m, y_m);
+  answers.statuses.push_back(as_ray_status(known));
+  answers.results_m.push_back(held ? held->z_m : 0);
+}
+
 void append_depth(const Terrain& terrain, double x_m, double y_m, RayAnswers& answers) {
   const DepthSample sample = terrain.depth_at(x_m, y_m);
   append(answers, as_ray_status(sample.status), sample.z_m);
@@ -48,8 +56,8 @@ void append_tile(const Terrain& terrain, const Vec3& origin, double spacing_m, R
   const double north = std::round(origin.x() / spacing_m), east = std::round(origin.y() / spacing_m);
   for (std::size_t i = 0; i < kTileSide; ++i) {
     for (std::size_t j = 0; j < kTileSide; ++j)
-      append_depth(terrain, (north + static_cast<double>(i)) * spacing_m,
-                   (east + static_cast<double>(j)) * spacing_m, answers);
+      append_held(terrain, (north + static_cast<double>(i)) * spacing_m,
+                  (east + static_cast<double>(j)) * spacing_m, answers);
   }
 }
 

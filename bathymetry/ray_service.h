@@ -46,8 +46,9 @@ struct RayAnswers {
   Refusal refusal = Refusal::kNone;
   std::string reason = {};               // empty unless refused
   std::vector<RayStatus> statuses = {};  // one a result, in order; empty when refused
-  // One a ray (of a tile one a point, eastwards row by row): the range of a hit; for depths z of the bottom (status hit); for a profile its length (status hit).
-  // 0 with any other status.
+  // One a ray (of a tile one a point, eastwards row by row): the range of a hit; for depths z of the bottom
+  // (status hit); for a profile its length (status hit). 0 with any other status, but for tiles: outside and
+  // without data the last known depth, for sound.
   std::vector<double> results_m = {};
   std::vector<ProfilePoint> samples = {};  // of a profile
 };

@@ -15,8 +15,7 @@
 namespace halocline::bathymetry {
 namespace {
 
-// Beyond the base grid a ray is followed over so many cells: as many as the largest grid has along a side.
-constexpr double kFarthestCells = 32'768;
+constexpr double kFarthestCells = 32'768;  // of a ray beyond the base grid: a side of the largest grid
 
 RayHit ended(RayStatus status, double range_m = kUnknown) { return {status, range_m, Vec3::Zero()}; }
 
@@ -128,8 +127,20 @@ DepthSample Terrain::sample(const Patch& patch, double x_m, double y_m) const {
 
 std::optional<std::pair<BilinearCell, CellPosition>> Terrain::cell_beyond(double x_m, double y_m) const {
   const auto at = beyond_ ? beyond_->locate(x_m, y_m) : std::nullopt;
-  if (!at) return std::nullopt;
-  return std::pair(beyond_->cell(at->i, at->j), *at);
+  return at ? std::optional(std::pair(beyond_->cell(at->i, at->j), *at)) : std::nullopt;
+}
+
+std::optional<HeldDepth> Terrain::held_depth_at(double x_m, double y_m) const {
+  const DepthSample here = depth_at(x_m, y_m);
+  if (here.status == DepthStatus::kBadInput) return std::nullopt;
+  if (here.status == DepthStatus::kOk) return HeldDepth{here.z_m, false};
+  const GridGeometry& base = extent();
+  const double x_inside_m = std::clamp(x_m, base.first_x_m, base.last_x_m()),
+               y_inside_m = std::clamp(y_m, base.first_y_m, base.last_y_m());
+  const DepthSample edge = depth_at(x_inside_m, y_inside_m);
+  if (edge.status == DepthStatus::kOk) return HeldDepth{edge.z_m, true};
+  std::call_once(gaps_->once, [&] { gaps_->filled.emplace(patches_.front().grid); });
+  return HeldDepth{gaps_->filled->at(x_inside_m, y_inside_m), true};
 }
 
 DepthSample Terrain::depth_at(double x_m, double y_m) const {

@@ -22,6 +22,8 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <utility>
@@ -29,6 +31,7 @@
 
 #include "bathymetry/terrain/endless_bottom.h"
 #include "bathymetry/terrain/height_grid.h"
+#include "bathymetry/terrain/nearest_depths.h"
 #include "bathymetry/terrain/ray_trace.h"
 #include "bathymetry/terrain/shallowest_pyramid.h"
 #include "bathymetry/terrain/wide_trace.h"
@@ -47,6 +50,12 @@ struct DepthSample {
   double slope_north = 0;   // dz/dx: above 0 where the bottom falls away towards north; 0 unless ok
   double slope_east = 0;    // dz/dy
   Vec3 normal_ned() const;  // unit, into the water; straight up unless ok
+};
+
+// A depth for sound, which goes on where charts end.
+struct HeldDepth {
+  double z_m = 0;
+  bool is_held = false;  // known elsewhere: at the nearest place of the terrain with data
 };
 
 enum class RayStatus : std::uint8_t {
@@ -92,6 +101,10 @@ class Terrain {
   explicit Terrain(HeightGrid base, std::vector<NestedGrid> nested = {}, const BottomFormula& beyond = {});
 
   DepthSample depth_at(double x_m, double y_m) const;
+
+  // As sound meets it: where the bottom is not known, the last depth that is. Empty for a place that is not
+  // finite.
+  std::optional<HeldDepth> held_depth_at(double x_m, double y_m) const;
 
   // The surface over the piece of the plane that holds a point beyond the base grid, and where in it the
   // point is; empty where it ends at its edge.
@@ -156,8 +169,15 @@ class Terrain {
   RayHit follow_beyond(const Departure& departure) const;
   RayHit finish(const Departure& departure, const TraceResult& result, const Patch& owner) const;
 
+  // Made when it is asked for first.
+  struct Gaps {
+    std::once_flag once;
+    std::optional<NearestDepths> filled;
+  };
+
   std::vector<Patch> patches_;
   std::optional<EndlessBottom> beyond_;
+  std::unique_ptr<Gaps> gaps_ = std::make_unique<Gaps>();
   std::uint64_t version_ = 0;
 };
 

@@ -11,7 +11,7 @@
 
 namespace halocline::channel_server {
 Multipath multipath_of(const Reception& reception, Decibels cutoff) {
-  if (reception.used != PropagationUsed::kRays) return Multipath::kUnknown;
+  if (!is_along_rays(reception.used)) return Multipath::kUnknown;
   const bool echoes = std::any_of(reception.paths.begin(), reception.paths.end(), [&](const SoundPath& path) {
     return path.bottom_bounces > 0 && path.level > cutoff;
   });

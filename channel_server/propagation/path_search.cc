@@ -36,13 +36,15 @@ acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environ
 double middle(double value, double cell) { return cell * (std::floor(value / cell) + 0.5); }
 
 std::shared_ptr<const FoundPaths> found_paths(const RayModel& model, const PathSea& along,
-                                              const PathQuery& query, acoustics::SharedRays* shared) {
+                                              const PathQuery& query, const SeabedProfile& seabed,
+                                              acoustics::SharedRays* shared) {
   auto found = std::make_shared<FoundPaths>();
   found->given = query.given;
   found->mean_depth_m = along.mean_depth_m;
   found->arrivals =
       arrivals(along.sea, query.link, usable_solver(model.solver, along.sea, query.link), shared);
   found->blocked = cuts_straight_line(along.sea.bottom_profile, query.link);
+  found->beyond_terrain = seabed.beyond_terrain;
   return found;
 }
 
@@ -148,7 +150,7 @@ PathSea path_sea(const RayModel& model, const acoustics::RayWater& water,
 std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
                                                const acoustics::Environment& environment,
                                                const PathQuery& query, const SeabedProfile& seabed) {
-  return found_paths(model, path_sea(model, water, environment, query, seabed), query, nullptr);
+  return found_paths(model, path_sea(model, water, environment, query, seabed), query, seabed, nullptr);
 }
 
 std::shared_ptr<const FoundPaths> PathLine::search(const RayModel& model, const acoustics::RayWater& water,
@@ -166,7 +168,7 @@ std::shared_ptr<const FoundPaths> PathLine::search(const RayModel& model, const 
   };
   if (!is_above(query.link.source_depth_m, 0) || !is_above(query.link.receiver_depth_m, query.link.range_m))
     return search_paths(model, water, environment, query, seabed);
-  return found_paths(model, *sea_, query, shared);
+  return found_paths(model, *sea_, query, seabed, shared);
 }
 
 SharedLine SharedLine::of_depths() { return {{}, std::make_unique<acoustics::ColumnRays>()}; }
@@ -197,6 +199,7 @@ std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoust
   auto found = std::make_shared<FoundPaths>();
   found->arrivals = {acoustics::RaySolver::kArcs, *std::move(windows)};
   found->mean_depth_m = depth_m;
+  found->beyond_terrain = seabed.beyond_terrain;
   return found;
 }
 

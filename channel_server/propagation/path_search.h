@@ -107,8 +107,9 @@ inline bool is_of_one_sea(const PathQuery& a, const PathQuery& b) {
 struct FoundPaths {
   std::shared_ptr<const SeabedProfile> given;  // whose address is in the key
   acoustics::Arrivals arrivals;
-  double mean_depth_m = 0;  // between the ends
-  bool blocked = false;     // the bottom cuts the straight line
+  double mean_depth_m = 0;      // between the ends
+  bool blocked = false;         // the bottom cuts the straight line
+  bool beyond_terrain = false;  // as SeabedProfile's
 };
 
 // The water along the query's link: `water`, or where the environment has a field, that between the query's places down to the

@@ -87,7 +87,11 @@ enum class PropagationUsed {
   kRays,                   // rays in the water above the known bottom
   kStraightWithoutBottom,  // rays were wanted, the bottom is not known: one straight path
   kStraightNotSearched,  // of tables alone: rays were wanted, no search has been granted yet: one straight path
+  kRaysBeyondTerrain,    // as kRays, but over the last known depth where the terrain ends or has no data
 };
+inline bool is_along_rays(PropagationUsed used) {
+  return used == PropagationUsed::kRays || used == PropagationUsed::kRaysBeyondTerrain;
+}
 
 // What arrives over one link. In the budget, `delay_s` is that of the strongest path in the receiver's guard window,
 // `received_level` is the mean power of all paths together (acoustics/fading/link_fading.h; without fading, the sum of

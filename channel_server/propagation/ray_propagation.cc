@@ -154,7 +154,7 @@ Reception RayPropagation::straight_instead(SimTime at, const EndPair& ends, Prop
 Reception RayPropagation::answer(const Task& task, const FoundPaths& found,
                                  acoustics::Capacity capacity) const {
   Reception reception;
-  reception.used = PropagationUsed::kRays;
+  reception.used = found.beyond_terrain ? PropagationUsed::kRaysBeyondTerrain : PropagationUsed::kRays;
   reception.paths_age = task.age;
   const std::optional<acoustics::Arrivals> elsewhere = arrivals_at(task, found);
   const acoustics::Arrivals& arrivals = elsewhere ? *elsewhere : found.arrivals;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "channel_server/propagation/seabed_profile.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/hash.h"
@@ -20,28 +21,8 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // Floor of the quotient: tiles of points, and blocks of tiles.
 std::int64_t tile_of(std::int64_t point) { return point >= 0 ? point / kSide : (point - kSide + 1) / kSide; }
 
-// The lattice points that weigh at a place between points 0 and 1: -2 to 3.
-constexpr int kReachBefore = 2, kReach = 6;
-
-// Their weights at `u` of the way from point 0 to point 1, 0..1: cubic B-splines b of coefficients that are
-// (8 f_i - f_(i-1) - f_(i+1)) / 6.
-std::array<double, kReach> weights_at(double u) {
-  const double rest = 1 - u, b0 = rest * rest * rest / 6, b3 = u * u * u / 6,
-               b1 = (4 + u * u * (3 * u - 6)) / 6, b2 = 1 - b0 - b1 - b3;
-  return {-b0 / 6, (8 * b0 - b1) / 6, (8 * b1 - b0 - b2) / 6, (8 * b2 - b1 - b3) / 6, (8 * b3 - b2) / 6,
-          -b3 / 6};
-}
-
-// What is known of four weighed depths, together: the weights of the others are shared out. NaN of none.
-double mean_of_known(const std::array<double, 4>& z_m, const std::array<double, 4>& weights) {
-  double sum = 0, weight = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (std::isnan(z_m[i])) continue;
-    sum += weights[i] * z_m[i];
-    weight += weights[i];
-  }
-  return weight > 0 ? sum / weight : kUnknown;
-}
+constexpr int kReachBefore = 2, kReach = kSplineReach;
+constexpr int kHere = kReachBefore, kNext = kReachBefore + 1;  // points 0 and 1 among these
 
 }  // namespace
 
@@ -59,7 +40,9 @@ std::vector<TerrainRay> TileSurvey::rays() const { return {depth_ray(points_ned_
 void TileSurvey::take(std::span<const RayAnswer> answers) {
   require(answers.size() == static_cast<std::size_t>(kSide * kSide), "one answer a depth");
   for (const RayAnswer& answer : answers) {
-    z_m_.push_back(answer.kind == RayAnswer::Kind::kHit ? answer.result_m : kUnknown);
+    const bool is_held = answer.kind == RayAnswer::Kind::kOutside || answer.kind == RayAnswer::Kind::kNoData;
+    if (is_held) held_ |= std::uint64_t{1} << z_m_.size();
+    z_m_.push_back(is_held || answer.kind == RayAnswer::Kind::kHit ? answer.result_m : kUnknown);
   }
 }
 
@@ -85,6 +68,8 @@ class SeabedMap::Reader {
     const double i = std::floor(north), j = std::floor(east);
     return seabed_in_cell(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j), north - i, east - j);
   }
+  // Whether the cell of the last sample has a corner whose depth is held from elsewhere.
+  bool is_held() const { return cell_held_; }
   // Along the line, in the cell of the last sample.
   void add_slopes(const Line& line, SlopeSums& slopes) const {
     for (std::size_t i = 0; i + 1 < kReach; ++i) {
@@ -107,6 +92,7 @@ class SeabedMap::Reader {
     read_ = true;
     cell_north_ = n;
     cell_east_ = e;
+    cell_held_ = false;
     // They lie in two tiles each way at most.
     static_assert(kReach <= kSide);
     const std::int64_t north = n - kReachBefore, east = e - kReachBefore;
@@ -127,12 +113,18 @@ class SeabedMap::Reader {
       for (int j = first_j; j < end_j; ++j)
         cell_[i][j] = known ? tile->z_m[static_cast<std::size_t>(origin + i * kSide + j)] : kUnknown;
     }
+    if (known && tile->held != 0) note_held(*tile, origin, first_i, end_i, first_j, end_j);
+  }
+  void note_held(const Tile& tile, std::int64_t origin, int first_i, int end_i, int first_j, int end_j) {
+    for (const auto& [i, j] : {std::pair(kHere, kHere), {kNext, kHere}, {kHere, kNext}, {kNext, kNext}}) {
+      const bool is_here = i >= first_i && i < end_i && j >= first_j && j < end_j;
+      if (is_here && (tile.held >> (origin + i * kSide + j) & 1) != 0) cell_held_ = true;
+    }
   }
   // At `u` of the way north and `v` of the way east of point (n, e).
   double seabed_in_cell(std::int64_t n, std::int64_t e, double u, double v) {
     read_cell(n, e);
-    const auto wn = weights_at(u), we = weights_at(v);
-    constexpr int kHere = kReachBefore, kNext = kReachBefore + 1;
+    const auto wn = spline_weights(u), we = spline_weights(v);
     const double z0 = cell_[kHere][kHere];
     // Of differences, so that level ground stays level to the last bit.
     double z = z0;
@@ -150,7 +142,7 @@ class SeabedMap::Reader {
   bool known_ = false;
   TileIndex index_;
   const Tile* tile_ = nullptr;
-  bool read_ = false;
+  bool read_ = false, cell_held_ = false;
   std::int64_t cell_north_ = 0, cell_east_ = 0;
   std::array<std::array<double, kReach>, kReach> cell_{};
 };
@@ -181,6 +173,7 @@ std::shared_ptr<const SeabedProfile> SeabedMap::between(const Vec3& from, const 
   SeabedProfile profile{-kBeyond * line.spacing_m, line.spacing_m, {}};
   for (int sample = -kBeyond; sample <= line.last + kBeyond; ++sample) {
     profile.z_m.push_back(reader.seabed(line, sample));
+    if (sample >= 0 && sample <= line.last && reader.is_held()) profile.beyond_terrain = true;
   }
   const auto first = profile.z_m.begin() + kBeyond, last = profile.z_m.end() - 1 - kBeyond;
   if (std::any_of(first, std::max(last, first + 1), [](double z) { return std::isnan(z); })) return nullptr;
@@ -205,6 +198,7 @@ std::optional<SeabedPlaces> SeabedMap::places_between(const Vec3& from, const Ve
     double& z_m = places.z_m[static_cast<std::size_t>(i)];
     z_m = reader.seabed(line, 2 * i + 1);
     if (std::isnan(z_m)) return std::nullopt;
+    places.beyond_terrain = places.beyond_terrain || reader.is_held();
     reader.add_slopes(line, slopes);
   }
   places.mean_square_slope = slopes.variance();
@@ -312,6 +306,7 @@ void SeabedMap::store(const TileSurvey& answered) {
   queried_.erase(answered.tile());
   Tile& tile = keep(answered.tile());
   tile.answered = true;
+  tile.held = answered.held();
   std::copy(answered.z_m().begin(), answered.z_m().end(), tile.z_m.begin());
 }
 

@@ -9,8 +9,10 @@
 // The bottom under a link is sampled from its first end on, samples_per_point times in `spacing_m` (512 times between
 // the ends where that makes more: beyond 6.4 km by default), from kBeyond samples before the first end to as many
 // beyond the other. So it is a function of the two ends and the terrain, whatever was queried before, and
-// continuous in both ends: it changes where an end moves, by as much as the seabed differs there. Past the edge of the
-// known terrain the last known depth goes on; between the ends a place is unknown when the four points around it are.
+// continuous in both ends: it changes where an end moves, by as much as the seabed differs there. Beyond the
+// edge of the terrain, and where it has no data, the last known depth is held (Terrain::held_depth_at), and
+// what rests on that says so. Where the service did not answer, a place is unknown when the four points
+// around it are.
 //
 // The depths are queried tile by tile, 8 x 8 points together, and kept. Vehicles that stay in one area need no query
 // after the first, wherever they move. A tile whose query failed counts as answered without a depth until
@@ -68,13 +70,16 @@ class TileSurvey {
   void take(std::span<const RayAnswer> answers);
 
   const TileIndex& tile() const { return tile_; }
-  // z of the seabed at the points, m; NaN: outside, no data. Empty until answered.
+  // z of the seabed at the points, m. Empty until answered.
   const std::vector<double>& z_m() const { return z_m_; }
+  // Which of them have a depth that is held from elsewhere, a bit each.
+  std::uint64_t held() const { return held_; }
 
  private:
   TileIndex tile_;
   double spacing_m_ = 0;
   std::vector<double> z_m_;
+  std::uint64_t held_ = 0;
 };
 
 class SeabedMap {
@@ -115,7 +120,8 @@ class SeabedMap {
  private:
   static constexpr std::size_t kTilePoints = TileSurvey::kPoints * TileSurvey::kPoints;
   struct Tile {
-    bool answered = false;  // else it failed
+    bool answered = false;   // else it failed
+    std::uint64_t held = 0;  // as TileSurvey::held
     std::array<double, kTilePoints> z_m;
   };
   // 8 x 8 tiles; a bit each, eastwards row by row.

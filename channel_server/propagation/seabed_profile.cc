@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "acoustics/sea/sound_speed_profile.h"
@@ -24,6 +26,23 @@ void lower_to(std::vector<acoustics::ProfiledDepth>& points, double range_m, dou
 }
 
 }  // namespace
+
+std::array<double, kSplineReach> spline_weights(double u) {
+  const double rest = 1 - u, b0 = rest * rest * rest / 6, b3 = u * u * u / 6,
+               b1 = (4 + u * u * (3 * u - 6)) / 6, b2 = 1 - b0 - b1 - b3;
+  return {-b0 / 6, (8 * b0 - b1) / 6, (8 * b1 - b0 - b2) / 6, (8 * b2 - b1 - b3) / 6, (8 * b3 - b2) / 6,
+          -b3 / 6};
+}
+
+double mean_of_known(const std::array<double, 4>& z_m, const std::array<double, 4>& weights) {
+  double sum = 0, weight = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (std::isnan(z_m[i])) continue;
+    sum += weights[i] * z_m[i];
+    weight += weights[i];
+  }
+  return weight > 0 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
+}
 
 acoustics::BottomProfile bottom_under(const SeabedProfile& seabed, const acoustics::RayLink& link,
                                       double sea_surface_z_m) {

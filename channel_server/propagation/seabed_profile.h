@@ -18,9 +18,10 @@
 namespace halocline::channel_server {
 
 struct SeabedProfile {
-  double first_m = 0;       // place of the first sample, -1e6..0
-  double spacing_m = 1;     // between samples, above 0
-  std::vector<double> z_m;  // of the seabed, two samples at least
+  double first_m = 0;           // place of the first sample, -1e6..0
+  double spacing_m = 1;         // between samples, above 0
+  std::vector<double> z_m;      // of the seabed, two samples at least
+  bool beyond_terrain = false;  // some depth between the ends is the last known one
 
   static SeabedProfile flat(double z_m) { return {-1e5, 1e6, {z_m, z_m}}; }
 };
@@ -39,7 +40,18 @@ struct SlopeSums {
 struct SeabedPlaces {
   std::array<double, 16> z_m{};  // at even places between the ends
   double mean_square_slope = 0;  // along the link, beside the mean slope
+  bool beyond_terrain = false;   // as SeabedProfile's
 };
+
+// Lattice points that weigh at a place between points 0 and 1: -2 to 3.
+inline constexpr int kSplineReach = 6;
+// Their weights at `u` of the way from point 0 to point 1, 0..1: cubic B-splines b of coefficients that are
+// (8 f_i - f_(i-1) - f_(i+1)) / 6.
+std::array<double, kSplineReach> spline_weights(double u);
+
+// The mean of those of four weighed depths that are known: the weights of the others are shared out. NaN
+// without any.
+double mean_of_known(const std::array<double, 4>& z_m, const std::array<double, 4>& weights);
 
 // The least water a bottom profile knows, m: what land counts as, and what is left under an end.
 inline constexpr double kMinWaterM = 0.1;

@@ -27,7 +27,9 @@ struct TerrainRay {
 struct RayAnswer {
   enum class Kind { kHit, kMiss, kOutside, kNoData, kBelowBottom, kBadInput };
   Kind kind = Kind::kMiss;
-  double result_m = 0;  // z of the seabed for a depth, distance for a way; holds for kHit only
+  // z of the seabed for a depth, distance for a way; of kHit, and of a tile outside and without data: the
+  // last known depth.
+  double result_m = 0;
 };
 
 // A depth belongs to a place, not to a ray: its range only has to be legal.

@@ -88,6 +88,7 @@ std::optional<link_search_t> to_message(std::int64_t sea_hash, const PathQuery& 
   message.diffuse_below_pressure = query.diffuse_below_pressure;
   message.mean_depth_m = found.mean_depth_m;
   message.is_blocked = found.blocked;
+  message.is_beyond_terrain = found.beyond_terrain;
   message.ray_solver = static_cast<std::int8_t>(found.arrivals.solver);
   message.path_lack = static_cast<std::int8_t>(found.arrivals.lack);
   for (const acoustics::Arrival& path : paths) message.eigenrays.push_back(to_message(path));
@@ -108,6 +109,7 @@ FoundPaths to_found(const link_search_t& message) {
   FoundPaths found;
   found.mean_depth_m = message.mean_depth_m;
   found.blocked = message.is_blocked != 0;
+  found.beyond_terrain = message.is_beyond_terrain != 0;
   found.arrivals.solver = static_cast<acoustics::RaySolver>(message.ray_solver);
   found.arrivals.lack = static_cast<acoustics::PathLack>(message.path_lack);
   found.arrivals.paths.reserve(message.eigenrays.size());

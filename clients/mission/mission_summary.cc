@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -147,6 +148,17 @@ void add_lateness(const MissionStore& mission, std::vector<SummaryRow>& rows) {
   rows.push_back({"time", text});
 }
 
+// Packets over a bottom that is known elsewhere.
+void add_terrain(const MissionStore& mission, std::vector<SummaryRow>& rows) {
+  const PropagationCounts& counts = mission.ledger().by_propagation();
+  const std::int64_t beyond = counts[static_cast<std::size_t>(packet_outcome_t::RAYS_BEYOND_TERRAIN)];
+  if (beyond == 0) return;
+  const std::int64_t all = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+  rows.push_back({"terrain", share(beyond, all) +
+                                 " outcomes lie where the terrain ends or has no data: its last known depth "
+                                 "was held for sound"});
+}
+
 }  // namespace
 
 std::vector<SummaryRow> mission_summary(const MissionStore& mission) {
@@ -154,6 +166,7 @@ std::vector<SummaryRow> mission_summary(const MissionStore& mission) {
   add_vehicles(mission, rows);
   add_packets(mission, rows);
   add_lateness(mission, rows);
+  add_terrain(mission, rows);
   return rows;
 }
 

@@ -14,7 +14,7 @@ namespace halocline::clients {
 
 inline constexpr std::size_t kOutcomes = 18;        // packet_outcome_t.RECEIVED to NO_POWER
 inline constexpr std::size_t kReceiptResults = 12;  // modem_receipt_t.ACCEPTED to REFUSED_NO_MODEM
-inline constexpr std::size_t kPropagations = 3;     // packet_outcome_t.STRAIGHT to STRAIGHT_WITHOUT_BOTTOM
+inline constexpr std::size_t kPropagations = 5;     // packet_outcome_t.STRAIGHT to RAYS_BEYOND_TERRAIN
 using OutcomeCounts = std::array<std::int64_t, kOutcomes>;          // by packet_outcome_t.outcome
 using PropagationCounts = std::array<std::int64_t, kPropagations>;  // by packet_outcome_t.propagation_used
 

@@ -11,7 +11,8 @@ import java.util.function.IntFunction;
 
 /** Outcome and cause of a packet in words; docs/packets.md has the rules. */
 final class OutcomeCause {
-  private static final Set<String> NO_OUTCOMES = Set.of("STRAIGHT", "RAYS", "STRAIGHT_WITHOUT_BOTTOM");  // of propagation_used
+  private static final Set<String> NO_OUTCOMES =  // of propagation_used
+      Set.of("STRAIGHT", "RAYS", "STRAIGHT_WITHOUT_BOTTOM", "STRAIGHT_NOT_SEARCHED", "RAYS_BEYOND_TERRAIN");
 
   private OutcomeCause() {}
 

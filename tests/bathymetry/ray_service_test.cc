@@ -85,6 +85,8 @@ TEST(RayService, EachPointOfATileHasItsStatus) {
   EXPECT_EQ(answers.statuses[4], kOutside);         // 110 m east
   EXPECT_EQ(answers.statuses[3 * 8 + 3], kNoData);  // the hole in the corner
   EXPECT_EQ(answers.statuses[4 * 8], kOutside);     // 110 m north
+  EXPECT_EQ(answers.results_m[4], answers.results_m[3]) << "for sound the depth of the edge goes on";
+  EXPECT_GT(answers.results_m[3 * 8 + 3], 0) << "and that beside the hole";
   EXPECT_EQ(answers.statuses[64], kBadInput);
 }
 

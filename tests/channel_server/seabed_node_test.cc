@@ -162,7 +162,7 @@ TEST_F(SeabedNodeTest, WithoutTheServicePacketsGoStraightOnceItsDeadlineHasPasse
   EXPECT_EQ(sea.bench.outcomes.back().propagation_used, packet_outcome_t::RAYS);
 }
 
-TEST_F(SeabedNodeTest, OutsideOfTheTerrainPathsAreStraightAndNothingWaits) {
+TEST_F(SeabedNodeTest, OutsideOfTheTerrainItsLastDepthIsHeldAndNothingWaits) {
   NodeBench bench({}, {testing::quick_modem(), {}}, ray_model(testing::even_water(), {}, {}));
   bus::Bus service(bench.lcm(), {"bathymetry", 11});
   service.subscribe<ray_query_t>(testing::channels::kRayQuery, [&](const ray_query_t& query) {
@@ -172,7 +172,7 @@ TEST_F(SeabedNodeTest, OutsideOfTheTerrainPathsAreStraightAndNothingWaits) {
     reply.terrain_version = "none";
     reply.num_rays = 64 * query.num_rays;  // of tiles
     reply.ray_status.assign(static_cast<std::size_t>(reply.num_rays), ray_reply_t::OUTSIDE);
-    reply.result_m.assign(static_cast<std::size_t>(reply.num_rays), 0);
+    reply.result_m.assign(static_cast<std::size_t>(reply.num_rays), 100);
     service.publish(testing::channels::kRayReply.of(query.client_name), reply);
   });
   for (double t = 0; t < 3; t += 0.1) {
@@ -182,7 +182,8 @@ TEST_F(SeabedNodeTest, OutsideOfTheTerrainPathsAreStraightAndNothingWaits) {
   bench.send(1, 0.5, 0, 8);
   bench.run_to(0.9);
   ASSERT_EQ(bench.outcomes.size(), 1u);
-  EXPECT_EQ(bench.outcomes[0].propagation_used, packet_outcome_t::STRAIGHT_WITHOUT_BOTTOM);
+  EXPECT_EQ(bench.outcomes[0].propagation_used, packet_outcome_t::RAYS_BEYOND_TERRAIN);
+  EXPECT_GT(bench.outcomes[0].num_paths, 1);
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ std::string_view name_of(channel_server::PathState state) {
 }
 
 std::string_view name_of(channel_server::PropagationUsed used) {
-  constexpr std::array kNames{"straight", "rays", "straight (bottom unknown)", "straight (not searched)"};
+  constexpr std::array kNames{"straight", "rays", "straight (bottom unknown)", "straight (not searched)",
+                              "rays (beyond the terrain)"};
   return kNames.at(static_cast<std::size_t>(used));
 }
 

@@ -126,7 +126,7 @@ LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& fr
   all.blocked = reception.state == channel_server::PathState::kBlocked;
   if (reception.measured)
     all.found_by = "measured";
-  else if (reception.used != channel_server::PropagationUsed::kRays)
+  else if (!is_along_rays(reception.used))
     all.found_by = "straight";
   for (const channel_server::SoundPath& path : reception.paths) {
     if (!is_reverberation(path)) all.received.push_back({path.level.value, path.doppler_factor});
@@ -138,7 +138,7 @@ acoustics::Arrivals arrivals_of(LinkSurveyor& surveyor, const channel_server::Li
                                 const channel_server::LinkEnd& to,
                                 const channel_server::Reception& reception) {
   if (reception.measured) return measured_arrivals(reception, from.modem->source_level);
-  if (reception.used == channel_server::PropagationUsed::kRays) return surveyor.arrivals(from, to);
+  if (is_along_rays(reception.used)) return surveyor.arrivals(from, to);
   return reception.paths.empty() ? acoustics::Arrivals()
                                  : straight_arrival(reception, {from.modem->beam, to.modem->beam});
 }
@@ -196,9 +196,8 @@ LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text) {
 }
 
 std::optional<double> seabed_z_m(const bathymetry::Terrain& terrain, const Vec3& place_ned_m) {
-  const RayAnswer below =
-      query(terrain, bathymetry::QueryMode::kDepth, {channel_server::depth_ray(place_ned_m)}).front();
-  return below.kind == RayAnswer::Kind::kHit ? std::optional(below.result_m) : std::nullopt;
+  const auto depth = terrain.held_depth_at(place_ned_m.x(), place_ned_m.y());
+  return depth ? std::optional(depth->z_m) : std::nullopt;
 }
 
 void require_above_seabed(const bathymetry::Terrain& terrain, const LinkSurveyEnd& end) {

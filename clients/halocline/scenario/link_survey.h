@@ -51,7 +51,8 @@ Vec3 parse_vector(const std::string& text, const std::string& what);
 // run: a note says so.
 LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to);
 
-// z of the seabed under a place, m; empty where it is not known.
+// z of the seabed under a place, m: the last known depth where the terrain ends or has no data, as sound
+// meets it. Empty for a place that is not finite.
 std::optional<double> seabed_z_m(const bathymetry::Terrain& terrain, const Vec3& place_ned_m);
 
 // Whether the terrain stands in the straight line between two points; false where it is not known.

@@ -27,7 +27,8 @@ constexpr LinkCategory kPaths[] = {{link_t::PATH_OPEN, "open", true},
 constexpr LinkCategory kUsed[] = {{link_t::USED_STRAIGHT, "straight", true},
                                   {link_t::USED_RAYS, "rays", true},
                                   {link_t::USED_STRAIGHT_WITHOUT_BOTTOM, "straight, no bottom", false},
-                                  {link_t::USED_STRAIGHT_NOT_SEARCHED, "straight, not searched", false}};
+                                  {link_t::USED_STRAIGHT_NOT_SEARCHED, "straight, not searched", false},
+                                  {link_t::USED_RAYS_BEYOND_TERRAIN, "rays, beyond the terrain", false}};
 
 // Thresholds of ratios lie about where half of a modem's packets survive; a modem's own are in its ladder.
 constexpr std::array kDisplays = std::to_array<LinkDisplay>({

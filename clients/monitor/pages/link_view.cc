@@ -194,9 +194,14 @@ std::string notice_of(const link_answer_t& answer) {
     default:
       break;
   }
-  return answer.link.propagation_used == link_t::USED_STRAIGHT_WITHOUT_BOTTOM
-             ? "The bathymetry service does not answer: straight paths, no seabed."
-             : "";
+  switch (answer.link.propagation_used) {
+    case link_t::USED_STRAIGHT_WITHOUT_BOTTOM:
+      return "The bathymetry service does not answer: straight paths, no seabed.";
+    case link_t::USED_RAYS_BEYOND_TERRAIN:
+      return "The link leaves the known terrain: its last known depth is held.";
+    default:
+      return "";
+  }
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Terrain from a formula beyond its grid.
+// Terrain from a formula beyond its grid, and what sound is given where terrain ends.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 #include "bathymetry/terrain/terrain.h"
 #include "core/frames.h"
 #include "core/random.h"
+#include "tests/bathymetry/terrain/terrain_fixtures.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::bathymetry {
@@ -21,6 +23,7 @@ namespace {
 using ::halocline::testing::tolerance;
 
 constexpr GridGeometry kGrid{-100, -100, 10, 21, 21};
+constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
 
 Terrain endless(const Shape& shape, const GridGeometry& geometry = kGrid) {
   return Terrain(make_grid(geometry, shape), {},
@@ -93,6 +96,20 @@ TEST(EndlessTerrain, ProfilesGoOn) {
       EXPECT_NEAR(point.z_m, 100 + 0.05 * (point.distance_m - 1000), tolerance(1e-3));
     }
   }
+}
+
+TEST(HeldDepth, IsThatOfTheEdgeBeyondAndThatOfTheNearestPostInAGap) {
+  const Terrain whole(testing::small_grid({1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(whole.depth_at(30, 10).status, DepthStatus::kOutside) << "who asks for data is given none";
+  EXPECT_EQ(whole.held_depth_at(30, 10)->z_m, 8);
+  EXPECT_TRUE(whole.held_depth_at(30, 10)->is_held);
+  EXPECT_EQ(whole.held_depth_at(-1e6, 1e6)->z_m, 3);
+  EXPECT_FALSE(whole.held_depth_at(5, 5)->is_held);
+  EXPECT_FALSE(whole.held_depth_at(std::nan(""), 0));
+  const Terrain with_gap(testing::small_grid({1, 1, kNoData, 1, 1, kNoData, 4, 4, kNoData}));
+  EXPECT_EQ(with_gap.held_depth_at(1, 19)->z_m, 1);
+  EXPECT_EQ(with_gap.held_depth_at(19, 19)->z_m, 4);
+  EXPECT_EQ(with_gap.held_depth_at(500, 500)->z_m, 4) << "beyond a corner without data";
 }
 
 }  // namespace

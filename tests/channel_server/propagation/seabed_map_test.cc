@@ -117,14 +117,14 @@ TEST_F(SeabedMapTest, WhatIsNotAnsweredIsUnknown) {
 }
 
 // The terrain ends between two lattice points: it is known up to its edge.
-TEST_F(SeabedMapTest, InsideTheTerrainTheBottomIsKnownUpToTheEdge) {
+TEST_F(SeabedMapTest, BeyondTheTerrainTheLastDepthIsHeldAndSaidSo) {
   const auto answer_within = [&](const Vec3& from, const Vec3& to) {
     while (!map_.is_surveyed(from, to)) {
       for (TileSurvey& tile : map_.take_requests()) {
         std::vector<RayAnswer> answers;
         for (const Vec3& point : tile.points_ned_m()) {
           const bool inside = std::abs(point.x()) <= 510 && std::abs(point.y()) <= 490;
-          answers.push_back({inside ? RayAnswer::Kind::kHit : RayAnswer::Kind::kOutside, inside ? 80.0 : 0});
+          answers.push_back({inside ? RayAnswer::Kind::kHit : RayAnswer::Kind::kOutside, 80});
         }
         tile.take(answers);
         map_.store(tile);
@@ -137,9 +137,14 @@ TEST_F(SeabedMapTest, InsideTheTerrainTheBottomIsKnownUpToTheEdge) {
       const auto profile = answer_within({north, east, 10}, {0, 0, 10});
       ASSERT_NE(profile, nullptr) << north << " " << east;
       for (const double z_m : profile->z_m) EXPECT_NEAR(z_m, 80, tolerance(1e-12));
+      EXPECT_EQ(profile->beyond_terrain, std::abs(north) >= 500 || std::abs(east) >= 475) << north << east;
     }
   }
-  EXPECT_EQ(answer_within({0, 0, 10}, {600, 0, 10}), nullptr);
+  const auto profile = answer_within({700, 0, 10}, {900, 0, 10});
+  ASSERT_NE(profile, nullptr);
+  EXPECT_TRUE(profile->beyond_terrain);
+  EXPECT_TRUE(map_.places_between({0, 0, 10}, {900, 0, 10})->beyond_terrain);
+  EXPECT_FALSE(map_.places_between({0, 0, 10}, {400, 0, 10})->beyond_terrain);
 }
 
 TEST_F(SeabedMapTest, ATileThatFailedIsUnknownUntilFailuresAreForgotten) {

@@ -3,10 +3,13 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "acoustics/link/link_budget.h"
 #include "acoustics/modem/beam_pattern.h"
@@ -214,6 +217,35 @@ TEST_P(BeyondTheArea, DeliveryFallsWithTheRange) {
 INSTANTIATE_TEST_SUITE_P(LinkSurvey, BeyondTheArea,
                          ::testing::Values(bathymetry::TerrainKind::kFlat, bathymetry::TerrainKind::kSlope,
                                            bathymetry::TerrainKind::kRidge));
+
+// Where a raster ends, its last depth is held for sound, and the link says so.
+TEST(LinkSurvey, BeyondARasterTheLastDepthIsHeld) {
+  const std::string path = ::testing::TempDir() + "level-" + std::to_string(getpid()) + ".asc";
+  std::ofstream raster(path);
+  raster << "ncols 41\nnrows 41\nxllcorner -2050\nyllcorner -2050\ncellsize 100\n";
+  for (int i = 0; i < 41; ++i) {
+    for (int j = 0; j < 41; ++j) raster << "-80 ";
+    raster << "\n";
+  }
+  raster.close();
+  ScenarioConfig config = two_vehicles();
+  config.terrain.kind = bathymetry::TerrainKind::kRaster;
+  config.terrain.whole_file = true;
+  config.terrain.raster.path = path;
+  config.terrain.raster.coordinate_system = "local";
+  ScenarioConfig level = two_vehicles();
+  level.terrain.flat.depth_m = 80;
+  const auto link = [](const ScenarioConfig& sea, const std::string& range) {
+    return survey_link(sea, link_end(sea, "0,0,40"), link_end(sea, range + ",0,40"));
+  };
+  EXPECT_EQ(link(config, "1800").reception.used, channel_server::PropagationUsed::kRays);
+  for (const char* range : {"2500", "3000"}) {
+    const LinkSurvey held = link(config, range), endless = link(level, range);
+    EXPECT_EQ(held.reception.used, channel_server::PropagationUsed::kRaysBeyondTerrain) << range;
+    EXPECT_EQ(held.forecast.delivery_probability, endless.forecast.delivery_probability) << range;
+  }
+  std::filesystem::remove(path);
+}
 
 TEST(LinkSurvey, TwoVehiclesThirtyCentimetresApartAreAsFarApartAsThat) {
   for (const auto model :
