@@ -8,6 +8,8 @@
 
 #include "bathymetry/rasters/raster_options.h"
 #include "bathymetry/terrain/fractal_relief.h"
+#include "bus/config/carried_files.h"
+#include "core/files/file_path.h"
 
 namespace halocline::bathymetry {
 namespace {
@@ -51,7 +53,7 @@ void visit_bounds(ConfigVisitor& v, RasterOptions& r) {
 }
 
 void visit_raster(ConfigVisitor& v, RasterOptions& r) {
-  v.text("path", r.path, {}, "the file; relative to the scenario's folder");
+  v.file("path", r.path, bus::FileNames::kRasters, "the file; relative to the scenario's folder");
   v.text("variable", r.variable, {}, "of a netCDF file that holds several; empty: the only one");
   bus::integer_as(v, "band", r.band, {1, 1000, "", "band of the raster"});
   v.boolean("positive_down", r.positive_down, "true for a file of depths that does not say so itself");
@@ -72,7 +74,7 @@ void visit_raster(ConfigVisitor& v, RasterOptions& r) {
 }
 
 // GDAL's own names, where they are allowed, are no files.
-void require_raster(ConfigVisitor& v, const std::string& path) {
+void require_raster(ConfigVisitor& v, const FilePath& path) {
   if (!is_any_raster_allowed()) bus::require_readable(v, "path", path);
 }
 

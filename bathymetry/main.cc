@@ -27,8 +27,7 @@ int main(int argc, char** argv) {
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, recipe); };
   program.make_node = [&](const NodeProgram::Context& context) {
     PreparedTerrain prepared = prepare_terrain(
-        recipe,
-        {context.scenario.origin_latitude_deg, context.scenario.origin_longitude_deg, context.folder});
+        recipe, {context.scenario.origin_latitude_deg, context.scenario.origin_longitude_deg});
     return std::make_unique<BathymetryNode>(context.lcm, context.identity, std::move(prepared.terrain),
                                             std::move(prepared.summary));
   };

@@ -2,7 +2,6 @@
 #include "channel_server/channel_server_config.h"
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "acoustics/noise/noise_spectrum.h"
+#include "bus/config/carried_files.h"
 #include "channel_server/modems/clock_config.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/packets/extra_loss.h"
@@ -182,7 +182,7 @@ void visit_extra_loss(bus::ConfigVisitor& v, ExtraLoss& loss) {
 
 void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
   v.number("wind_mps", e.noise.wind_mps, {0, 60, "m/s", "wind 10 m above the sea: noise"});
-  v.text("noise_file", e.noise_file, {},
+  v.file("noise_file", e.noise_file, bus::FileNames::kFiles,
          "CSV of t_s, frequency_khz, level_db: the noise instead of wind, shipping and rain; empty: none");
   if (!e.noise_file.empty()) bus::require_readable(v, "noise_file", e.noise_file);
   v.when(e.noise_file.empty(), "no noise_file", [&] {
@@ -192,15 +192,14 @@ void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
   visit_noise_variation(v, e.noise_variation);
 }
 
-std::vector<acoustics::TimedSpectrum> noise_table(const EnvironmentConfig& config,
-                                                  const std::string& folder) {
+std::vector<acoustics::TimedSpectrum> noise_table(const EnvironmentConfig& config) {
   if (config.noise_file.empty()) return {};
-  return acoustics::read_noise_table((std::filesystem::path(folder) / config.noise_file).string());
+  return acoustics::read_noise_table(config.noise_file.place());
 }
 
-acoustics::NoiseSources noise_sources(const EnvironmentConfig& config, const std::string& folder) {
+acoustics::NoiseSources noise_sources(const EnvironmentConfig& config) {
   acoustics::NoiseSources sources = config.noise;
-  const auto table = noise_table(config, folder);
+  const auto table = noise_table(config);
   if (!table.empty()) sources.table = table.front().spectrum;
   return sources;
 }

@@ -36,6 +36,7 @@
 #include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_noise.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/files/file_path.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 
@@ -58,8 +59,8 @@ struct ProfileConfig {
   double isovelocity_mps = 1500;
   std::vector<Vec3> water_rows;                    // depth m, temperature degC, salinity psu
   std::vector<double> speed_depths_m, speeds_mps;  // as many of each
-  std::string file, salinity_file;  // relative to the scenario; salinity only where in a file of its own
-  bool position_given = false;      // of the column of a gridded file; else the scenario's origin
+  FilePath file, salinity_file;                    // salinity only where in a file of its own
+  bool position_given = false;  // of the column of a gridded file; else the scenario's origin
   double latitude_rad = 0, longitude_rad = 0;
   std::int64_t time_index = 0;  // of a gridded file with several times
   // Where the source knows speeds only; absorption depends on them.
@@ -71,7 +72,7 @@ struct EnvironmentConfig {
   std::string sound_speed_model = "mackenzie";
   std::string absorption_model = "francois-garrison";
   acoustics::NoiseSources noise{.wind_mps = 5};
-  std::string noise_file;  // instead of these; relative to the scenario
+  FilePath noise_file;  // instead of these
   acoustics::NoiseVariation noise_variation;
   double spreading_exponent = 1.5;
   double ph = 8.0;
@@ -150,23 +151,21 @@ void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
 
 // The keys of [environment] about noise.
 void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& config);
-// Its noise_file, relative to `folder`; empty without one. Throws InvalidArgument as acoustics::read_noise_table.
-std::vector<acoustics::TimedSpectrum> noise_table(const EnvironmentConfig& config, const std::string& folder);
+// Its noise_file; empty without one. Throws InvalidArgument as acoustics::read_noise_table.
+std::vector<acoustics::TimedSpectrum> noise_table(const EnvironmentConfig& config);
 // The sources at the start, with the first of these.
-acoustics::NoiseSources noise_sources(const EnvironmentConfig& config, const std::string& folder);
+acoustics::NoiseSources noise_sources(const EnvironmentConfig& config);
 
-// The water of a scenario whose file lies in `folder`. Throws InvalidArgument when a profile cannot be read or
+// The water of a scenario. Throws InvalidArgument when a profile cannot be read or
 // is impossible.
-acoustics::Environment make_environment(const EnvironmentConfig& config, const bus::Scenario& scenario,
-                                        const std::string& folder);
+acoustics::Environment make_environment(const EnvironmentConfig& config, const bus::Scenario& scenario);
 
 // Puts the ocean's field that the scenario names, where sound goes through it, and its profile at the world's origin into the
 // environment. Throws InvalidArgument when it cannot be.
-void set_field(const bus::Scenario& scenario, const std::string& folder, acoustics::Environment& environment);
+void set_field(const bus::Scenario& scenario, acoustics::Environment& environment);
 
 // Its profile of sound speed. Throws likewise.
-acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario,
-                                          const std::string& folder);
+acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario);
 
 // Rays as configured. Throws InvalidArgument when a part is out of range.
 RayModel make_rays(const ChannelServerConfig& config);

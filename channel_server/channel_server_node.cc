@@ -36,12 +36,23 @@ constexpr std::int64_t kMaxTicksBehind = 100;
 constexpr SimDuration kKeptLonger = SimDuration::from_milliseconds(1000);
 constexpr SimDuration kForgettingPeriod = SimDuration::from_milliseconds(1000);
 
-// The same for all servers of a scenario.
+// The same for all servers of a scenario, wherever each has its files.
 std::uint64_t hash_of(const std::vector<scenario_info_t>& scenario) {
   std::string lines;
-  for (const scenario_info_t& part : scenario)
-    for (const std::string& line : part.configuration_line) lines += line + '\n';
+  for (const scenario_info_t& part : scenario) {
+    for (const std::string& line : part.configuration_line) {
+      if (!line.starts_with("place = ")) lines += line + '\n';
+    }
+  }
   return xxh3(lines);
+}
+
+// At most about a kilobyte a second: a minute, or more of a configuration that carries files.
+SimDuration scenario_period(const std::vector<scenario_info_t>& scenario) {
+  constexpr std::size_t kBytesAMinute = 64'000;
+  std::size_t bytes = 0;
+  for (const scenario_info_t& part : scenario) bytes += static_cast<std::size_t>(part.getEncodedSize());
+  return kScenarioPeriod * static_cast<std::int64_t>(1 + bytes / kBytesAMinute);
 }
 
 SimTime on_grid_from(SimTime now, SimDuration period) {
@@ -82,6 +93,7 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
               {vehicles_, *water_.propagation, predictor_, echoes_, kept_rows_, noise_}, pool_.sharing_out()),
       processor_(bus(), vehicles_, *water_.waters, *water_.propagation, medium_, packets_),
       scenario_(std::move(scenario)),
+      scenario_period_(scenario_period(scenario_)),
       next_tick_(kBeforeAll),
       next_environment_(kBeforeAll),
       next_scenario_(kBeforeAll),
@@ -150,7 +162,7 @@ void ChannelServerNode::apply(StepInputs inputs, SimTime now, SimTime latest) {
 
 void ChannelServerNode::set_first_instants(SimTime now) {
   if (next_scenario_ == kBeforeAll) publish_scenario(now);
-  next_scenario_ = std::max(next_scenario_, on_grid_from(now - kScenarioPeriod, kScenarioPeriod));
+  next_scenario_ = std::max(next_scenario_, on_grid_from(now - scenario_period_, scenario_period_));
   if (next_environment_ == kBeforeAll) publish_environment(now);
   const SimTime earliest = next_tick_ == kBeforeAll ? now : now - rules_.link_period * kMaxTicksBehind;
   if (next_tick_ < earliest) next_tick_ = on_grid_from(earliest, rules_.link_period);
@@ -234,7 +246,7 @@ void ChannelServerNode::publish_environment(SimTime instant) {
 
 // Whoever joined since the last time gets it, too.
 void ChannelServerNode::publish_scenario(SimTime instant) {
-  next_scenario_ = scenario_.empty() ? SimTime::never() : next_on_grid(instant, kScenarioPeriod);
+  next_scenario_ = scenario_.empty() ? SimTime::never() : next_on_grid(instant, scenario_period_);
   if (recovery_) return;
   for (scenario_info_t part : scenario_) {
     part.utime = instant.to_utime();
@@ -325,8 +337,7 @@ std::string ChannelServerNode::status_text() const {
 
 std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus::NodeIdentity& identity,
                                                        const ChannelServerConfig& config,
-                                                       const bus::Scenario& scenario,
-                                                       const std::string& folder) {
+                                                       const bus::Scenario& scenario) {
   const Shard& shard = config.rules.medium.shard;
   require(shard.index < shard.count, "channel_server.shard is " + std::to_string(shard.index) +
                                          "; allowed is 0 to shards - 1, " + std::to_string(shard.count - 1));
@@ -338,9 +349,8 @@ std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus:
     rules.medium.shard.servers = servers_by_place(std::move(places), shard.count);
   }
   const ConfiguredModems modems = make_modems(config);
-  return std::make_unique<ChannelServerNode>(lcm, identity, make_water_model(config, scenario, folder),
-                                             modems, rules, to_messages(scenario, modems),
-                                             make_equipment(config, scenario));
+  return std::make_unique<ChannelServerNode>(lcm, identity, make_water_model(config, scenario), modems, rules,
+                                             to_messages(scenario, modems), make_equipment(config, scenario));
 }
 
 }  // namespace halocline::channel_server

@@ -125,17 +125,17 @@ class ChannelServerNode : public bus::Node {
   std::unique_ptr<ServerRecovery> recovery_;
 
   std::vector<scenario_info_t> scenario_;
+  SimDuration scenario_period_;
   SimTime next_tick_, next_environment_, next_scenario_, next_forgetting_;
   std::optional<Tables> tables_in_work_;
   bool table_waits_ = false;
   bool shares_searches_ = false;
 };
 
-// The node of a scenario whose file lies in `folder`. Throws InvalidArgument when the water or a modem is
+// The node of a scenario. Throws InvalidArgument when the water or a modem is
 // impossible.
 std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus::NodeIdentity& identity,
                                                        const ChannelServerConfig& config,
-                                                       const bus::Scenario& scenario,
-                                                       const std::string& folder);
+                                                       const bus::Scenario& scenario);
 
 }  // namespace halocline::channel_server

@@ -4,6 +4,7 @@
 #include "bus/config/config.h"
 #include "bus/runtime/node_command_line.h"
 #include "bus/runtime/node_process.h"
+#include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/channel_server_node.h"
 #include "core/check.h"
@@ -47,7 +48,9 @@ int main(int argc, char** argv) {
     return "channel-server" + (shard.is_alone() ? "" : "-" + std::to_string(shard.index));
   };
   program.make_node = [&](const NodeProgram::Context& context) {
-    auto node = make_channel_server(context.lcm, context.identity, config, context.scenario, context.folder);
+    halocline::bus::Scenario scenario = context.scenario;
+    scenario.configuration = configuration_of(*context.file);
+    auto node = make_channel_server(context.lcm, context.identity, config, scenario);
     require(journal.empty() || !context.in_lockstep,
             "--journal is " + journal + "; in lockstep the conductor has the journal of all");
     if (!journal.empty()) node->open_journal(journal, context.config_digest);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/replay_config.h"
 
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <utility>
@@ -9,8 +8,10 @@
 #include "acoustics/fading/channel_record.h"
 #include "acoustics/fading/channel_record_reader.h"
 #include "acoustics/math/frequency_band.h"
+#include "bus/config/carried_files.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/check.h"
+#include "core/files/file_path.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -21,7 +22,7 @@ const bus::NumberRule kReceiver{0, 9999, "", "replay: which of the file's receiv
 void visit_pair(bus::ConfigVisitor& v, ReplayConfig::Pair& pair) {
   v.text("from", pair.from, {}, "name of a vehicle");
   v.text("to", pair.to, {}, "name of another; the way back is the same unless it has an entry of its own");
-  v.text("file", pair.file, {}, "as replay");
+  v.file("file", pair.file, bus::FileNames::kFiles, "as replay");
   v.integer("receiver", pair.receiver, kReceiver);
   if (pair.from == pair.to) v.problem("to", "allowed is another vehicle than from");
   bus::require_readable(v, "file", pair.file);
@@ -30,19 +31,16 @@ void visit_pair(bus::ConfigVisitor& v, ReplayConfig::Pair& pair) {
 // Each file and receiver is read once.
 class Records {
  public:
-  explicit Records(std::string folder) : folder_(std::move(folder)) {}
-  MeasuredLinks::Record of(const std::string& file, std::int64_t receiver) {
-    MeasuredLinks::Record& record = known_[{file, receiver}];
+  MeasuredLinks::Record of(const FilePath& file, std::int64_t receiver) {
+    MeasuredLinks::Record& record = known_[{file.place(), receiver}];
     if (!record) {
-      const std::string path = (std::filesystem::path(folder_) / file).string();
       record = std::make_shared<const acoustics::ChannelRecord>(
-          acoustics::read_channel_record(path, static_cast<std::size_t>(receiver)));
+          acoustics::read_channel_record(file.place(), static_cast<std::size_t>(receiver)));
     }
     return record;
   }
 
  private:
-  std::string folder_;
   std::map<std::pair<std::string, std::int64_t>, MeasuredLinks::Record> known_;
 };
 
@@ -67,7 +65,7 @@ void require_bands(const MeasuredLinks& links, const ConfiguredModems& modems,
 }  // namespace
 
 void visit_replay(bus::ConfigVisitor& v, ReplayConfig& config) {
-  v.text("replay", config.file, {},
+  v.file("replay", config.file, bus::FileNames::kFiles,
          "measured channel of every link, HDF5 (docs/packets.md); empty: fading by the model");
   if (!config.file.empty()) bus::require_readable(v, "replay", config.file);
   v.when(!config.file.empty(), "replay = \"FILE\"",
@@ -84,8 +82,8 @@ void visit_replay(bus::ConfigVisitor& v, ReplayConfig& config) {
 }
 
 MeasuredLinks make_measured_links(const ReplayConfig& config, const ConfiguredModems& modems,
-                                  const bus::Scenario& scenario, const std::string& folder) {
-  Records records(folder);
+                                  const bus::Scenario& scenario) {
+  Records records;
   MeasuredLinks links;
   links.level_of_record = config.level == ReplayLevel::kFile;
   if (!config.file.empty()) links.all = records.of(config.file, config.receiver);

@@ -10,6 +10,7 @@
 #include "bus/runtime/scenario.h"
 #include "channel_server/propagation/measured_propagation.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/files/file_path.h"
 
 namespace halocline::channel_server {
 
@@ -19,10 +20,11 @@ enum class ReplayLevel { kModel, kFile };
 struct ReplayConfig {
   // One [[propagation.replay_pair]].
   struct Pair {
-    std::string from, to, file;
+    std::string from, to;
+    FilePath file;
     std::int64_t receiver = 0;
   };
-  std::string file;           // of all links without an entry of their own; empty: they are modelled
+  FilePath file;              // of all links without an entry of their own; empty: they are modelled
   std::int64_t receiver = 0;  // of the file's, from 0
   ReplayLevel level = ReplayLevel::kModel;
   std::vector<Pair> pairs;
@@ -33,9 +35,9 @@ struct ReplayConfig {
 // Within [propagation].
 void visit_replay(bus::ConfigVisitor& v, ReplayConfig& config);
 
-// Reads the files, whose names start from `folder`. Throws InvalidArgument when one cannot be used, when a pair names a
+// Reads the files. Throws InvalidArgument when one cannot be used, when a pair names a
 // vehicle that the scenario lacks, and when the modem of a vehicle with a replayed link has a band that its file lacks.
 MeasuredLinks make_measured_links(const ReplayConfig& config, const ConfiguredModems& modems,
-                                  const bus::Scenario& scenario, const std::string& folder);
+                                  const bus::Scenario& scenario);
 
 }  // namespace halocline::channel_server

@@ -22,11 +22,11 @@ scenario_vehicle_t to_message(const bus::VehicleEntry& vehicle, const VehicleMod
   message.moved_by = vehicle.model == "external" ? scenario_vehicle_t::EXTERNAL
                      : vehicle.model == "fixed"  ? scenario_vehicle_t::FIXED
                                                  : scenario_vehicle_t::MOVED;
-  message.vehicle_model = vehicle.model;
+  message.vehicle_model = vehicle.model.given();
   std::copy(vehicle.start_ned_m.begin(), vehicle.start_ned_m.end(), message.start_ned_m);
   message.start_heading_rad = std::remainder(vehicle.heading_rad, 2 * std::numbers::pi);
   message.modem_family = modem.modem.family;
-  message.framing_profile = modem.profile;
+  message.framing_profile = modem.profile.given();
   message.source_level_db = modem.modem.source_level.value;
   message.center_frequency_hz = modem.modem.centre_frequency_hz;
   message.bandwidth_hz = modem.modem.bandwidth_hz;

@@ -17,6 +17,7 @@
 #include "acoustics/sea/profile_reader.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "bus/config/carried_files.h"
 #include "bus/config/config.h"
 #include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
@@ -93,8 +94,9 @@ void visit_tables(bus::ConfigVisitor& v, ProfileConfig& p) {
 }
 
 void visit_file(bus::ConfigVisitor& v, ProfileConfig& p) {
-  v.text("profile_file", p.file, {}, "file: CSV, or netCDF with temperature (and salinity)");
-  v.text("profile_salinity_file", p.salinity_file, {},
+  v.file("profile_file", p.file, bus::FileNames::kFiles,
+         "file: CSV, or netCDF with temperature (and salinity)");
+  v.file("profile_salinity_file", p.salinity_file, bus::FileNames::kFiles,
          "file: netCDF with salinity, where it is another file");
   p.position_given = v.given("profile_latitude_deg") && v.given("profile_longitude_deg");
   bus::degrees(v, "profile_latitude_deg", p.latitude_rad,
@@ -277,30 +279,24 @@ void visit_change(bus::ConfigVisitor& v, ChangeConfig& c) {
   c.profile = profile;
 }
 
-std::string path_in(const std::string& folder, const std::string& file) {
-  return file.empty() ? file : (std::filesystem::path(folder) / file).string();
-}
-
 acoustics::SoundSpeedProfile profile_from_file(const EnvironmentConfig& config,
                                                acoustics::SoundSpeedModel model,
-                                               const bus::Scenario& scenario, const std::string& folder) {
+                                               const bus::Scenario& scenario) {
   const ProfileConfig& p = config.profile;
   const double latitude = p.position_given ? p.latitude_rad : to_radians(scenario.origin_latitude_deg);
   const double longitude = p.position_given ? p.longitude_rad : to_radians(scenario.origin_longitude_deg);
-  const std::string path = path_in(folder, p.file);
+  const std::string& path = p.file.place();
   if (acoustics::is_profile_table(path)) {
     return acoustics::read_profile(path, {model, latitude, p.assumed}, latitude, longitude);
   }
   return acoustics::read_grid_profile(
-             {path, path_in(folder, p.salinity_file), latitude, longitude, static_cast<int>(p.time_index)},
-             model)
+             {path, p.salinity_file.place(), latitude, longitude, static_cast<int>(p.time_index)}, model)
       .profile;
 }
 
 }  // namespace
 
-acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario,
-                                          const std::string& folder) {
+acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario) {
   using Profile = acoustics::SoundSpeedProfile;
   const auto model = acoustics::sound_speed_model_from_name(config.sound_speed_model);
   require(model.has_value(), "no sound-speed model is called " + config.sound_speed_model);
@@ -323,7 +319,7 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
     case ProfileSource::kFile:
       break;
   }
-  return profile_from_file(config, *model, scenario, folder);
+  return profile_from_file(config, *model, scenario);
 }
 
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
@@ -337,19 +333,18 @@ void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
       [&](bus::ConfigVisitor& item, std::size_t i) { visit_change(item, config.changes[i]); });
 }
 
-acoustics::Environment make_environment(const EnvironmentConfig& config, const bus::Scenario& scenario,
-                                        const std::string& folder) {
+acoustics::Environment make_environment(const EnvironmentConfig& config, const bus::Scenario& scenario) {
   const auto absorption = acoustics::absorption_model_from_name(config.absorption_model);
   require(absorption.has_value(), "no absorption model is called " + config.absorption_model);
   acoustics::Environment environment;
-  environment.profile = make_profile(config, scenario, folder);
-  environment.noise = noise_sources(config, folder);
+  environment.profile = make_profile(config, scenario);
+  environment.noise = noise_sources(config);
   environment.spreading_exponent = config.spreading_exponent;
   environment.absorption_model = *absorption;
   environment.ph = config.ph;
   environment.latitude_rad = to_radians(scenario.origin_latitude_deg);
   environment.sea_surface_z_m = scenario.sea_surface_z_m;
-  set_field(scenario, folder, environment);
+  set_field(scenario, environment);
   validate(environment);
   return environment;
 }

@@ -17,29 +17,28 @@
 namespace halocline::channel_server {
 
 void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
-                      const std::string& folder, EnvironmentTimeline& timeline) {
+                      EnvironmentTimeline& timeline) {
   for (const ChangeConfig& c : config.changes) {
     EnvironmentChange change{c.wind_mps, c.shipping, c.sea_surface_z_m, {}, c.rain_mm_per_h};
     if (c.profile) {
       EnvironmentConfig water = config.environment;
       water.profile = *c.profile;
-      change.profile = make_profile(water, scenario, folder);
+      change.profile = make_profile(water, scenario);
     }
     timeline.schedule(SimTime::from_seconds(c.at_s), change);
   }
-  for (const auto& [from, spectrum] : noise_table(config.environment, folder)) {
+  for (const auto& [from, spectrum] : noise_table(config.environment)) {
     EnvironmentChange change;
     change.noise_table = spectrum;
     timeline.schedule(from, change);
   }
 }
 
-void set_field(const bus::Scenario& scenario, const std::string& folder,
-               acoustics::Environment& environment) {
+void set_field(const bus::Scenario& scenario, acoustics::Environment& environment) {
   const bus::OceanEntry& entry = scenario.ocean;
   if (entry.file.empty() || !entry.carries_sound) return;
   auto field = ocean::read_ocean_field(
-      {(std::filesystem::path(folder) / entry.file).string(),
+      {entry.file.place(),
        entry.start_date,
        {to_radians(scenario.origin_latitude_deg), to_radians(scenario.origin_longitude_deg)}});
   if (!field->has_water()) return;
@@ -75,13 +74,12 @@ WaterModel ray_model(const acoustics::Environment& environment, const RayModel& 
   return rays_in(std::make_shared<EnvironmentTimeline>(environment), rays, rule);
 }
 
-WaterSources read_water(const ChannelServerConfig& config, const bus::Scenario& scenario,
-                        const std::string& folder) {
-  WaterSources sources{EnvironmentTimeline(make_environment(config.environment, scenario, folder)), {}};
+WaterSources read_water(const ChannelServerConfig& config, const bus::Scenario& scenario) {
+  WaterSources sources{EnvironmentTimeline(make_environment(config.environment, scenario)), {}};
   const ReplayConfig& replay = config.propagation.replay;
   if (replay.is_wanted())
-    sources.measured = make_measured_links(replay, make_modems(config), scenario, folder);
-  schedule_changes(config, scenario, folder, sources.timeline);
+    sources.measured = make_measured_links(replay, make_modems(config), scenario);
+  schedule_changes(config, scenario, sources.timeline);
   return sources;
 }
 
@@ -97,9 +95,8 @@ WaterModel make_water_model(const ChannelServerConfig& config, const WaterSource
   return water;
 }
 
-WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario,
-                            const std::string& folder) {
-  return make_water_model(config, read_water(config, scenario, folder));
+WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario) {
+  return make_water_model(config, read_water(config, scenario));
 }
 
 }  // namespace halocline::channel_server

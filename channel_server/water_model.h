@@ -38,14 +38,12 @@ WaterModel ray_model(const acoustics::Environment& environment, const RayModel& 
 
 // Adds the scenario's changes to the timeline. Throws InvalidArgument when one cannot be.
 void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
-                      const std::string& folder, EnvironmentTimeline& timeline);
+                      EnvironmentTimeline& timeline);
 
-// As a scenario whose file lies in `folder` describes it. Throws InvalidArgument when that is impossible.
-WaterSources read_water(const ChannelServerConfig& config, const bus::Scenario& scenario,
-                        const std::string& folder);
+// As a scenario describes it. Throws InvalidArgument when that is impossible.
+WaterSources read_water(const ChannelServerConfig& config, const bus::Scenario& scenario);
 // The one way from a scenario to its propagation: of the server, of surveys of links, of waveforms.
 WaterModel make_water_model(const ChannelServerConfig& config, const WaterSources& sources);
-WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario,
-                            const std::string& folder);
+WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario);
 
 }  // namespace halocline::channel_server

@@ -118,9 +118,9 @@ modem_config_t to_message(const VehicleModem& modem, SimTime from) {
   message.bit_rate_bps = modem.modem.bit_rate_bps;
   message.packet_overhead_s = modem.modem.packet_overhead.seconds();
   message.max_payload_bytes = modem.max_payload_bytes;
-  require(is_valid_name(modem.profile),
-          "modem profile '" + modem.profile + "' is a file, which modem_config_t cannot name");
-  message.modem_profile = modem.profile;
+  require(is_valid_name(modem.profile.given()),
+          "modem profile '" + modem.profile.given() + "' is a file, which modem_config_t cannot name");
+  message.modem_profile = modem.profile.given();
   message.preamble_s = modem.modem.preamble.seconds();
   message.guard_time_s = modem.modem.guard_time.seconds();
   message.guard_taper_s = seconds_of(modem.modem.guard_taper);

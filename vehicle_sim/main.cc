@@ -49,8 +49,8 @@ int main(int argc, char** argv) {
   };
   // The ground that hulls touch is the same terrain that the bathymetry service answers from, made in this process.
   program.make_node = [&](const NodeProgram::Context& context) {
-    const auto prepared = prepare_terrain(recipe, {context.scenario.origin_latitude_deg,
-                                                   context.scenario.origin_longitude_deg, context.folder});
+    const auto prepared = prepare_terrain(
+        recipe, {context.scenario.origin_latitude_deg, context.scenario.origin_longitude_deg});
     const auto seabed = std::make_shared<TerrainSeabed>(prepared.terrain);
     if (context.file != nullptr) {
       check_starts(context.scenario, *seabed, extent_text(*prepared.terrain), *context.file);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle_sim/model_config.h"
 
-#include <filesystem>
 #include <limits>
 #include <string_view>
 
+#include "bus/config/carried_files.h"
 #include "core/check.h"
+#include "core/files/file_path.h"
 #include "vehicle_sim/dynamics/actuators.h"
 #include "vehicle_sim/model_library.h"
 #include "vehicle_sim/sensor_config.h"
@@ -246,10 +247,13 @@ void visit(ConfigVisitor& v, ModelParameters& p) {
   visit_ballast(v, p);
 }
 
-bool names_a_model_file(const std::string& model) { return model.ends_with(".toml"); }
+bool names_a_model_file(const FilePath& model) {
+  return bus::names_a_file(model.place(), bus::FileNames::kShipped);
+}
 
-ModelFile load_model(const std::string& model, const std::string& folder) {
-  if (!names_a_model_file(model)) {
+ModelFile load_model(const FilePath& file_or_name) {
+  const std::string& model = file_or_name.place();
+  if (!names_a_model_file(file_or_name)) {
     std::string names;
     for (const std::string& name : built_in_models()) names += name + ", ";
     require(is_built_in(model),
@@ -257,7 +261,7 @@ ModelFile load_model(const std::string& model, const std::string& folder) {
     if (const auto programmed = programmed_model(model)) return {*programmed, {}};
     return parse_model(built_in_model_text(model), model);
   }
-  auto file = bus::ConfigFile::load((std::filesystem::path(folder) / model).string());
+  auto file = bus::ConfigFile::load_named(file_or_name);
   return read_model(file);
 }
 

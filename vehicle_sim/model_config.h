@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bus/config/config.h"
+#include "core/files/file_path.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/sensors/sensor_settings.h"
 
@@ -21,7 +22,7 @@ namespace halocline::vehicle_sim {
 void visit(bus::ConfigVisitor& v, ModelParameters& parameters);
 
 // True for what names a file rather than a built-in model.
-bool names_a_model_file(const std::string& model);
+bool names_a_model_file(const FilePath& model);
 
 // What such a file holds.
 struct ModelFile {
@@ -29,9 +30,9 @@ struct ModelFile {
   std::optional<SensorSettings> sensors;  // where it has [sensors]
 };
 
-// A built-in model by name, or the file of that path (ending in .toml), relative to `folder`. Throws
+// A built-in model by name, or a file (ending in .toml). Throws
 // bus::ConfigErrors with what is wrong in the file, InvalidArgument for a name that is none.
-ModelFile load_model(const std::string& model, const std::string& folder = ".");
+ModelFile load_model(const FilePath& model);
 
 // The same from text; `name_for_errors` stands for the file.
 ModelFile parse_model(const std::string& text, const std::string& name_for_errors);

@@ -10,9 +10,8 @@
 
 namespace halocline::vehicle_sim {
 
-// Of a scenario whose file lies in `folder`; null where it has none, or none with currents, or they do not count. Throws
+// Null where the scenario has no file, or none with currents, or they do not count. Throws
 // InvalidArgument where its file cannot be read (ocean/ocean_field_reader.h).
-std::shared_ptr<const ocean::OceanField> moving_ocean(const bus::Scenario& scenario,
-                                                      const std::string& folder);
+std::shared_ptr<const ocean::OceanField> moving_ocean(const bus::Scenario& scenario);
 
 }  // namespace halocline::vehicle_sim

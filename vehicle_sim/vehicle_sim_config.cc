@@ -10,8 +10,10 @@
 #include <optional>
 #include <string_view>
 
+#include "bus/config/carried_files.h"
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/files/file_path.h"
 #include "ocean/ocean_field.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
@@ -185,11 +187,12 @@ void visit_common_sensors(ConfigVisitor& v, SensorSettings& sensors) {
 
 // The sensors of the file of the vehicle's model.
 std::optional<SensorSettings> sensors_of_model(ConfigVisitor& v) {
-  std::string model = built_in_models().front();
-  v.text("model", model, {}, "what moves it");
-  if (v.writing() || !names_a_model_file(model)) return std::nullopt;
+  if (v.writing()) return std::nullopt;
+  FilePath model = built_in_models().front();
+  v.file("model", model, bus::FileNames::kShipped, "what moves it");
+  if (!names_a_model_file(model)) return std::nullopt;
   std::optional<SensorSettings> sensors;
-  bus::report_refusal(v, "model", [&] { sensors = load_model(model, v.folder()).sensors; });
+  bus::report_refusal(v, "model", [&] { sensors = load_model(model).sensors; });
   return sensors;
 }
 
@@ -251,16 +254,16 @@ FleetTether tether_of(const TetherEntry& entry, const std::vector<FleetMember>& 
 
 // The key itself belongs to the scenario, which also writes it; here it is only looked at.
 void check_models(ConfigVisitor& v) {
-  std::vector<std::string> models;
+  std::vector<FilePath> models;
   std::string known = kFixed + ", " + kExternal;
   for (const std::string& name : built_in_models()) known = name + ", " + known;
   v.list(
       "vehicle", "", 0, [&](std::size_t n) { models.resize(n, built_in_models().front()); },
       [&](ConfigVisitor& item, std::size_t i) {
         item.shared_with_others();
-        item.text("model", models[i], {}, "what moves it");
+        item.file("model", models[i], bus::FileNames::kShipped, "what moves it");
         const bool is_ours = models[i] == kFixed || models[i] == kExternal || names_a_model_file(models[i]);
-        if (!is_ours && !is_built_in(models[i]))
+        if (!is_ours && !is_built_in(models[i].place()))
           item.problem("model", "allowed are " + known + ", or a model file ending in .toml");
       });
 }
@@ -275,8 +278,8 @@ VehicleState start_of(const bus::VehicleEntry& entry, const Vec3& current_ned) {
   return start;
 }
 
-std::shared_ptr<const Model> model_for(const std::string& name, const VehicleSimConfig& config) {
-  ModelParameters parameters = load_model(name, config.model_folder).parameters;
+std::shared_ptr<const Model> model_for(const FilePath& name, const VehicleSimConfig& config) {
+  ModelParameters parameters = load_model(name).parameters;
   parameters.buoyancy_n *= config.buoyancy_over_weight;
   if (config.current_treatment == TreatmentChoice::kUpstream)
     parameters.current_treatment = CurrentTreatment::kUpstream;
@@ -288,7 +291,6 @@ std::shared_ptr<const Model> model_for(const std::string& name, const VehicleSim
 }  // namespace
 
 void visit(ConfigVisitor& v, VehicleSimConfig& config) {
-  if (!v.writing()) config.model_folder = v.folder();
   const SimDuration allowed_silence = v.writing() ? SimDuration() : longest_gap(v);
   v.section("vehicle_sim", "The vehicle simulator",
             [&](ConfigVisitor& section) { visit_section(section, config, allowed_silence); });
@@ -301,17 +303,18 @@ void visit(ConfigVisitor& v, VehicleSimConfig& config) {
 std::vector<FleetMember> members_of(const bus::Scenario& scenario, const VehicleSimConfig& config) {
   std::map<std::string, std::shared_ptr<const Model>> models;  // vehicles of one kind share it
   OceanCurrent current(config.current, scenario.seed);
-  const auto ocean = moving_ocean(scenario, config.model_folder);
+  const auto ocean = moving_ocean(scenario);
   std::vector<FleetMember> members;
   for (const bus::VehicleEntry& entry : scenario.vehicles) {
     if (entry.model == kExternal) continue;
     const bool is_fixed = entry.model == kFixed;
-    if (!is_fixed && !models.contains(entry.model)) models[entry.model] = model_for(entry.model, config);
+    if (!is_fixed && !models.contains(entry.model.place()))
+      models[entry.model.place()] = model_for(entry.model, config);
     const double depth = depth_below_surface_m(entry.start_ned_m, scenario.sea_surface_z_m);
     Vec3 current_there = current.everywhere(SimTime(), config.step).velocity_mps + current.at_depth(depth);
     if (ocean)
       current_there += ocean->current_ned_mps({entry.start_ned_m.x(), entry.start_ned_m.y(), depth}, 0);
-    members.push_back({entry.name, is_fixed ? nullptr : models.at(entry.model),
+    members.push_back({entry.name, is_fixed ? nullptr : models.at(entry.model.place()),
                        start_of(entry, current_there), to_settings(entry.battery)});
   }
   return members;
@@ -323,7 +326,7 @@ FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig&
   settings.command_timeout = config.command_timeout;
   settings.sea_surface_z_m = scenario.sea_surface_z_m;
   settings.current = config.current;
-  settings.ocean = moving_ocean(scenario, config.model_folder);
+  settings.ocean = moving_ocean(scenario);
   settings.waves = config.waves;
   settings.seed = scenario.seed;
   settings.seabed_friction = config.seabed_friction;

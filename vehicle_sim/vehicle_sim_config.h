@@ -86,7 +86,6 @@ struct VehicleSimConfig {
   SensorSettings sensors;                // of every vehicle without its own
   std::vector<VehicleSensors> vehicles;  // of the scenario
   std::vector<FaultEntry> faults;
-  std::string model_folder = ".";  // where the paths of model files start; not in the file
 };
 
 // Sections [vehicle_sim], [vehicle_sim.current], [vehicle_sim.waves], [sensors], [vehicle.sensors],

@@ -110,13 +110,13 @@ void GdalRasterSource::State::place() {
   EdgeTransform edges{};
   const bool placed = dataset->GetGeoTransform(edges.data()) == CE_None;
   require(placed || options.bounds,
-          options.path + ": the raster has no geotransform; give its bounds and row order");
+          options.path.place() + ": the raster has no geotransform; give its bounds and row order");
   require(!placed || !options.bounds,
-          options.path + ": the raster has a geotransform; bounds would contradict it");
+          options.path.place() + ": the raster has a geotransform; bounds would contradict it");
   if (!placed) edges = edges_of(*options.bounds, columns, rows);
   posts = posts_of(edges, options.registration, columns, rows);
   require(std::abs(posts.step_x * posts.step_y - posts.skew_x * posts.skew_y) > 0,
-          options.path + ": the raster's geotransform has no inverse");
+          options.path.place() + ": the raster's geotransform has no inverse");
 }
 
 void GdalRasterSource::State::name_coordinate_system(double origin_latitude_deg) {
@@ -140,7 +140,7 @@ void GdalRasterSource::State::name_coordinate_system(double origin_latitude_deg)
     unwrap_around_origin();
     const PixelPosition origin = posts.pixel(origin_longitude_deg, origin_latitude_deg);
     require(origin.column >= -1 && origin.column <= columns && origin.row >= -1 && origin.row <= rows,
-            options.path +
+            options.path.place() +
                 ": the raster names no coordinate system and, read as degrees, does not hold the "
                 "scenario's origin; set coordinate_system = \"EPSG:...\" or \"local\"");
     coordinate_system_name = "assumed WGS 84 degrees";
@@ -177,12 +177,12 @@ GdalRasterSource::GdalRasterSource(const RasterOptions& options, double origin_l
   s.origin_longitude_deg = origin_longitude_deg;
   // netCDF files without coordinates would be turned over or not by rules of their own; then the file's order
   // holds.
-  s.dataset = gdal::open(options.path, options.variable, options.bounds.has_value(), s.warnings);
+  s.dataset = gdal::open(options.path.place(), options.variable, options.bounds.has_value(), s.warnings);
   s.columns = s.dataset->GetRasterXSize();
   s.rows = s.dataset->GetRasterYSize();
-  require(s.columns >= 2 && s.rows >= 2, options.path + ": a raster needs at least 2 x 2 posts");
+  require(s.columns >= 2 && s.rows >= 2, options.path.place() + ": a raster needs at least 2 x 2 posts");
   require(options.band >= 1 && options.band <= s.dataset->GetRasterCount(),
-          options.path + ": there is no band " + std::to_string(options.band));
+          options.path.place() + ": there is no band " + std::to_string(options.band));
   s.band = s.dataset->GetRasterBand(options.band);
   const auto declared = [&](const char* key) {
     const char* text = s.band->GetMetadataItem(key);
@@ -208,7 +208,7 @@ RasterSource::LocalPosts GdalRasterSource::local_posts() const {
   const PostTransform& p = state_.posts;
   require(p.skew_x == 0 && p.skew_y == 0 && p.step_x > 0 &&
               std::abs(p.step_x - std::abs(p.step_y)) <= 1e-9 * p.step_x,
-          state_.options.path + ": a local raster needs square pixels along north and east");
+          state_.options.path.place() + ": a local raster needs square pixels along north and east");
   const bool south_first = p.step_y > 0;
   return {south_first ? p.origin_y : p.origin_y + p.step_y * (state_.rows - 1), p.origin_x, p.step_x,
           south_first};
@@ -248,10 +248,10 @@ RasterWindow GdalRasterSource::read(const PixelPosition& low, const PixelPositio
                                      : window_between(low, high, 0, s.columns - 1, s.rows);
   if (window.columns == 0) return window;
   const std::int64_t posts = std::int64_t{window.columns} * window.rows;
-  require(posts <= kMaxPostsRead, s.options.path + ": the scenario covers " + std::to_string(posts) +
+  require(posts <= kMaxPostsRead, s.options.path.place() + ": the scenario covers " + std::to_string(posts) +
                                       " posts of the raster, more than 2^28; take a smaller domain");
   require_memory(static_cast<double>(posts) * sizeof(float),
-                 "the part of " + s.options.path + " under the terrain", "take a smaller domain");
+                 "the part of " + s.options.path.place() + " under the terrain", "take a smaller domain");
   window.depths_m.resize(static_cast<std::size_t>(posts));
   const int end_column = window.first_column + window.columns;
   for (int column = window.first_column; column < end_column;) {

@@ -113,10 +113,10 @@ class NetcdfRasterSource final : public RasterSource {
         latitudes_(std::move(latitudes)),
         longitudes_(std::move(longitudes)) {
     require(options.registration == Registration::kAsDeclared,
-            options.path + ": registration = node needs evenly spaced axes");
-    require(!options.bounds, options.path + ": the raster has axes; bounds would contradict them");
+            options.path.place() + ": registration = node needs evenly spaced axes");
+    require(!options.bounds, options.path.place() + ": the raster has axes; bounds would contradict them");
     ocean::move_seam(longitudes_, origin_longitude_deg);
-    require(columns() >= 2 && rows() >= 2, options.path + ": a raster needs at least 2 x 2 posts");
+    require(columns() >= 2 && rows() >= 2, options.path.place() + ": a raster needs at least 2 x 2 posts");
     place_band();
     const std::string unit = file_->text(variable_, "units");
     metres_ =
@@ -141,7 +141,7 @@ class NetcdfRasterSource final : public RasterSource {
   }
   PixelPosition pixel_at_local(double, double) const override { return {std::nan(""), std::nan("")}; }
   LocalPosts local_posts() const override {
-    throw InvalidArgument(options_.path + ": a local raster needs evenly spaced axes in metres");
+    throw InvalidArgument(options_.path.place() + ": a local raster needs evenly spaced axes in metres");
   }
   RasterWindow read(const PixelPosition& low, const PixelPosition& high, PostCounts& counts) const override;
 
@@ -160,7 +160,7 @@ class NetcdfRasterSource final : public RasterSource {
       from_[d] = rest % length;
       rest /= length;
     }
-    require(rest == 0, options_.path + ": there is no band " + std::to_string(options_.band));
+    require(rest == 0, options_.path.place() + ": there is no band " + std::to_string(options_.band));
   }
   // What stands for no data beside what the file declares, as a value that is unpacked.
   double extra_no_data() const {
@@ -187,7 +187,7 @@ RasterWindow NetcdfRasterSource::read(const PixelPosition& low, const PixelPosit
   RasterWindow window = window_between(low, high, 0, columns() - 1, rows());
   if (window.columns == 0) return window;
   const std::int64_t posts = std::int64_t{window.columns} * window.rows;
-  require(posts <= kMostPosts, options_.path + ": the scenario covers " + std::to_string(posts) +
+  require(posts <= kMostPosts, options_.path.place() + ": the scenario covers " + std::to_string(posts) +
                                    " posts of the raster, more than 2^28; take a smaller domain");
   const auto places = [](const Axis& axis, int first, int count) {
     return std::vector(axis.places.begin() + first, axis.places.begin() + first + count);
@@ -235,11 +235,11 @@ std::unique_ptr<NetcdfFile> open_file(const std::string& path) {
 
 std::unique_ptr<RasterSource> open_uneven_netcdf(const RasterOptions& options, double origin_latitude_deg,
                                                  double origin_longitude_deg) {
-  const bool is_name = is_any_raster_allowed() && !why_unreadable(options.path).empty();
-  if (is_name || options.path.starts_with("/vsimem/") ||
-      ocean::netcdf_kind_of(options.path) == ocean::NetcdfKind::kNone)
+  const std::string& path = options.path.place();
+  const bool is_name = is_any_raster_allowed() && !why_unreadable(path).empty();
+  if (is_name || path.starts_with("/vsimem/") || ocean::netcdf_kind_of(path) == ocean::NetcdfKind::kNone)
     return nullptr;
-  std::unique_ptr<NetcdfFile> file = open_file(options.path);
+  std::unique_ptr<NetcdfFile> file = open_file(path);
   const std::optional<Layout> layout = file ? find_layout(*file, options.variable) : std::nullopt;
   if (!layout) return nullptr;
   if (layout->latitude.empty() || layout->longitude.empty()) {

@@ -130,7 +130,7 @@ void resample_block(const PostMap& map, const RasterWindow& window, int i0, int 
 
 RasterReport report_on(const RasterOptions& options, const RasterSource& source, const RasterWindow& window,
                        const PostCounts& counts, const HeightGrid& grid) {
-  RasterReport report{.path = options.path,
+  RasterReport report{.path = options.path.place(),
                       .coordinate_system = source.coordinate_system(),
                       .vertical_datum = source.vertical_datum(),
                       .datum_offset_m = options.datum_offset_m,
@@ -150,7 +150,7 @@ RasterReport report_on(const RasterOptions& options, const RasterSource& source,
     report.deepest_m = std::isnan(z) ? report.deepest_m : std::max(report.deepest_m, double{z});
   }
   require(report.posts_without_depth < grid.posts().size(),
-          options.path + ": the raster has no depth anywhere in the scenario's domain");
+          options.path.place() + ": the raster has no depth anywhere in the scenario's domain");
   if (report.undeclared_no_data > 0)
     report.warnings.push_back(
         std::to_string(report.undeclared_no_data) +
@@ -188,7 +188,7 @@ LoadedRaster read_local_raster(const RasterOptions& options) {
   const std::unique_ptr<const RasterSource> opened = RasterSource::open(options, 0, 0);
   const RasterSource& source = *opened;
   require(source.is_local(),
-          options.path + ": the raster is not in local metres; set coordinate_system = \"local\"");
+          options.path.place() + ": the raster is not in local metres; set coordinate_system = \"local\"");
   const RasterSource::LocalPosts posts = source.local_posts();
   PostCounts counts;
   RasterWindow window = source.read({0, 0}, {source.columns() - 1.0, source.rows() - 1.0}, counts);
@@ -209,7 +209,7 @@ LoadedRaster read_local_raster(const RasterOptions& options) {
 // As `reading` does; what HDF5 reads (netCDF-4, BAG), behind the guard.
 template <class Reading>
 LoadedRaster load(const RasterOptions& options, const Reading& reading) {
-  return is_hdf5(options.path) ? guarded_reading({options.path}, reading) : reading();
+  return is_hdf5(options.path.place()) ? guarded_reading({options.path.place()}, reading) : reading();
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "core/files/file_path.h"
+
 namespace halocline::bathymetry {
 
 // Where the outermost posts lie relative to the bounds that the file declares.
@@ -32,7 +34,7 @@ inline constexpr const char* kAnyRaster = "HALOCLINE_ANY_RASTER";
 inline bool is_any_raster_allowed() { return std::getenv(kAnyRaster) != nullptr; }
 
 struct RasterOptions {
-  std::string path = {};      // of a file
+  FilePath path = {};         // of a file
   std::string variable = {};  // of a netCDF or HDF file with several; empty: the only one with two dimensions
   int band = 1;               // from 1
 

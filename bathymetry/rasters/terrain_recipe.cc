@@ -30,16 +30,6 @@ bool is_whole_multiple(double size_m, double spacing_m) {
   return count >= 1 && count <= kMaxCells && std::abs(count - std::round(count)) <= kDecimalTolerance;
 }
 
-// Absolute paths are taken as they are, as are GDAL's own names ("WMS:...", "/vsi...") where they are
-// allowed.
-RasterOptions located(RasterOptions options, const std::string& folder) {
-  require(!options.path.empty(), "terrain.raster.path is missing; it names a raster file");
-  const bool is_name = is_any_raster_allowed() && options.path.find(':') != std::string::npos;
-  const bool relative = options.path.front() != '/' && !is_name;
-  if (relative && !folder.empty()) options.path = folder + "/" + options.path;
-  return options;
-}
-
 // None of a raster.
 std::optional<Shape> shape_of(const TerrainRecipe& recipe) {
   switch (recipe.kind) {
@@ -74,10 +64,11 @@ BottomFormula formula_of(const TerrainRecipe& recipe, const Shape& shape) {
   };
 }
 
-HeightGrid base_grid(const TerrainRecipe& recipe, const LocalFrame& frame, const Site& site,
+HeightGrid base_grid(const TerrainRecipe& recipe, const LocalFrame& frame,
                      std::vector<RasterReport>& reports) {
   if (const auto shape = shape_of(recipe)) return make_grid(grid_of(recipe), *shape);
-  const RasterOptions options = located(recipe.raster, site.folder);
+  const RasterOptions& options = recipe.raster;
+  require(!options.path.empty(), "terrain.raster.path is missing; it names a raster file");
   LoadedRaster loaded =
       recipe.whole_file ? load_local_raster(options) : load_raster(options, frame, recipe.domain.geometry());
   reports.push_back(std::move(loaded.report));
@@ -154,12 +145,13 @@ PreparedTerrain prepare_terrain(const TerrainRecipe& recipe, const Site& site) {
   const LocalFrame frame(recipe.frame, to_radians(site.origin_latitude_deg),
                          to_radians(site.origin_longitude_deg));
   PreparedTerrain prepared;
-  HeightGrid base = base_grid(recipe, frame, site, prepared.rasters);
+  HeightGrid base = base_grid(recipe, frame, prepared.rasters);
   const bool rough = recipe.relief.rms_m > 0;
   if (rough) add_relief(recipe.relief, base);
   std::vector<NestedGrid> nested;
   for (const NestedRecipe& inner : recipe.nested) {
-    LoadedRaster loaded = load_raster(located(inner.raster, site.folder), frame, inner.domain.geometry());
+    require(!inner.raster.path.empty(), "terrain.nested.raster.path is missing; it names a raster file");
+    LoadedRaster loaded = load_raster(inner.raster, frame, inner.domain.geometry());
     if (rough) add_relief(recipe.relief, loaded.grid);
     prepared.rasters.push_back(std::move(loaded.report));
     nested.push_back({std::move(loaded.grid), inner.blend_width_m, inner.holes});

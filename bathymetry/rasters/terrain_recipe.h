@@ -7,7 +7,7 @@
 // shape and its relief go on beyond the grid without end, at the grid's spacing; a raster ends where its grid
 // does.
 //
-//   const PreparedTerrain prepared = prepare_terrain(recipe, {29.9167, -28.4167, scenario_folder});
+//   const PreparedTerrain prepared = prepare_terrain(recipe, {29.9167, -28.4167});
 #pragma once
 
 #include <cstdint>
@@ -68,7 +68,6 @@ struct TerrainRecipe {
 // Where the scenario lies.
 struct Site {
   double origin_latitude_deg = 0, origin_longitude_deg = 0;
-  std::string folder = {};  // relative raster paths start here
 };
 
 struct PreparedTerrain {

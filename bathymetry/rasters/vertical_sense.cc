@@ -14,9 +14,9 @@ bool holds_depths(const std::string& positive, const std::string& standard_name,
   const bool is_height =
       standard_name.starts_with("height") || standard_name.find("altitude") != std::string::npos;
   const bool down = sense == "down" || is_depth, up = sense == "up" || is_height;
-  require(!(down && up), options.path + ": positive is \"" + positive + "\" with the standard name " +
+  require(!(down && up), options.path.place() + ": positive is \"" + positive + "\" with the standard name " +
                              standard_name + ": they contradict each other");
-  require(!(up && options.positive_down), options.path + ": the file declares heights (positive \"" +
+  require(!(up && options.positive_down), options.path.place() + ": the file declares heights (positive \"" +
                                               positive + "\", standard name \"" + standard_name +
                                               "\"); allowed is positive_down = false");
   return down || options.positive_down;

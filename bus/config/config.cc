@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/files/file_path.h"
 #include "core/files/input_file.h"
 #include "core/units.h"
 
@@ -42,12 +43,16 @@ void seconds(ConfigVisitor& v, std::string_view key, SimDuration& value, const N
   value = SimDuration::from_seconds(value_s);
 }
 
-void require_readable(ConfigVisitor& v, std::string_view key, const std::string& path) {
+void require_readable(ConfigVisitor& v, std::string_view key, const FilePath& path) {
   if (v.writing()) return;
-  const std::string whole = (std::filesystem::path(v.folder()) / path).string();
-  const std::string reason = path.empty() ? "" : why_unreadable(whole);
-  if (path.empty()) v.problem(key, "allowed is the name of a file");
-  if (!reason.empty()) v.problem(key, "cannot read " + whole + ": " + reason);
+  if (path.empty()) return v.problem(key, "allowed is the name of a file");
+  const std::string reason = why_unreadable(path.place());
+  if (reason.empty()) return;
+  const auto* origin = static_cast<const FileOrigin*>(path.origin().get());
+  const bool is_recorded = origin != nullptr && origin->unpacked != nullptr;
+  const std::string difference = is_recorded ? origin->unpacked->difference(path.given()) : "";
+  v.problem(key, "cannot read " + path.place() + ": " + reason +
+                     (difference.empty() ? "" : "; " + difference + "; --set names it anew"));
 }
 
 void report_refusal(ConfigVisitor& v, std::string_view key, const std::function<void()>& attempt) {

@@ -21,7 +21,9 @@
 #include <string_view>
 #include <vector>
 
+#include "bus/config/carried_files.h"
 #include "core/check.h"
+#include "core/files/file_path.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 
@@ -46,6 +48,12 @@ class ConfigVisitor {
   // `allowed` empty: any text.
   virtual void text(std::string_view key, std::string& value, const std::vector<std::string>& allowed,
                     std::string_view meaning) = 0;
+  // A file: given relative to the file in which the key stands, or on the command line to the working
+  // directory. What a key names is read from FilePath::place() wherever the program runs.
+  virtual void file(std::string_view key, FilePath& value, FileNames names, std::string_view meaning) = 0;
+  // Several, with blanks between.
+  virtual void files(std::string_view key, std::vector<FilePath>& values, FileNames names,
+                     std::string_view meaning) = 0;
   // An array of exactly three numbers, or of any count.
   virtual void vector3(std::string_view key, Vec3& value, const NumberRule& rule) = 0;
   virtual void numbers(std::string_view key, std::vector<double>& values, const NumberRule& rule) = 0;
@@ -63,8 +71,6 @@ class ConfigVisitor {
   virtual bool given(std::string_view key) const = 0;
   // True when configuration is written: values that hold are to be visited, whatever `given` says.
   virtual bool writing() const = 0;
-  // The folder that relative paths in the file start from: the one that holds it; "." when writing.
-  virtual std::string folder() const = 0;
   // Reports that the key's value is impossible in a way that no rule covers; for checks across keys.
   virtual void problem(std::string_view key, std::string_view what_is_allowed) = 0;
   // This table also holds keys that other programs read: unknown ones are not errors here.
@@ -123,8 +129,8 @@ std::vector<std::string> names_of(const std::array<Enum, count>& values) {
 // A duration, in seconds in the file (its key ends in _s).
 void seconds(ConfigVisitor& v, std::string_view key, SimDuration& value, const NumberRule& rule_in_seconds);
 
-// The value of `key` names a file, from folder(): what cannot be read becomes an error with the reason.
-void require_readable(ConfigVisitor& v, std::string_view key, const std::string& path);
+// A file that `key` names and that cannot be read becomes an error with the reason.
+void require_readable(ConfigVisitor& v, std::string_view key, const FilePath& path);
 
 // What `attempt` refuses (InvalidArgument) becomes an error of the file, with the line of `key`, beside all
 // others.
@@ -155,6 +161,9 @@ class ConfigFile {
   // Throws ConfigErrors when the file cannot be read or is no TOML. Each override is "section.key=value" with
   // value in TOML; "vehicle.0.key=value" reaches into an array of tables.
   static ConfigFile load(const std::string& path, const std::vector<std::string>& overrides = {});
+  // A file that another configuration names; it is carried along with the files that it names in turn, and
+  // its warnings become those of the other.
+  static ConfigFile load_named(const FilePath& path);
   static ConfigFile parse(const std::string& text, const std::string& name_for_errors,
                           const std::vector<std::string>& overrides = {});
   ~ConfigFile();
@@ -177,19 +186,20 @@ class ConfigFile {
   // "file:line: key is value; ...", in the order found.
   const std::vector<std::string>& warnings() const;
 
-  std::string folder() const;  // as ConfigVisitor::folder
   const std::string& path() const;
   // The document with its overrides as TOML: keys in alphabetical order, no comments, without the keys `left_out`
-  // ("section.key").
+  // ("section.key"); and with the files that it names (carried_files.h), so that it reads the same anywhere.
   std::string to_toml(const std::vector<std::string>& left_out = {}) const;
 
  private:
-  explicit ConfigFile(std::unique_ptr<ConfigDocument> document);
-  std::unique_ptr<ConfigDocument> document_;
+  explicit ConfigFile(std::shared_ptr<ConfigDocument> document);
+  std::shared_ptr<ConfigDocument> document_;
 };
 
 // The configuration as TOML: every key that counts with its value; with_comments every key, with unit, range
 // and meaning.
+// Files are named by their absolute places, or carried along (`to_portable_toml`).
 std::string to_toml(const std::function<void(ConfigVisitor&)>& body, bool with_comments);
+std::string to_portable_toml(const std::function<void(ConfigVisitor&)>& body);
 
 }  // namespace halocline::bus

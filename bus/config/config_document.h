@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -14,7 +15,9 @@
 
 #include <toml++/toml.h>
 
+#include "bus/config/carried_files.h"
 #include "bus/config/config.h"
+#include "core/files/file_path.h"
 #include "core/frames.h"
 
 namespace halocline::bus {
@@ -32,6 +35,13 @@ struct ConfigDocument {
   std::vector<std::pair<const toml::node*, std::string>> idle;  // and that did not, each with its warning
   std::set<const toml::table*> entered;                         // tables that a read entered
   std::set<const toml::table*> shared;  // tables whose other keys are read by other programs
+  // Files that keys name, by the key's value.
+  struct Files {
+    std::vector<FilePath> paths;
+    FileNames names = FileNames::kFiles;
+  };
+  std::map<const toml::node*, Files> files;
+  std::shared_ptr<UnpackedFiles> unpacked;  // that the configuration carries; null for none
   // Keys that some read looked for, by the table they stand in ("vehicle.modem."; items of a list share one).
   std::map<std::string, std::set<std::string, std::less<>>> known;
 
@@ -39,13 +49,19 @@ struct ConfigDocument {
   std::string place_of(const toml::node& node) const;
   [[nodiscard]] bool is_override(const toml::node& node) const;
   std::string folder() const;
+  // The file that the key of `node` names, with its place. Twice for one key: the same origin.
+  FilePath resolved(const toml::node& node, const std::string& given, FileNames names);
+  // Takes the tables [[file]] out of the document. Throws ConfigErrors for what cannot be one.
+  void unpack_files();
   // Kept once, however often it is found.
   void add_error(const std::string& error);
   void add_warning(const std::string& warning);
 };
 
-// The table as TOML, keys in alphabetical order.
-std::string to_text(const toml::table& table);
+// The document as TOML, keys in alphabetical order, without the keys `left_out` ("section.key"); files by
+// their names in `files`.
+std::string to_text(const ConfigDocument& document, const std::vector<std::string>& left_out,
+                    CarriedFiles& files);
 
 // A number and a text as TOML has them.
 std::string exact(double value);
@@ -73,6 +89,9 @@ class ConfigReader : public ConfigVisitor {
   void boolean(std::string_view key, bool& value, std::string_view meaning) override;
   void text(std::string_view key, std::string& value, const std::vector<std::string>& allowed,
             std::string_view meaning) override;
+  void file(std::string_view key, FilePath& value, FileNames names, std::string_view meaning) override;
+  void files(std::string_view key, std::vector<FilePath>& values, FileNames names,
+             std::string_view meaning) override;
   void vector3(std::string_view key, Vec3& value, const NumberRule& rule) override;
   void numbers(std::string_view key, std::vector<double>& values, const NumberRule& rule) override;
   void points(std::string_view key, std::vector<Vec3>& values, const NumberRule& rule) override;
@@ -86,12 +105,13 @@ class ConfigReader : public ConfigVisitor {
     return table_.contains(key);
   }
   bool writing() const override { return false; }
-  std::string folder() const override { return document_.folder(); }
   void problem(std::string_view key, std::string_view what_is_allowed) override;
   void shared_with_others() override { document_.shared.insert(&table_); }
 
  private:
   toml::node* find(std::string_view key);
+  // The node of a key that names files, and its text; null where it is not given, or no text.
+  const toml::node* find_files(std::string_view key, std::string& given, std::string_view meaning);
   void note(std::string_view key) const;
   void note_use(const toml::node& node, std::string_view key);
   void fail(const toml::node& node, std::string_view key, const std::string& allowed);

@@ -11,8 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "bus/config/carried_files.h"
 #include "bus/config/config.h"
 #include "bus/config/config_document.h"
+#include "core/files/file_path.h"
 #include "core/files/input_file.h"
 #include "core/names.h"
 
@@ -197,22 +199,34 @@ std::string finding(ConfigDocument& document, const std::string& key, const std:
          (node != nullptr ? value_text(*node) : value + " by default") + "; " + remark;
 }
 
-std::unique_ptr<ConfigDocument> parsed(const std::string& text, const std::string& path,
+// Warnings of the files in TOML that have been read.
+void add_warnings_of_files(ConfigDocument& document) {
+  for (const auto& [node, files] : document.files) {
+    for (const FilePath& path : files.paths) {
+      const auto* origin = static_cast<const FileOrigin*>(path.origin().get());
+      if (origin == nullptr || !origin->document || !document.counting.contains(node)) continue;
+      for (const std::string& warning : origin->document->warnings) document.add_warning(warning);
+    }
+  }
+}
+
+std::shared_ptr<ConfigDocument> parsed(const std::string& text, const std::string& path,
                                        const std::vector<std::string>& overrides) {
-  auto document = std::make_unique<ConfigDocument>();
+  auto document = std::make_shared<ConfigDocument>();
   document->path = path;
   try {
     document->root = parsed_table(text, path);
   } catch (const toml::parse_error& error) {
     throw ConfigErrors({parse_error_text(path, error)});
   }
+  document->unpack_files();
   for (const std::string& text_of_override : overrides) apply_override(document->root, text_of_override);
   return document;
 }
 
 }  // namespace
 
-ConfigFile::ConfigFile(std::unique_ptr<ConfigDocument> document) : document_(std::move(document)) {}
+ConfigFile::ConfigFile(std::shared_ptr<ConfigDocument> document) : document_(std::move(document)) {}
 ConfigFile::~ConfigFile() = default;
 ConfigFile::ConfigFile(ConfigFile&&) noexcept = default;
 ConfigFile& ConfigFile::operator=(ConfigFile&&) noexcept = default;
@@ -232,6 +246,15 @@ ConfigFile ConfigFile::load(const std::string& path, const std::vector<std::stri
   return ConfigFile(parsed(text, path, overrides));
 }
 
+ConfigFile ConfigFile::load_named(const FilePath& path) {
+  ConfigFile file = load(path.place(), {});
+  auto* origin = static_cast<FileOrigin*>(path.origin().get());
+  if (origin == nullptr) return file;
+  file.document_->unpacked = origin->unpacked;
+  origin->document = file.document_;
+  return file;
+}
+
 ConfigFile ConfigFile::parse(const std::string& text, const std::string& name_for_errors,
                              const std::vector<std::string>& overrides) {
   return ConfigFile(parsed(text, name_for_errors, overrides));
@@ -247,6 +270,7 @@ void ConfigFile::check(bool whole_file) {
   collect_unknown(*document_, document_->root, "", whole_file);
   for (const auto& [node, warning] : document_->idle)
     if (!document_->counting.contains(node)) document_->add_warning(warning);
+  add_warnings_of_files(*document_);
   check_findings();
 }
 
@@ -265,20 +289,12 @@ void ConfigFile::check_findings() const {
 
 const std::vector<std::string>& ConfigFile::warnings() const { return document_->warnings; }
 
-std::string ConfigFile::folder() const { return document_->folder(); }
-
 const std::string& ConfigFile::path() const { return document_->path; }
 
 std::string ConfigFile::to_toml(const std::vector<std::string>& left_out) const {
-  toml::table root = document_->root;
-  for (const std::string& key : left_out) {
-    const auto dot = key.rfind('.');
-    toml::table* section = root.at_path(key.substr(0, dot)).as_table();
-    if (section == nullptr) continue;
-    section->erase(key.substr(dot + 1));
-    if (section->empty()) root.erase(key.substr(0, dot));
-  }
-  return to_text(root);
+  CarriedFiles files(CarriedFiles::Which::kAll);
+  const std::string text = to_text(*document_, left_out, files);
+  return text + files.to_toml();
 }
 
 }  // namespace halocline::bus

@@ -3,13 +3,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string_view>
 #include <vector>
 
+#include "bus/config/carried_files.h"
 #include "bus/config/config.h"
 #include "bus/config/config_document.h"
+#include "core/files/file_path.h"
 #include "core/frames.h"
 #include "core/names.h"
 #include "core/text/utf8.h"
@@ -67,6 +70,21 @@ bool ConfigDocument::is_override(const toml::node& node) const {
 std::string ConfigDocument::folder() const {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
+}
+
+FilePath ConfigDocument::resolved(const toml::node& node, const std::string& given, FileNames names) {
+  if (!names_a_file(given, names)) return FilePath(given);
+  for (const FilePath& known : files[&node].paths)
+    if (known.given() == given) return known;
+  const bool is_own = !is_override(node);
+  if (const auto place = is_own && unpacked ? unpacked->place_of(given) : std::nullopt) {
+    if (const std::string difference = unpacked->difference(given); !difference.empty())
+      add_warning(place_of(node) + ": " + *place + ": " + difference);
+    return {given, *place, std::make_shared<FileOrigin>(FileOrigin{unpacked, nullptr})};
+  }
+  const std::filesystem::path place =
+      is_own ? std::filesystem::path(folder()) / given : std::filesystem::path(given);
+  return {given, place.string(), std::make_shared<FileOrigin>()};
 }
 
 void ConfigDocument::add_error(const std::string& error) {
@@ -198,6 +216,32 @@ bool ConfigReader::read_point(const toml::node& node, std::string_view key, cons
   }
   value = Vec3(read[0], read[1], read[2]);
   return true;
+}
+
+const toml::node* ConfigReader::find_files(std::string_view key, std::string& given,
+                                           std::string_view meaning) {
+  const toml::node* node = find(key);
+  text(key, given, {}, meaning);
+  return node != nullptr && (node->is_string() || document_.is_override(*node)) ? node : nullptr;
+}
+
+void ConfigReader::file(std::string_view key, FilePath& value, FileNames names, std::string_view meaning) {
+  std::string given = value.given();
+  const toml::node* node = find_files(key, given, meaning);
+  if (node == nullptr) return;
+  value = document_.resolved(*node, given, names);
+  document_.files[node] = {{value}, names};
+}
+
+void ConfigReader::files(std::string_view key, std::vector<FilePath>& values, FileNames names,
+                         std::string_view meaning) {
+  std::string given;
+  const toml::node* node = find_files(key, given, meaning);
+  if (node == nullptr) return;
+  values.clear();
+  std::istringstream list(given);
+  for (std::string one; list >> one;) values.push_back(document_.resolved(*node, one, names));
+  document_.files[node] = {values, names};
 }
 
 void ConfigReader::vector3(std::string_view key, Vec3& value, const NumberRule& rule) {

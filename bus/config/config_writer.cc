@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -7,13 +8,16 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "bus/config/carried_files.h"
 #include "bus/config/config.h"
 #include "bus/config/config_document.h"
+#include "core/files/file_path.h"
 #include "core/frames.h"
 
 namespace halocline::bus {
@@ -49,48 +53,80 @@ std::string toml_quoted(const std::string& value) {
 
 namespace {
 
-// ---- a table that was read
+// ---- a document that was read
 
-std::string to_text(const toml::node& node) {
-  if (const auto* number = node.as_floating_point()) return exact(number->get());
-  if (const auto* text = node.as_string()) return toml_quoted(text->get());
-  std::ostringstream out;
-  node.visit([&](const auto& value) {
-    if constexpr (toml::is_value<decltype(value)>) out << value;
-  });
-  if (const toml::array* array = node.as_array()) {
-    const bool has_lists = !array->empty() && !array->front().is_value();
-    for (const toml::node& element : *array)
-      out << (has_lists ? "\n  " : out.tellp() == 0 ? "" : " ") << to_text(element) << ",";
-    return "[" + out.str() + (has_lists ? "\n]" : "]");
-  }
-  if (const toml::table* table = node.as_table()) {
-    for (const auto& [key, value] : *table)
-      out << (out.tellp() == 0 ? "" : ", ") << key.str() << " = " << to_text(value);
-    return "{" + out.str() + "}";
-  }
-  return out.str();
-}
+class DocumentPrinter {
+ public:
+  DocumentPrinter(const ConfigDocument& document, const std::vector<std::string>& left_out,
+                  CarriedFiles& files)
+      : document_(document), left_out_(left_out.begin(), left_out.end()), files_(files) {}
 
-// Values first, as TOML wants it.
-void print(const toml::table& table, const std::string& path, std::ostream& out) {
-  const auto is_section = [](const toml::node& node) { return node.is_table() || node.is_array_of_tables(); };
-  for (const auto& [key, value] : table) {
-    if (!is_section(value)) out << key.str() << " = " << to_text(value) << "\n";
-  }
-  for (const auto& [key, value] : table) {
-    const std::string name = path + std::string(key.str());
-    if (const toml::table* section = value.as_table()) {
-      out << "\n[" << name << "]\n";
-      print(*section, name + ".", out);
-    } else if (value.is_array_of_tables()) {
-      for (const toml::node& item : *value.as_array()) {
-        out << "\n[[" << name << "]]\n";
-        print(*item.as_table(), name + ".", out);
+  // Values first, as TOML wants it.
+  void print(const toml::table& table, const std::string& path, std::ostream& out) {
+    for (const auto& [key, value] : table) {
+      if (!is_section(value) && !left_out_.contains(path + std::string(key.str())))
+        out << key.str() << " = " << text_of(value) << "\n";
+    }
+    for (const auto& [key, value] : table) {
+      const std::string name = path + std::string(key.str());
+      if (const toml::table* section = value.as_table()) {
+        if (is_left_out(*section, name)) continue;
+        out << "\n[" << name << "]\n";
+        print(*section, name + ".", out);
+      } else if (value.is_array_of_tables()) {
+        for (const toml::node& item : *value.as_array()) {
+          out << "\n[[" << name << "]]\n";
+          print(*item.as_table(), name + ".", out);
+        }
       }
     }
   }
-}
+
+ private:
+  static bool is_section(const toml::node& node) { return node.is_table() || node.is_array_of_tables(); }
+  // A section of which everything is left out.
+  bool is_left_out(const toml::table& section, const std::string& name) const {
+    return !section.empty() && std::all_of(section.begin(), section.end(), [&](const auto& entry) {
+      return left_out_.contains(name + "." + std::string(entry.first.str()));
+    });
+  }
+  std::string text_of(const toml::node& node) {
+    if (const auto found = document_.files.find(&node); found != document_.files.end())
+      return toml_quoted(names_of(found->second));
+    if (const auto* number = node.as_floating_point()) return exact(number->get());
+    if (const auto* text = node.as_string()) return toml_quoted(text->get());
+    if (const toml::array* array = node.as_array()) return text_of(*array);
+    if (const toml::table* table = node.as_table()) return text_of(*table);
+    std::ostringstream out;
+    node.visit([&](const auto& value) {
+      if constexpr (toml::is_value<decltype(value)>) out << value;
+    });
+    return out.str();
+  }
+  std::string text_of(const toml::array& array) {
+    std::string text;
+    const bool has_lists = !array.empty() && !array.front().is_value();
+    for (const toml::node& element : array)
+      text += (has_lists ? "\n  " : text.empty() ? "" : " ") + text_of(element) + ",";
+    return "[" + text + (has_lists ? "\n]" : "]");
+  }
+  std::string text_of(const toml::table& table) {
+    std::string text;
+    for (const auto& [key, value] : table)
+      text += (text.empty() ? "" : ", ") + std::string(key.str()) + " = " + text_of(value);
+    return "{" + text + "}";
+  }
+  std::string names_of(const ConfigDocument::Files& files) {
+    std::string text;
+    for (const FilePath& path : files.paths)
+      text += (text.empty() ? "" : " ") + files_.name_of(path, files.names);
+    return text;
+  }
+
+  const ConfigDocument& document_;
+  std::set<std::string> left_out_;
+  CarriedFiles& files_;
+};
 
 // ---- structs that are written
 
@@ -131,8 +167,8 @@ struct Table {
 class Writer : public ConfigVisitor {
  public:
   // With comments every key is written; without them those that count.
-  Writer(Table& table, std::string path, bool with_comments)
-      : table_(table), path_(std::move(path)), with_comments_(with_comments) {}
+  Writer(Table& table, std::string path, bool with_comments, CarriedFiles& files)
+      : table_(table), path_(std::move(path)), with_comments_(with_comments), files_(files) {}
 
   void number(std::string_view key, double& value, const NumberRule& rule) override {
     line(key, exact(value), described(rule));
@@ -148,6 +184,15 @@ class Writer : public ConfigVisitor {
     std::string comment(meaning);
     for (std::size_t i = 0; i < allowed.size(); ++i) comment += (i == 0 ? ": " : ", ") + allowed[i];
     line(key, toml_quoted(value), comment);
+  }
+  void file(std::string_view key, FilePath& value, FileNames names, std::string_view meaning) override {
+    line(key, toml_quoted(name_of(value, names)), std::string(meaning));
+  }
+  void files(std::string_view key, std::vector<FilePath>& values, FileNames names,
+             std::string_view meaning) override {
+    std::string text;
+    for (const FilePath& value : values) text += (text.empty() ? "" : " ") + name_of(value, names);
+    line(key, toml_quoted(text), std::string(meaning));
   }
   void vector3(std::string_view key, Vec3& value, const NumberRule& rule) override {
     line(key, array(value), described(rule));
@@ -167,7 +212,7 @@ class Writer : public ConfigVisitor {
     if (is_left_out()) return;
     const std::string path = path_ + std::string(key);
     Writer nested(table_.table(std::string(key), 0, "\n" + comment_line(meaning) + "[" + path + "]\n"),
-                  path + ".", with_comments_);
+                  path + ".", with_comments_, files_);
     body(nested);
   }
   void list(std::string_view key, std::string_view meaning, std::size_t count,
@@ -177,17 +222,20 @@ class Writer : public ConfigVisitor {
     const std::string path = path_ + std::string(key);
     for (std::size_t i = 0; i < count; ++i) {
       const std::string header = "\n" + comment_line(i == 0 ? meaning : "") + "[[" + path + "]]\n";
-      Writer nested(table_.table(std::string(key), i, header), path + ".", with_comments_);
+      Writer nested(table_.table(std::string(key), i, header), path + ".", with_comments_, files_);
       item(nested, i);
     }
   }
   bool given(std::string_view) const override { return true; }
   bool writing() const override { return true; }
-  std::string folder() const override { return "."; }
   void problem(std::string_view, std::string_view) override {}
   void shared_with_others() override {}
 
  private:
+  // Keys that are left out carry nothing along.
+  std::string name_of(const FilePath& path, FileNames names) {
+    return is_left_out() ? "" : files_.name_of(path, names);
+  }
   bool is_left_out() const { return !with_comments_ && !missing_choice_.empty(); }
   void line(std::string_view key, const std::string& value, const std::string& comment) {
     if (is_left_out()) return;
@@ -210,22 +258,34 @@ class Writer : public ConfigVisitor {
   Table& table_;
   std::string path_;
   bool with_comments_;
+  CarriedFiles& files_;
 };
+
+std::string written(const std::function<void(ConfigVisitor&)>& body, bool with_comments,
+                    CarriedFiles::Which which) {
+  Table document;
+  CarriedFiles files(which);
+  Writer writer(document, "", with_comments, files);
+  body(writer);
+  std::ostringstream out;
+  document.print(out);
+  return out.str() + files.to_toml();
+}
 
 }  // namespace
 
 std::string to_toml(const std::function<void(ConfigVisitor&)>& body, bool with_comments) {
-  Table document;
-  Writer writer(document, "", with_comments);
-  body(writer);
-  std::ostringstream out;
-  document.print(out);
-  return out.str();
+  return written(body, with_comments, CarriedFiles::Which::kUnpacked);
 }
 
-std::string to_text(const toml::table& table) {
+std::string to_portable_toml(const std::function<void(ConfigVisitor&)>& body) {
+  return written(body, /*with_comments=*/false, CarriedFiles::Which::kAll);
+}
+
+std::string to_text(const ConfigDocument& document, const std::vector<std::string>& left_out,
+                    CarriedFiles& files) {
   std::ostringstream out;
-  print(table, "", out);
+  DocumentPrinter(document, left_out, files).print(document.root, "", out);
   return out.str();
 }
 

@@ -87,8 +87,6 @@ void read_scenario(const Arguments& arguments, const NodeProgram& program, NodeR
   file.read([&](ConfigVisitor& v) { visit(v, run.scenario); });
   if (program.visit_config) file.read(program.visit_config);
   file.check(/*whole_file=*/false);
-  run.folder = file.folder();
-  run.scenario.configuration = configuration_of(file);
   run.file = std::make_shared<ConfigFile>(std::move(file));
 }
 

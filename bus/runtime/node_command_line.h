@@ -21,7 +21,6 @@ namespace halocline::bus {
 struct NodeRun {
   NodeIdentity identity;
   Scenario scenario;
-  std::string folder;                // of the scenario file
   std::shared_ptr<ConfigFile> file;  // null without one
   std::string lcm_url;               // empty: the default
   std::string sync_url;

@@ -182,8 +182,7 @@ void run_in_lockstep(const NodeRun& run, const NodeProgram& program) {
   lcm::LCM memq("memq://");
   const NodeIdentity identity{run.identity.name, session_of(run.scenario.seed, run.identity.name),
                               program.stage};
-  const auto node =
-      program.make_node({memq, identity, run.scenario, run.folder, run.sync_url, true, run.file.get()});
+  const auto node = program.make_node({memq, identity, run.scenario, run.sync_url, true, run.file.get()});
   run_lockstep_participant(*node, run.sync_url, run.scenario, stop_requested);
 }
 
@@ -199,7 +198,7 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
     journal = std::make_unique<StateJournal>(run.journal, run.config_digest);
     if (journal->inherited()) identity.session = journal->inherited()->session;  // its flows go on
   }
-  const NodeProgram::Context context{*lcm,  identity,       run.scenario,      run.folder, run.sync_url,
+  const NodeProgram::Context context{*lcm,  identity,       run.scenario,      run.sync_url,
                                      false, run.file.get(), run.config_digest, url};
   if (program.run_otherwise && program.run_otherwise(context)) return;
   ReceiveFilter filter(*lcm, url,

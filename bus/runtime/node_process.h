@@ -54,12 +54,11 @@ struct NodeProgram {
   // Describes the program's own sections of the scenario file: read from it, printed by --example and
   // --print-config.
   std::function<void(ConfigVisitor&)> visit_config = nullptr;
-  // Makes the node after the configuration was read and checked; `folder` is where the scenario file lies.
+  // Makes the node after the configuration was read and checked.
   struct Context {
     lcm::LCM& lcm;
     NodeIdentity identity;
     const Scenario& scenario;
-    const std::string& folder;
     const std::string& sync_url;
     bool in_lockstep = false;    // as a participant
     ConfigFile* file = nullptr;  // the scenario file, for checks that need more than it; null without one

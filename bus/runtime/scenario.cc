@@ -7,7 +7,9 @@
 #include <set>
 #include <string>
 
+#include "bus/config/carried_files.h"
 #include "bus/runtime/receive_filter.h"
+#include "core/files/file_path.h"
 #include "core/limits.h"
 #include "core/names.h"
 
@@ -35,7 +37,7 @@ void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   if (!is_valid_name(vehicle.name)) v.problem("name", "allowed is a name of " + std::string(kNameRule));
   integer_as(v, "id", vehicle.id, {1, 2147483647, "", "unique number of the vehicle"});
   if (vehicle.id < 1) v.problem("id", "allowed is a whole number from 1");
-  v.text("model", vehicle.model, {},
+  v.file("model", vehicle.model, FileNames::kShipped,
          "torpedo, hover, remus100-pvs, a model file .toml, fixed (does not move) or external (moved by "
          "another process)");
   v.vector3("start_ned_m", vehicle.start_ned_m, {-1e6, 1e6, "m", "position at the start: north, east, down"});
@@ -64,7 +66,7 @@ bool is_valid_scenario_name(std::string_view name) {
 }
 
 void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {
-  v.text("file", ocean.file, {},
+  v.file("file", ocean.file, FileNames::kFiles,
          "CF netCDF with currents, or temperature and salinity, or both; empty: none");
   if (!ocean.file.empty() && !v.writing()) require_readable(v, "file", ocean.file);
   v.when(!ocean.file.empty(), "file = \"FILE\"", [&] {
@@ -79,6 +81,28 @@ void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {
               {1, 1e7, "s", "spans in each of which sound has the water of the span's middle"});
     });
   });
+}
+
+// The keys belong to the bathymetry service. They are looked at here so that whoever records the
+// configuration knows the files that they name.
+void look_at_rasters(ConfigVisitor& v) {
+  FilePath path;
+  const auto look = [&](ConfigVisitor& raster) {
+    raster.shared_with_others();
+    raster.file("path", path, FileNames::kRasters, "");
+  };
+  const auto look_in = [&](ConfigVisitor& terrain) {
+    terrain.shared_with_others();
+    terrain.section("raster", "", look);
+    terrain.list(
+        "nested", "", 0, [](std::size_t) {},
+        [&](ConfigVisitor& nested, std::size_t) {
+          nested.shared_with_others();
+          nested.section("raster", "", look);
+        });
+  };
+  // Their owner says whether they count.
+  v.when(false, "the bathymetry service", [&] { v.section("terrain", "", look_in); });
 }
 
 // Two vehicles with one name would publish on one channel; with one id, they would be one to all others.
@@ -147,7 +171,9 @@ void visit(ConfigVisitor& v, Scenario& s) {
   });
   v.section("ocean", "The ocean as fields of place and time",
             [&](ConfigVisitor& section) { visit_ocean(section, s.ocean); });
-  if (!v.writing()) {  // the key is the channel server's
+  if (!v.writing()) {
+    look_at_rasters(v);
+    // The key is the channel server's.
     v.section("channel_server", "", [&](ConfigVisitor& section) {
       section.shared_with_others();
       seconds(section, "state_lag_s", s.state_lag, {0, 10, "s", ""});

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "bus/config/config.h"
+#include "core/files/file_path.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 
@@ -40,7 +41,7 @@ struct VehicleEntry {
   std::int32_t id = 0;  // 1 and up; unique
   // What moves it: a model of the vehicle simulator by name or as a file (docs/vehicles.md), "fixed" (the vehicle
   // simulator publishes a pose that never changes), or "external" (a process that is not ours).
-  std::string model = "torpedo";
+  FilePath model = "torpedo";
   Vec3 start_ned_m = Vec3::Zero();             // world NED, metres
   double heading_rad = 0;                      // at the start, clockwise from north
   double speed_mps = 0;                        // at the start, forward through the water
@@ -49,7 +50,7 @@ struct VehicleEntry {
 
 // The ocean as fields of place and time, from a file (ocean/ocean_field_reader.h).
 struct OceanEntry {
-  std::string file;            // relative to the scenario; empty: none
+  FilePath file;               // empty: none
   std::string start_date;      // of simulation time 0; empty: the file's first time
   bool moves_vehicles = true;  // its currents act on them
   bool carries_sound = true;   // sound goes through its temperature and salinity
@@ -82,8 +83,8 @@ struct Scenario {
 
 void visit(ConfigVisitor& v, Scenario& scenario);
 
-// The whole file with its overrides as TOML, as every program of the run reads it; without the keys that share out the
-// work (shards, blocks, threads), which are the programs' own.
+// The whole file with its overrides as TOML, and the files that it names, as every program of the run reads
+// it; without the keys that share out the work (shards, blocks, threads), which are the programs' own.
 std::string configuration_of(const ConfigFile& file);
 
 }  // namespace halocline::bus

@@ -3,16 +3,16 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <mutex>
-#include <sstream>
 #include <utility>
 
 #include "acoustics/modem/beam_pattern.h"
+#include "bus/config/carried_files.h"
 #include "channel_server/modems/built_in_modems.h"
 #include "channel_server/vehicles/modem_rates.h"
 #include "core/check.h"
+#include "core/files/file_path.h"
 #include "core/names.h"
 
 namespace halocline::channel_server {
@@ -20,13 +20,13 @@ namespace {
 
 // A profile other than the modem's starts anew from the profile's numbers.
 void visit_profile(bus::ConfigVisitor& v, VehicleModem& m) {
-  std::string profile = m.profile;
-  v.text("profile", profile, {},
+  FilePath profile = m.profile;
+  v.file("profile", profile, bus::FileNames::kShipped,
          "whose numbers hold where the keys below are not given: a file of models/modems by its name, or the "
          "path of one");
   if (v.writing() || profile == m.profile) return;
   bus::report_refusal(v, "profile", [&] {
-    VehicleModem other = load_modem(profile, v.folder());
+    VehicleModem other = load_modem(profile);
     other.when_busy = m.when_busy;
     other.listening = m.listening;
     m = std::move(other);
@@ -92,10 +92,11 @@ void visit_reception(bus::ConfigVisitor& v, acoustics::Modem& a) {
 }
 
 // Of a profile's file alone.
-void visit_rates(bus::ConfigVisitor& v, VehicleModem& m, std::string& rates) {
+void visit_rates(bus::ConfigVisitor& v, VehicleModem& m, std::vector<FilePath>& rates) {
   bus::integer_as(v, "rate_number", m.rate_number, {0, 255, "", "by which a SEND names this rate"});
-  v.text("rates", rates, {},
-         "that such a modem also sends and receives: profiles, as `profile` names them, with blanks between");
+  v.files(
+      "rates", rates, bus::FileNames::kShipped,
+      "that such a modem also sends and receives: profiles, as `profile` names them, with blanks between");
 }
 
 void visit_max_payload(bus::ConfigVisitor& v, VehicleModem& m) {
@@ -153,7 +154,7 @@ std::string names_for_errors() {
 }
 
 // Its rates by the names of their profiles, in `rates`.
-VehicleModem read_modem(bus::ConfigFile& file, const std::string& profile, std::string& rates) {
+VehicleModem read_modem(bus::ConfigFile& file, const FilePath& profile, std::vector<FilePath>& rates) {
   VehicleModem m;
   m.profile = profile;
   file.read([&](bus::ConfigVisitor& v) {
@@ -200,31 +201,30 @@ const VehicleModem& built_in_rate(const std::string& profile) {
   static KnownModems known;
   return known.of(profile, [&] {
     auto file = bus::ConfigFile::parse(built_in_text(profile), profile);
-    std::string names;
-    return read_modem(file, profile, names);
+    std::vector<FilePath> rates;
+    return read_modem(file, profile, rates);
   });
 }
 
 // The same of a name, or of a file.
-VehicleModem one_rate(const std::string& profile, const std::string& folder) {
-  if (!profile.ends_with(".toml")) return built_in_rate(profile);
-  auto file = bus::ConfigFile::load((std::filesystem::path(folder) / profile).string());
-  std::string names;
-  return read_modem(file, profile, names);
+VehicleModem one_rate(const FilePath& profile) {
+  if (!bus::names_a_file(profile.place(), bus::FileNames::kShipped)) return built_in_rate(profile.place());
+  auto file = bus::ConfigFile::load_named(profile);
+  std::vector<FilePath> rates;
+  return read_modem(file, profile, rates);
 }
 
-// The profile in `file`, whose rates lie in `folder` where they are files. A rate of its own number is itself.
-VehicleModem with_rates(bus::ConfigFile& file, const std::string& profile, const std::string& folder) {
-  std::string names;
+// The profile in `file`. A rate of its own number is itself.
+VehicleModem with_rates(bus::ConfigFile& file, const FilePath& profile) {
+  std::vector<FilePath> names;
   VehicleModem m = read_modem(file, profile, names);
   std::vector<ModemRate> rates;
-  std::istringstream list(names);
-  for (std::string name; list >> name;) {
-    const VehicleModem rate = one_rate(name, folder);
+  for (const FilePath& name : names) {
+    const VehicleModem rate = one_rate(name);
     if (rate.rate_number == m.rate_number) continue;
     const auto taken = [&](const ModemRate& other) { return other.number == rate.rate_number; };
     require(std::none_of(rates.begin(), rates.end(), taken),
-            profile + ": two rates have the number " + std::to_string(rate.rate_number));
+            profile.given() + ": two rates have the number " + std::to_string(rate.rate_number));
     rates.push_back({rate.rate_number, rate.max_payload_bytes, rate.modem});
   }
   std::sort(rates.begin(), rates.end(),
@@ -246,7 +246,7 @@ void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
   bus::choice(v, "when_busy", m.when_busy, {"refuse", "queue"}, "on a SEND during a transmission");
   visit_listening(v, m.listening);
   if (!v.writing() && m.profile != kGenericProfile) {
-    bus::report_refusal(v, "profile", [&] { set_rates_of(load_modem(m.profile, v.folder()), m); });
+    bus::report_refusal(v, "profile", [&] { set_rates_of(load_modem(m.profile), m); });
   }
   check_as_a_whole(v, a);
 }
@@ -260,8 +260,8 @@ double seconds_of(std::optional<SimDuration> taper) { return taper ? taper->seco
 void set_rates_of(const VehicleModem& profile, VehicleModem& vehicle) {
   const acoustics::Modem& modem = vehicle.modem;
   const auto fixed = [&](bool same, const std::string& what) {
-    require(same,
-            what + " of profile " + profile.profile + " is its own; only the generic profile has another");
+    require(same, what + " of profile " + profile.profile.given() +
+                      " is its own; only the generic profile has another");
   };
   fixed(modem.bit_rate_bps == profile.modem.bit_rate_bps, "bit rate");
   fixed(modem.packet_overhead == profile.modem.packet_overhead, "packet overhead");
@@ -278,21 +278,21 @@ const std::vector<std::string>& built_in_modems() {
   return names;
 }
 
-VehicleModem load_modem(const std::string& profile, const std::string& folder) {
-  if (profile.ends_with(".toml")) {
-    const std::filesystem::path path = std::filesystem::path(folder) / profile;
-    auto file = bus::ConfigFile::load(path.string());
-    return with_rates(file, profile, path.parent_path().string());
+VehicleModem load_modem(const FilePath& profile) {
+  if (bus::names_a_file(profile.place(), bus::FileNames::kShipped)) {
+    auto file = bus::ConfigFile::load_named(profile);
+    return with_rates(file, profile);
   }
   static KnownModems known;
-  return known.of(profile, [&] { return parse_modem(built_in_text(profile), profile); });
+  const std::string& name = profile.place();
+  return known.of(name, [&] { return parse_modem(built_in_text(name), name); });
 }
 
 acoustics::Modem built_in_modem(const std::string& profile) { return built_in_rate(profile).modem; }
 
 VehicleModem parse_modem(const std::string& text, const std::string& name_for_errors) {
   auto file = bus::ConfigFile::parse(text, name_for_errors);
-  return with_rates(file, name_for_errors, ".");
+  return with_rates(file, FilePath(name_for_errors));
 }
 
 }  // namespace halocline::channel_server

@@ -16,6 +16,7 @@
 #include "acoustics/modem/modem.h"
 #include "bus/config/config.h"
 #include "channel_server/vehicles/modem_schedule.h"
+#include "core/files/file_path.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -33,9 +34,9 @@ double seconds_of(std::optional<SimDuration> taper);
 // The names of the files of models/modems, in alphabetical order: they are known wherever a program runs.
 const std::vector<std::string>& built_in_modems();
 
-// A modem of models/modems by name, or the file of that path (ending in .toml), relative to `folder`. Throws
+// A modem of models/modems by name, or a file (ending in .toml). Throws
 // bus::ConfigErrors with what is wrong in the file, InvalidArgument for a name that is none.
-VehicleModem load_modem(const std::string& profile, const std::string& folder = ".");
+VehicleModem load_modem(const FilePath& profile);
 
 // What one of built_in_modems() transmits by itself, without the other rates that it names: cheaper.
 acoustics::Modem built_in_modem(const std::string& profile);

@@ -13,6 +13,7 @@
 #include "acoustics/modem/modem.h"
 #include "channel_server/vehicles/modem_rates.h"
 #include "channel_server/vehicles/schedule.h"
+#include "core/files/file_path.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 
@@ -45,11 +46,11 @@ struct VehicleModem {
   acoustics::Modem modem;
   std::int32_t max_payload_bytes = 4096;  // of one packet, 0..32 768; the modem's own limit holds as well
   WhenBusy when_busy = WhenBusy::kRefuse;
-  std::string profile = kGenericProfile;  // where the numbers come from: a name, or the path of a file
-  std::int32_t rate_number = 0;           // of the modem's own rate, 0..255
-  RateSet rates = {};                     // the other rates that it sends and receives, by number
-  Listening listening = {};               // at the start; then as the vehicle announces
-  bool fitted = true;                     // false: the vehicle carries no modem at all
+  FilePath profile = kGenericProfile;  // where the numbers come from: a name, or the path of a file
+  std::int32_t rate_number = 0;        // of the modem's own rate, 0..255
+  RateSet rates = {};                  // the other rates that it sends and receives, by number
+  Listening listening = {};            // at the start; then as the vehicle announces
+  bool fitted = true;                  // false: the vehicle carries no modem at all
   bool operator==(const VehicleModem&) const = default;
 };
 

@@ -10,11 +10,13 @@
 
 #include <fmt/ostream.h>
 
+#include "bus/config/config.h"
 #include "bus/event_log.h"
 #include "bus/logs/log_reader.h"
 #include "bus/logs/log_rotation.h"
 #include "bus/runtime/node_process.h"
 #include "clients/halocline/analysis/comparison.h"
+#include "clients/halocline/analysis/mission_log.h"
 #include "clients/halocline/analysis/recording.h"
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
@@ -38,18 +40,15 @@ struct ReplayOptions {
   bool quiet = false, no_comparison = false, force = false;
 };
 
-std::string scenario_of(const ReplayOptions& options) {
-  if (!options.scenario.empty()) return options.scenario;
-  const std::string beside = config_beside(options.logs.front());
-  require(fs::exists(beside),
-          "there is no " + beside + ", the configuration that the log was made with; name one by --scenario");
-  return beside;
-}
-
 ScenarioConfig config_of(const ReplayOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   if (options.seed >= 0) overrides.push_back("scenario.seed=" + std::to_string(options.seed));
-  return load_scenario(scenario_of(options), overrides, ScenarioUse::kWater);
+  bus::ConfigFile file = options.scenario.empty() ? recorded_configuration(options.logs, overrides)
+                                                  : bus::ConfigFile::load(options.scenario, overrides);
+  ScenarioConfig config = load_scenario(file, ScenarioUse::kWater);
+  if (!options.quiet)
+    for (const std::string& warning : file.warnings()) std::cerr << "warning: " << warning << "\n";
+  return config;
 }
 
 void show(const Comparison& comparison, const std::string& format) {
@@ -73,13 +72,13 @@ ComparisonFiles comparison_files(const std::string& log) {
 
 // Throws where something that is there would be replaced.
 RunFiles files_of(const ReplayOptions& options, const ScenarioConfig& config, const LogReader& log) {
-  RunFiles files = run_files("", config.scenario.name, options.out, "");
+  RunFiles files = run_files("", config.scenario.name, options.out, "", options.scenario);
   const auto [csv, json] = comparison_files(files.log);
   Outputs outputs{files_of_log(files.log), options.force};
   outputs.paths.push_back(files.config);
   if (!options.no_comparison) outputs.paths.insert(outputs.paths.end(), {csv, json});
   std::vector<std::string> inputs = log.files();
-  inputs.push_back(scenario_of(options));
+  inputs.push_back(options.scenario);
   require_free(outputs, inputs);
   return files;
 }
@@ -132,7 +131,7 @@ int replay(const ReplayOptions& options) {
   const bool is_whole = report_damage(std::cerr, log);
   if (!options.quiet) print_repairs(std::cerr, recording);
   require(!recording.events.empty(), options.logs.front() + " holds no states and no transmissions");
-  replace_file(files.config, effective_toml(config));
+  if (!files.config.empty()) replace_file(files.config, portable_toml(config));
   const SimDuration zero = recording.zero;
   const RunOutcome outcome = run_replay(options, config, files, std::move(recording));
   if (options.format == "table" && !options.quiet) {
@@ -168,8 +167,9 @@ void add_replay_command(CLI::App& app, int& exit_code) {
                    "LCM log of a run, ours or lcm-logger's; or its parts in order")
       ->required();
   command->add_option("--log", options->out, "the new log; the comparison is written beside it")->required();
-  command->add_option("--scenario", options->scenario,
-                      "water, modems and terrain; default: the configuration recorded beside the log");
+  command->add_option(
+      "--scenario", options->scenario,
+      "water, modems and terrain; default: the configuration recorded in the log, or beside it");
   command->add_option("--set", options->overrides, "change a key: section.key=value (repeatable)")
       ->take_all()
       ->allow_extra_args(false);

@@ -68,7 +68,7 @@ void print_end(const RunOptions& options, const RunFiles& files, const ScenarioC
 RunFiles files_of(const RunOptions& options, const std::string& name) {
   const bool all_named = !options.log.empty() && (options.no_csv || !options.csv.empty());
   const std::string out = !options.out.empty() || all_named ? options.out : make_new_folder("runs/" + name);
-  RunFiles files = run_files(out, name, options.log, options.csv);
+  RunFiles files = run_files(out, name, options.log, options.csv, options.scenario);
   Outputs outputs{files_of_log(files.log), options.force};
   outputs.paths.push_back(files.config);
   if (!options.no_report) outputs.paths.push_back(files.report);
@@ -103,7 +103,7 @@ int run(const RunOptions& options) {
       std::fprintf(stderr, "warning: hosts of doors keep wall time; --rate 1 does as well\n");
     std::fprintf(stderr, "terrain     %s\n", checked.terrain.summary.c_str());
   }
-  replace_file(files.config, effective_toml(config));
+  if (!files.config.empty()) replace_file(files.config, portable_toml(config));
   lcm::LCM lcm("memq://");
   Composition all(lcm, config, Composition::kRun, nullptr, checked.terrain,
                   live_sea_maker(config, checked.terrain));

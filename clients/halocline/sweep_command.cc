@@ -86,7 +86,7 @@ std::vector<Job> jobs_of(const SweepPlan& plan, const std::string& out) {
   std::vector<Job> jobs;
   for (std::size_t i = 0; i < plan.runs(); ++i) {
     Job job{run_of(plan, i), {}};
-    const ScenarioConfig config = load_scenario(plan.scenario, job.run.overrides);
+    const ScenarioConfig config = load_scenario(plan.scenario.place(), job.run.overrides);
     job.folder = run_folder(out, run_identity(effective_toml(config)));
     job.duration_s = config.scenario.duration.seconds();
     job.memory_bytes = estimated_memory_bytes(config);
@@ -96,7 +96,7 @@ std::vector<Job> jobs_of(const SweepPlan& plan, const std::string& out) {
 }
 
 std::vector<std::string> command_of(const SweepPlan& plan, const Job& job) {
-  std::vector<std::string> command{fs::read_symlink("/proc/self/exe").string(), "run", plan.scenario};
+  std::vector<std::string> command{fs::read_symlink("/proc/self/exe").string(), "run", plan.scenario.place()};
   for (const std::string& text : job.run.overrides) {
     command.emplace_back("--set");
     command.push_back(text);

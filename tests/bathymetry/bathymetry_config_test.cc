@@ -181,11 +181,11 @@ TEST(TerrainRecipe, ReadsRastersRelativeToTheScenarioAndNestsThem) {
   testing::write_raster(fine, [](int, int) { return -300.0; });
   TerrainRecipe recipe;
   recipe.kind = TerrainKind::kRaster;
-  recipe.raster.path = "recipe_coarse.tif";
+  recipe.raster.path = "/vsimem/recipe_coarse.tif";
   recipe.nested.push_back({.domain = {.size_north_m = 1000, .size_east_m = 1000, .spacing_m = 10},
                            .blend_width_m = 100,
-                           .raster = {.path = "recipe_fine.tif"}});
-  const PreparedTerrain prepared = prepare_terrain(recipe, {30, -28, "/vsimem"});
+                           .raster = {.path = "/vsimem/recipe_fine.tif"}});
+  const PreparedTerrain prepared = prepare_terrain(recipe, {30, -28});
   EXPECT_EQ(prepared.terrain->depth_at(0, 0).z_m, 300);
   EXPECT_EQ(prepared.terrain->depth_at(1500, 0).z_m, 400);
   EXPECT_EQ(prepared.terrain->depth_at(450, 0).z_m, 350);

@@ -29,10 +29,9 @@ TEST(HeaderExamples, RasterLoader) {
 }
 
 TEST(HeaderExamples, TerrainRecipe) {
-  const std::string scenario_folder = ".";
   TerrainRecipe recipe;
   recipe.flat.depth_m = 70;
-  const PreparedTerrain prepared = prepare_terrain(recipe, {29.9167, -28.4167, scenario_folder});
+  const PreparedTerrain prepared = prepare_terrain(recipe, {29.9167, -28.4167});
   EXPECT_EQ(prepared.terrain->depth_at(0, 0).z_m, 70);
 }
 

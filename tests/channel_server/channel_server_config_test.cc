@@ -23,8 +23,8 @@ using testing::for_s;
 using ::testing::HasSubstr;
 using testing::read;
 
-acoustics::Environment water_of(const std::string& toml, const std::string& folder = "") {
-  return make_environment(read(toml).environment, {}, folder);
+acoustics::Environment water_of(const std::string& toml) {
+  return make_environment(read(toml).environment, {});
 }
 
 TEST(ChannelServerConfig, AnEmptyScenarioHasTheWaterOfTheReferenceFiguresInABreeze) {
@@ -64,7 +64,7 @@ TEST(ChannelServerConfig, ATableOfSpeedsIsTaken) {
 
 TEST(ChannelServerConfig, AFileThatIsNotThereIsAnErrorThatNamesIt) {
   try {
-    water_of("[environment]\nprofile = \"file\"\nprofile_file = \"no-such.csv\"", "/nowhere");
+    water_of("[environment]\nprofile = \"file\"\nprofile_file = \"no-such.csv\"");
     FAIL();
   } catch (const InvalidArgument& error) {
     EXPECT_THAT(error.what(),
@@ -76,7 +76,7 @@ TEST(ChannelServerConfig, TheScenariosSurfaceAndLatitudeEnterTheWater) {
   bus::Scenario scenario;
   scenario.sea_surface_z_m = -1.5;
   scenario.origin_latitude_deg = 60;
-  const auto water = make_environment({}, scenario, "");
+  const auto water = make_environment({}, scenario);
   EXPECT_EQ(water.sea_surface_z_m, -1.5);
   EXPECT_NEAR(water.latitude_rad, 1.0472, 1e-4);
 }
@@ -206,8 +206,8 @@ TEST(ChannelServerConfig, ChangesOfTheWaterHoldFromTheirInstantsAndSetTheirKeysO
   const auto config = read(
       "[environment]\nwind_mps = 3\n[[environment_change]]\nat_s = 10\nshipping = 0.75\n"
       "[[environment_change]]\nat_s = 20\nwind_mps = 9\nprofile = \"isovelocity\"\nisovelocity_mps = 1450");
-  EnvironmentTimeline timeline(make_environment(config.environment, {}, ""));
-  schedule_changes(config, {}, "", timeline);
+  EnvironmentTimeline timeline(make_environment(config.environment, {}));
+  schedule_changes(config, {}, timeline);
   const auto at = [&](double time_s) { return timeline.at(SimTime::from_seconds(time_s)); };
   EXPECT_EQ(at(9).noise.shipping, 0.5);
   EXPECT_EQ(at(10).noise.shipping, 0.75);

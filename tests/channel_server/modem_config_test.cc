@@ -114,13 +114,13 @@ TEST(ModemConfig, RatesAreFilesBesideAFileOrKnownByName) {
   std::ofstream(folder / "fast.toml") << "family = \"mine\"\nbit_rate_bps = 1000\nrate_number = 7\n";
   std::ofstream(folder / "wrong.toml") << "rates = \"fast.toml fast.toml\"\n";
   std::ofstream(folder / "lost.toml") << "rates = \"semaphore\"\n";
-  const VehicleModem slow = load_modem("slow.toml", folder.string());
+  const VehicleModem slow = load_modem((folder / "slow.toml").string());
   ASSERT_EQ(slow.rates.all().size(), 2u);
   EXPECT_EQ(slow.rates.all()[0].number, 7);
   EXPECT_EQ(slow.rates.all()[0].modem.bit_rate_bps, 1000);
   EXPECT_EQ(slow.rates.all()[1].modem.family, "janus");
-  EXPECT_THROW(load_modem("wrong.toml", folder.string()), InvalidArgument);
-  EXPECT_THROW(load_modem("lost.toml", folder.string()), InvalidArgument);
+  EXPECT_THROW(load_modem((folder / "wrong.toml").string()), InvalidArgument);
+  EXPECT_THROW(load_modem((folder / "lost.toml").string()), InvalidArgument);
 }
 
 TEST(ModemConfig, AVehiclesProfileStartsFromItsOwnNumbers) {

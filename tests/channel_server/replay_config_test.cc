@@ -38,7 +38,7 @@ class ReplayConfigTest : public ::testing::Test {
     ChannelServerConfig config;
     file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
     file.check(/*whole_file=*/false);
-    return make_water_model(config, scenario, halocline::testing::channel_file_folder());
+    return make_water_model(config, scenario);
   }
   std::string refusal_of(const std::string& keys, const std::string& other = "") {
     try {

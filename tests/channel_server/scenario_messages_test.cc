@@ -99,7 +99,7 @@ class ScenarioNode : public ::testing::Test {
     ChannelServerConfig config;
     config.propagation.model = PropagationModel::kStraight;
     config.rules.medium.shard = shard;
-    node_ = make_channel_server(lcm_, {"channel-server", 4711}, config, scenario_of(201), ".");
+    node_ = make_channel_server(lcm_, {"channel-server", 4711}, config, scenario_of(201));
     client_.subscribe<scenario_info_t>(bus::channels::kScenario,
                                        [this](const scenario_info_t& m) { received_.push_back(m); });
     for (SimTime now; now <= at_s(end_s);

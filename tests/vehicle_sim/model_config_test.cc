@@ -35,7 +35,8 @@ class ShippedModel : public ::testing::TestWithParam<std::string> {};
 
 // Every number is written with all its digits, so equal texts are equal models.
 TEST_P(ShippedModel, FileEqualsTheBuiltInModel) {
-  EXPECT_EQ(model_toml(load_model(GetParam() + ".toml", kVehicles)), model_toml(load_model(GetParam())));
+  EXPECT_EQ(model_toml(load_model(kVehicles + ("/" + GetParam() + ".toml"))),
+            model_toml(load_model(GetParam())));
 }
 
 TEST_P(ShippedModel, FileGivesASourceForEachSection) {
@@ -126,7 +127,7 @@ TEST(ModelConfig, AFifthThrusterIsRefused) {
 
 TEST(ModelConfig, ANameThatIsNoneIsRefused) {
   EXPECT_THROW(load_model("boat"), InvalidArgument);
-  EXPECT_THROW(load_model("missing.toml", kVehicles), bus::ConfigErrors);
+  EXPECT_THROW(load_model(kVehicles + "/missing.toml"), bus::ConfigErrors);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ struct Row {
 std::vector<Row> rows_of(const ScenarioConfig& config, const VehicleRegistry& vehicles,
                          LinkPredictor& predictor) {
   const auto terrain = make_terrain(config).terrain;
-  const auto water = make_water_model(config.channel_server, config.scenario, config.folder);
+  const auto water = make_water_model(config.channel_server, config.scenario);
   std::vector<Row> rows;
   for (int second = 1; second <= 60; ++second) {
     const SimTime tick = SimTime::from_seconds(second);

@@ -102,7 +102,7 @@ void packets_through_a_channel_server(benchmark::State& state) {
   for (auto _ : state) {
     lcm::LCM lcm("memq://");
     ReplayNode node(lcm, {"replay", 1}, recording);
-    const auto server = channel_server::make_channel_server(lcm, {"channel-server", 1}, config, {}, ".");
+    const auto server = channel_server::make_channel_server(lcm, {"channel-server", 1}, config, {});
     bus::LockstepRunner runner({&node, server.get()});
     runner.set_listener([&](SimTime, std::string_view channel, std::span<const std::uint8_t>) {
       outcomes += channel == bus::channels::kOutcome ? 1 : 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -12,11 +13,13 @@
 
 #include <fmt/ostream.h>
 
+#include "bus/channels.h"
 #include "bus/logs/channel_types.h"
 #include "bus/logs/foreign_message.h"
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/mission/mission_summary.h"
 #include "clients/mission/mission_time.h"
+#include "core/check.h"
 #include "core/files/input_file.h"
 
 namespace halocline::clients {
@@ -63,6 +66,24 @@ MissionTime time_of(LogReader& log) {
   }
   time.zero_us = zero_of(first.value_or(0));
   return time;
+}
+
+bus::ConfigFile recorded_configuration(const std::vector<std::string>& logs,
+                                       const std::vector<std::string>& overrides) {
+  LogReader log(logs);
+  MissionStore mission;
+  for (LoggedEvent event; mission.scenario().toml.empty() && log.next(event);) {
+    if (event.channel.ends_with(bus::channels::kScenario))
+      mission.add(event.stamp_us, event.channel, event.data);
+  }
+  const std::string& recorded = mission.scenario().toml;
+  if (!recorded.empty())
+    return bus::ConfigFile::parse(recorded, logs.front() + ", its configuration", overrides);
+  const std::string beside = config_beside(logs.front());
+  require(std::filesystem::exists(beside),
+          logs.front() + " does not hold the configuration that it was made with, and there is no " + beside +
+              "; name one by --scenario");
+  return bus::ConfigFile::load(beside, overrides);
 }
 
 void print_remarks(std::ostream& out, const MissionLog& log) {

@@ -34,7 +34,7 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
 }  // namespace
 
 RunFiles run_files(const std::string& out, const std::string& name, const std::string& log,
-                   const std::string& csv) {
+                   const std::string& csv, const std::string& scenario) {
   RunFiles files;
   files.log = log.empty() ? (fs::path(out) / (name + ".lcm")).string() : log;
   files.csv = csv.empty() ? (fs::path(out) / "csv").string() : csv;
@@ -45,6 +45,7 @@ RunFiles run_files(const std::string& out, const std::string& name, const std::s
           "the log is to be " + files.log +
               "; what lies beside a log is called so: allowed is another name, such as NAME.lcm");
   make_folder(fs::path(files.log).parent_path());
+  if (is_same_file(files.config, scenario)) files.config.clear();
   return files;
 }
 

@@ -8,16 +8,18 @@
 namespace halocline::clients {
 
 struct RunFiles {
-  std::string log;     // LCM log
-  std::string config;  // effective configuration, beside the log, its name ending in .toml
+  std::string log;  // LCM log
+  // Effective configuration, beside the log, its name ending in .toml; empty: not written.
+  std::string config;
   std::string report;  // beside the log: report.html, or the name of a log that was named, ending in .html
   std::string csv;     // folder
 };
 
-// Names the files and makes their folders. `log` and `csv`: empty for the default within `out`. Throws
+// Names the files and makes their folders. `log` and `csv`: empty for the default within `out`. Where the
+// `scenario` that is read has the configuration's place it stays: the log holds what it was made with. Throws
 // std::runtime_error when a folder cannot be made.
 RunFiles run_files(const std::string& out, const std::string& name, const std::string& log,
-                   const std::string& csv);
+                   const std::string& csv, const std::string& scenario = "");
 
 // What a command is about to write, and whether --force allows that it replaces what is there.
 struct Outputs {

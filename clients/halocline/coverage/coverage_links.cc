@@ -40,7 +40,7 @@ CoverageLinks::CoverageLinks(const Scene& scene)
       terrain_(scene.terrain),
       from_(scene.from),
       to_(make_modems(scene.config.channel_server).standard),
-      sources_(read_water(scene.config.channel_server, scene.config.scenario, scene.config.folder)) {}
+      sources_(read_water(scene.config.channel_server, scene.config.scenario)) {}
 
 void CoverageLinks::share(int threads, std::size_t count,
                           const std::function<void(LinkSurveyor&, std::size_t)>& item) const {

@@ -159,10 +159,13 @@ std::string nodes_section(const PagePart& part) {
   return or_sentence(node_table(part.mission), "Every program received everything.");
 }
 
+// The files that the configuration carries may be megabytes of bytes: they are left out.
 std::string scenario_section(const PagePart& part) {
   const std::string& toml = part.mission.scenario().toml;
-  return toml.empty() ? paragraph("The log does not hold it, and no file lies beside it.")
-                      : "<pre>" + escaped_xml(toml) + "</pre>\n";
+  if (toml.empty()) return paragraph("The log does not hold it, and no file lies beside it.");
+  const auto files = toml.find("\n[[file]]\n");
+  return "<pre>" + escaped_xml(toml.substr(0, files)) + "</pre>\n" +
+         (files == std::string::npos ? "" : paragraph("It carries the files that it names."));
 }
 
 struct Section {

@@ -2,7 +2,6 @@
 #include "clients/halocline/scenario/composition.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "bathymetry/bathymetry_config.h"
@@ -25,32 +24,17 @@
 namespace halocline::clients {
 namespace {
 
-// A path of a scenario, made to hold wherever the configuration is written. What is no file (GDAL takes other
-// names too) stays as it is.
-void make_absolute(std::string& path, const std::string& folder) {
-  const auto joined = std::filesystem::path(folder) / path;
-  if (!path.empty() && std::filesystem::exists(joined))
-    path = std::filesystem::absolute(joined).lexically_normal();
-}
-
-void resolve(channel_server::ProfileConfig& profile, const ScenarioConfig& config) {
-  make_absolute(profile.file, config.folder);
-  make_absolute(profile.salinity_file, config.folder);
-  if (profile.position_given) return;
-  profile.latitude_rad = to_radians(config.scenario.origin_latitude_deg);
-  profile.longitude_rad = to_radians(config.scenario.origin_longitude_deg);
-}
-
 // Fills in what the scenario implies by leaving it out.
+void resolve(channel_server::ProfileConfig& profile, const bus::Scenario& scenario) {
+  if (profile.position_given) return;
+  profile.latitude_rad = to_radians(scenario.origin_latitude_deg);
+  profile.longitude_rad = to_radians(scenario.origin_longitude_deg);
+}
+
 void resolve(ScenarioConfig& config) {
-  make_absolute(config.terrain.raster.path, config.folder);
-  make_absolute(config.scenario.ocean.file, config.folder);
-  for (auto& vehicle : config.scenario.vehicles) make_absolute(vehicle.model, config.folder);
-  for (auto& nested : config.terrain.nested) make_absolute(nested.raster.path, config.folder);
-  resolve(config.channel_server.environment.profile, config);
-  make_absolute(config.channel_server.environment.noise_file, config.folder);
+  resolve(config.channel_server.environment.profile, config.scenario);
   for (auto& change : config.channel_server.changes) {
-    if (change.profile) resolve(*change.profile, config);
+    if (change.profile) resolve(*change.profile, config.scenario);
   }
 }
 
@@ -75,7 +59,6 @@ ScenarioConfig read_scenario(bus::ConfigFile& file, ScenarioUse use) {
   ScenarioConfig config;
   file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
   file.check(/*whole_file=*/true);
-  config.folder = file.folder();
   config.scenario.configuration = bus::configuration_of(file);
   check_water(config, file);
   if (use == ScenarioUse::kRun) check_missions(config, file);
@@ -87,8 +70,8 @@ std::optional<bathymetry::PreparedTerrain> try_terrain(const ScenarioConfig& con
     return make_terrain(config);
   } catch (const InvalidArgument& error) {
     const bool by_raster = config.terrain.kind == bathymetry::TerrainKind::kRaster;
-    file.refuse(by_raster ? "terrain.raster.path" : "terrain", by_raster ? config.terrain.raster.path : "",
-                error.what());
+    file.refuse(by_raster ? "terrain.raster.path" : "terrain",
+                by_raster ? config.terrain.raster.path.given() : "", error.what());
     return std::nullopt;
   }
 }
@@ -122,6 +105,12 @@ std::string effective_toml(const ScenarioConfig& config) {
   return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, resolved); }, /*with_comments=*/false);
 }
 
+std::string portable_toml(const ScenarioConfig& config) {
+  ScenarioConfig resolved = config;
+  resolve(resolved);
+  return bus::to_portable_toml([&](bus::ConfigVisitor& v) { visit(v, resolved); });
+}
+
 std::string commented_toml() {
   ScenarioConfig config;
   config.scenario.vehicles.resize(1);
@@ -147,8 +136,8 @@ std::string commented_toml() {
 }
 
 bathymetry::PreparedTerrain make_terrain(const ScenarioConfig& config) {
-  return prepare_terrain(config.terrain, {config.scenario.origin_latitude_deg,
-                                          config.scenario.origin_longitude_deg, config.folder});
+  return prepare_terrain(config.terrain,
+                         {config.scenario.origin_latitude_deg, config.scenario.origin_longitude_deg});
 }
 
 template <class NodeType, class... Arguments>
@@ -207,8 +196,7 @@ void Composition::add_channel_servers(const ScenarioConfig& config) {
   for (shard.index = 0; shard.index < shard.count; ++shard.index) {
     const std::string name = "channel-server" + (shard.is_alone() ? "" : "-" + std::to_string(shard.index));
     const bus::NodeIdentity identity{name, bus::session_of(seed_, name), bus::Stage::kChannel};
-    owned_.push_back(
-        channel_server::make_channel_server(lcm_, identity, server, config.scenario, config.folder));
+    owned_.push_back(channel_server::make_channel_server(lcm_, identity, server, config.scenario));
     order_.push_back(owned_.back().get());
   }
 }

@@ -39,7 +39,6 @@ struct ScenarioConfig {
   LocaliserConfig localiser;
   networks::NetworkConfig network;       // an example client; runs where it names a protocol
   modem_gateway::GatewayConfig gateway;  // runs where there are doors
-  std::string folder = ".";              // where relative paths of the file start
 };
 
 void visit(bus::ConfigVisitor& v, ScenarioConfig& config);
@@ -62,9 +61,12 @@ struct CheckedScenario {
 // The same with what takes the terrain.
 CheckedScenario load_checked(const std::string& path, const std::vector<std::string>& overrides);
 
-// The configuration as a scenario file of its own: every key with its value; paths made absolute, so that it
-// may lie anywhere.
+// The configuration as a scenario file of its own: every key that counts with its value; files by their
+// absolute paths.
 std::string effective_toml(const ScenarioConfig& config);
+
+// The same with the files that it names (bus/config/carried_files.h), so that it may be sent anywhere.
+std::string portable_toml(const ScenarioConfig& config);
 
 // Every key with its default and its meaning, with one vehicle.
 std::string commented_toml();

@@ -241,7 +241,7 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
   const channel_server::VehicleId from_id = to.id == 0 ? 0 : from.id;
   const channel_server::LinkEnd here{from_id, from.position_ned_m, from.velocity_ned_mps, &transmitter};
   const channel_server::LinkEnd there{to.id, to.position_ned_m, to.velocity_ned_mps, &receiver};
-  LinkSurveyor surveyor(config, terrain, read_water(config.channel_server, config.scenario, config.folder));
+  LinkSurveyor surveyor(config, terrain, read_water(config.channel_server, config.scenario));
   LinkSurvey answer;
   answer.notes = notes_of(config, *terrain, from, to, surveyor);
   auto [reception, forecast] = surveyor.survey(here, there);

@@ -155,15 +155,15 @@ bool check_ocean(const ScenarioConfig& config, bus::ConfigFile& file) {
   const bus::OceanEntry& entry = config.scenario.ocean;
   if (entry.file.empty()) return true;
   try {
-    const auto field = ocean::read_ocean_field({(std::filesystem::path(config.folder) / entry.file).string(),
+    const auto field = ocean::read_ocean_field({entry.file.place(),
                                                 entry.start_date,
                                                 {to_radians(config.scenario.origin_latitude_deg),
                                                  to_radians(config.scenario.origin_longitude_deg)}});
-    make_environment(config.channel_server.environment, config.scenario, config.folder);
-    for (const std::string& remark : field->remarks()) file.warn("ocean.file", entry.file, remark);
+    make_environment(config.channel_server.environment, config.scenario);
+    for (const std::string& remark : field->remarks()) file.warn("ocean.file", entry.file.given(), remark);
     const double last_s = field->grid().times_s.back();
     if (!field->is_steady() && config.scenario.duration.seconds() > last_s) {
-      file.warn("ocean.file", entry.file,
+      file.warn("ocean.file", entry.file.given(),
                 "its last time is " + format_number(last_s) +
                     " s after the start: the ocean stays so from then on");
     }
@@ -174,7 +174,7 @@ bool check_ocean(const ScenarioConfig& config, bus::ConfigFile& file) {
     }
     return true;
   } catch (const InvalidArgument& error) {
-    file.refuse("ocean.file", entry.file, error.what());
+    file.refuse("ocean.file", entry.file.given(), error.what());
     return false;
   }
 }
@@ -194,9 +194,8 @@ void check_extra_loss(const ScenarioConfig& config, bus::ConfigFile& file) {
 void check_profile(const ScenarioConfig& config, bus::ConfigFile& file) {
   const channel_server::ProfileConfig& profile = config.channel_server.environment.profile;
   if (profile.source != channel_server::ProfileSource::kFile) return;
-  refuse_if_thrown(file, "environment.profile_file", profile.file, [&] {
-    make_environment(config.channel_server.environment, config.scenario, config.folder);
-  });
+  refuse_if_thrown(file, "environment.profile_file", profile.file.given(),
+                   [&] { make_environment(config.channel_server.environment, config.scenario); });
 }
 
 }  // namespace

@@ -213,7 +213,7 @@ void write_file(const SweepResults& results, const std::string& path) {
   AtomicFile replacement(path);
   NetcdfFile file(replacement.temporary_path());
   file.attribute("Conventions", "CF-1.8");
-  file.attribute("title", "Halocline sweep of " + results.plan.scenario);
+  file.attribute("title", "Halocline sweep of " + results.plan.scenario.place());
   file.attribute("source", std::string("halocline ") + bus::kVersion);
   file.attribute("comment", "confidence level " + format_number(results.plan.level));
   const Shape shape = define_axes(file, results);

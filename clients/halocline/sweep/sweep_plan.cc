@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "bus/config/carried_files.h"
 #include "core/check.h"
 #include "core/csv_table.h"
 
@@ -135,7 +136,7 @@ SweepRun run_of(const SweepPlan& plan, std::size_t index) {
 
 void visit(bus::ConfigVisitor& v, SweepPlan& plan) {
   v.section("sweep", "Runs of one scenario over a grid of overrides and seeds", [&](bus::ConfigVisitor& s) {
-    s.text("scenario", plan.scenario, {}, "scenario file");
+    s.file("scenario", plan.scenario, bus::FileNames::kFiles, "scenario file");
     std::string seeds = to_text(plan.seeds);
     s.text("seeds", seeds, {}, "whole numbers and ranges: 1..20 or 1,5,9..12");
     bus::report_refusal(s, "seeds", [&] { plan.seeds = parse_seeds(seeds); });
@@ -165,14 +166,12 @@ SweepPlan load_plan(const std::string& path) {
   auto file = bus::ConfigFile::load(path);
   file.read([&](bus::ConfigVisitor& v) { visit(v, plan); });
   file.check(/*whole_file=*/true);
-  if (!plan.scenario.empty())
-    plan.scenario = (fs::path(file.folder()) / plan.scenario).lexically_normal().string();
   return plan;
 }
 
 std::string to_toml(const SweepPlan& plan) {
   SweepPlan anywhere = plan;
-  anywhere.scenario = fs::absolute(plan.scenario).lexically_normal().string();
+  anywhere.scenario = fs::absolute(plan.scenario.place()).lexically_normal().string();
   return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, anywhere); }, /*with_comments=*/false);
 }
 

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "bus/config/config.h"
+#include "core/files/file_path.h"
 
 namespace halocline::clients {
 
@@ -30,7 +31,7 @@ struct SweepAxis {
 struct SweepPlan {
   static constexpr std::size_t kMaxRuns = 1'000'000;
 
-  std::string scenario;
+  FilePath scenario;
   std::vector<SweepAxis> axes;
   std::vector<std::int64_t> seeds{1};
   std::vector<std::string> overrides;  // at every point
@@ -61,7 +62,7 @@ std::string to_text(const std::vector<std::int64_t>& seeds);
 void check(const SweepPlan& plan);
 
 void visit(bus::ConfigVisitor& v, SweepPlan& plan);
-// The plan in a file; its scenario is found from the file's folder. Throws bus::ConfigErrors.
+// The plan in a file. Throws bus::ConfigErrors.
 SweepPlan load_plan(const std::string& path);
 // As a file that may lie anywhere.
 std::string to_toml(const SweepPlan& plan);

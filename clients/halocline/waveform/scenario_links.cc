@@ -60,7 +60,7 @@ ScenarioLinks::ScenarioLinks(const ScenarioConfig& config, const bathymetry::Ter
       run_(run),
       modems_(make_modems(config_.channel_server)),
       terrain_(terrain),
-      water_(make_water_model(config_.channel_server, config_.scenario, config_.folder)) {}
+      water_(make_water_model(config_.channel_server, config_.scenario)) {}
 
 std::int32_t ScenarioLinks::id_of(const std::string& vehicle) const {
   const bus::VehicleEntry* entry = config_.scenario.find(vehicle);

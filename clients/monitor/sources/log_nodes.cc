@@ -15,8 +15,8 @@
 #include "bus/runtime/lockstep_runner.h"
 #include "bus/runtime/node.h"
 #include "bus/runtime/scenario.h"
-#include "channel_server/world_messages.h"
 #include "clients/halocline/scenario/composition.h"
+#include "clients/monitor/sources/modems.h"
 #include "core/sim_time.h"
 
 namespace halocline::monitor {
@@ -61,7 +61,7 @@ bus::Bytes with_modems(const clients::ScenarioConfig& config, link_query_t query
   for (auto* ends : {&query.transmitters, &query.receivers}) {
     for (link_end_t& end : *ends) {
       if (end.vehicle_name.empty()) continue;
-      end.modem = channel_server::to_message(modems.of(end.vehicle_name), SimTime());
+      end.modem = modem_message(modems.of(end.vehicle_name), SimTime());
       end.modem_choice = link_end_t::MODEM_GIVEN;
       end.vehicle_name.clear();
     }
@@ -71,7 +71,7 @@ bus::Bytes with_modems(const clients::ScenarioConfig& config, link_query_t query
 
 }  // namespace
 
-LogNodes::LogNodes(std::string scenario) : scenario_(std::move(scenario)), thread_([this] { run(); }) {}
+LogNodes::LogNodes(OpenConfiguration open) : open_(std::move(open)), thread_([this] { run(); }) {}
 
 LogNodes::~LogNodes() {
   {
@@ -108,7 +108,8 @@ void LogNodes::run() {
 
 void LogNodes::serve() {
   constexpr SimDuration kTurn = SimDuration::from_milliseconds(200);
-  clients::ScenarioConfig config = clients::load_scenario(scenario_, {}, clients::ScenarioUse::kWater);
+  bus::ConfigFile file = open_();
+  clients::ScenarioConfig config = clients::load_scenario(file, clients::ScenarioUse::kWater);
   config.channel_server.rules.medium.shard = {};
   config.channel_server.changes.clear();  // their clock is not that of the log
   lcm::LCM lcm("memq://");
@@ -120,8 +121,7 @@ void LogNodes::serve() {
   DeskNode desk(lcm, hand_over);
   for (const bus::VehicleEntry& vehicle : config.scenario.vehicles) {
     const auto modem = channel_server::make_modems(config.channel_server).of(vehicle.name);
-    hand_over(bus::channels::kModem.of(vehicle.name),
-              bus::encoded(channel_server::to_message(modem, SimTime())));
+    hand_over(bus::channels::kModem.of(vehicle.name), bus::encoded(modem_message(modem, SimTime())));
   }
   clients::Composition nodes(lcm, config, clients::Composition::kReplay, &desk);
   bus::LockstepRunner runner(nodes.nodes());

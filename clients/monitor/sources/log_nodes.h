@@ -8,11 +8,13 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "bus/config/config.h"
 #include "bus/message_codec.h"
 #include "clients/monitor/sources/handover.h"
 
@@ -20,8 +22,9 @@ namespace halocline::monitor {
 
 class LogNodes {
  public:
-  // `scenario`: a file.
-  explicit LogNodes(std::string scenario);
+  // Opens the configuration; what it throws becomes problem().
+  using OpenConfiguration = std::function<bus::ConfigFile()>;
+  explicit LogNodes(OpenConfiguration open);
   ~LogNodes();
   LogNodes(const LogNodes&) = delete;
   LogNodes& operator=(const LogNodes&) = delete;
@@ -39,7 +42,7 @@ class LogNodes {
   void run();
   void serve();
 
-  std::string scenario_;
+  OpenConfiguration open_;
   Handover handover_;
   mutable std::mutex mutex_;
   std::condition_variable posted_or_ended_;

@@ -2,14 +2,11 @@
 #include "clients/monitor/sources/log_source.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <utility>
 
-#include <unistd.h>
-
 #include "bus/channels.h"
+#include "bus/config/config.h"
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/mission/mission_vehicle.h"
 #include "clients/mission/node_health.h"
@@ -29,33 +26,17 @@ clients::MissionLog log_of(const std::vector<std::string>& logs) {
 }  // namespace
 
 LogSource::LogSource(const std::vector<std::string>& logs, const std::string& scenario)
-    : LogSource(logs.front(), log_of(logs), scenario) {}
+    : LogSource(logs, log_of(logs), scenario) {}
 
-LogSource::LogSource(const std::string& name, clients::MissionLog log, const std::string& scenario)
-    : name_(name), mission_(std::move(log.mission)) {
+LogSource::LogSource(const std::vector<std::string>& logs, clients::MissionLog log,
+                     const std::string& scenario)
+    : name_(logs.front()), mission_(std::move(log.mission)) {
   if (!log.is_whole) limits_ = std::move(log.remarks);
   require(mission_.begin() <= mission_.end(), name_ + " holds no states and no packets");
-  const std::string file = configuration(scenario);
-  if (!file.empty()) nodes_ = std::make_unique<LogNodes>(file);
-}
-
-LogSource::~LogSource() {
-  nodes_.reset();
-  std::error_code ignored;
-  if (!written_.empty()) std::filesystem::remove(written_, ignored);
-}
-
-std::string LogSource::configuration(const std::string& scenario) {
-  if (!scenario.empty()) return scenario;
-  const std::string beside = clients::config_beside(name_);
-  if (std::filesystem::exists(beside)) return beside;
-  if (mission_.scenario().toml.empty()) return "";
-  written_ =
-      (std::filesystem::temp_directory_path() / ("halocline-monitor-" + std::to_string(::getpid()) + ".toml"))
-          .string();
-  std::ofstream out(written_);
-  out << mission_.scenario().toml;
-  return written_;
+  if (!scenario.empty())
+    nodes_ = std::make_unique<LogNodes>([scenario] { return bus::ConfigFile::load(scenario); });
+  else if (!mission_.scenario().toml.empty())
+    nodes_ = std::make_unique<LogNodes>([logs] { return clients::recorded_configuration(logs); });
 }
 
 void LogSource::update() {

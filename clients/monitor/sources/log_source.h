@@ -24,10 +24,9 @@ namespace halocline::monitor {
 
 class LogSource : public Source {
  public:
-  // Reads the log, or its parts in order. `scenario`: its configuration; empty: the file beside it, or what it holds. Throws
-  // InvalidArgument when the log cannot be read, or holds nothing.
+  // Reads the log, or its parts in order. `scenario`: its configuration; empty: what it holds, or the file
+  // beside it. Throws InvalidArgument when the log cannot be read, or holds nothing.
   LogSource(const std::vector<std::string>& logs, const std::string& scenario);
-  ~LogSource() override;
 
   void update() override;
   const clients::MissionStore& mission() const override { return mission_; }
@@ -47,9 +46,8 @@ class LogSource : public Source {
   double age_s(const clients::NodeRecord& node, SimTime at) const override;
 
  private:
-  LogSource(const std::string& name, clients::MissionLog log, const std::string& scenario);
+  LogSource(const std::vector<std::string>& logs, clients::MissionLog log, const std::string& scenario);
   bool lacks_modem(std::string_view channel) const;
-  std::string configuration(const std::string& scenario);
   // The nodes compute in the water that the log had at an instant.
   void set_water(SimTime at);
 
@@ -58,7 +56,6 @@ class LogSource : public Source {
   clients::MissionStore mission_;
   std::function<bool(std::string_view channel)> is_reply_;
   std::vector<BusMessage> replies_;
-  std::string written_;  // file of the configuration that the log holds; empty: none
   std::optional<environment_t> nodes_water_;
   std::int64_t water_changes_ = 0;
   std::unique_ptr<LogNodes> nodes_;  // null without a configuration

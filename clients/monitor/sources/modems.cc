@@ -8,8 +8,10 @@
 #include "bus/channels.h"
 #include "bus/config/config.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"
+#include "core/names.h"
 
 namespace halocline::monitor {
 namespace {
@@ -26,6 +28,12 @@ std::optional<double> threshold_of(const modem_config_t& message) try {
 
 }  // namespace
 
+modem_config_t modem_message(const channel_server::VehicleModem& modem, SimTime from) {
+  channel_server::VehicleModem shown = modem;
+  if (!is_valid_name(modem.profile.given())) shown.profile = channel_server::kGenericProfile;
+  return channel_server::to_message(shown, from);
+}
+
 std::vector<BusMessage> modems_in(const std::string& configuration, std::span<const std::string> vehicles,
                                   SimTime from) try {
   auto file = bus::ConfigFile::parse(configuration, "SCENARIO");
@@ -36,7 +44,7 @@ std::vector<BusMessage> modems_in(const std::string& configuration, std::span<co
   std::vector<BusMessage> messages;
   for (const std::string& vehicle : vehicles)
     messages.push_back({from.to_utime(), bus::channels::kModem.of(vehicle),
-                        bus::encoded(channel_server::to_message(modems.of(vehicle), from))});
+                        bus::encoded(modem_message(modems.of(vehicle), from))});
   return messages;
 } catch (const InvalidArgument&) {
   return {};

@@ -13,7 +13,15 @@
 #include "clients/monitor/sources/handover.h"
 #include "core/sim_time.h"
 
+namespace halocline::channel_server {
+struct VehicleModem;
+}
+
 namespace halocline::monitor {
+
+// MODEM of a vehicle from `from` on. A modem of a file of its own, which the message cannot name, is shown as
+// a generic one of its levels, band and rate: its framing is left out.
+modem_config_t modem_message(const channel_server::VehicleModem& modem, SimTime from);
 
 // MODEM of each of these vehicles, as a configuration (TOML, as SCENARIO has it) gives it. None of one that cannot be read.
 std::vector<BusMessage> modems_in(const std::string& configuration, std::span<const std::string> vehicles,

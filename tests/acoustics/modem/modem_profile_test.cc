@@ -51,7 +51,7 @@ TEST(ModemProfile, EveryFileOfTheFolderIsKnownByItsName) {
   std::sort(names.begin(), names.end());
   EXPECT_EQ(built_in_modems(), names);
   for (const std::string& name : names) {
-    channel_server::VehicleModem by_path = load_modem(name + ".toml", kFolder.string());
+    channel_server::VehicleModem by_path = load_modem((kFolder / (name + ".toml")).string());
     EXPECT_EQ(by_path.profile, name + ".toml");
     by_path.profile = name;
     EXPECT_EQ(by_path, load_modem(name));
@@ -103,7 +103,7 @@ TEST(ModemProfile, ErrorsOfAFileNameFileKeyAndWhatIsAllowed) {
   EXPECT_THAT(error_of("bandwidth_hz = 60000"), HasSubstr("twice center_frequency_hz"));
   EXPECT_THAT(error_of("when_busy = \"queue\""), HasSubstr("a.toml:1"));
   EXPECT_THROW(load_modem("semaphore"), InvalidArgument);
-  EXPECT_THROW(load_modem("missing.toml", kFolder.string()), InvalidArgument);
+  EXPECT_THROW(load_modem((kFolder / "missing.toml").string()), InvalidArgument);
 }
 
 TEST(ModemProfile, AChipAndAPatternBelongToHopping) {

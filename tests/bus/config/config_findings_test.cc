@@ -9,7 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bus/config/carried_files.h"
 #include "bus/config/config.h"
+#include "core/files/file_path.h"
 
 namespace halocline::bus {
 namespace {
@@ -83,8 +85,8 @@ TEST(UnreadableFile, IsReportedWithTheReason) {
   std::ofstream(folder + "/sea.toml") << "[environment]\nprofile_file = \"water.csv\"\n";
   const auto reads_file = [](ConfigVisitor& v) {
     v.section("environment", "", [](ConfigVisitor& s) {
-      std::string file;
-      s.text("profile_file", file, {}, "");
+      FilePath file;
+      s.file("profile_file", file, FileNames::kFiles, "");
       require_readable(s, "profile_file", file);
     });
   };

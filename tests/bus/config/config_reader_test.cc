@@ -353,11 +353,6 @@ TEST(ConfigWriter, CommentsGiveMeaningRangeAndUnit) {
               HasSubstr("wind_mps = 5.0  # wind (0 to 60 m/s)"));
 }
 
-TEST(ConfigFile, RelativePathsStartWhereTheFileLies) {
-  EXPECT_EQ(ConfigFile::parse("", "scenarios/a.toml").folder(), "scenarios");
-  EXPECT_EQ(ConfigFile::parse("", "a.toml").folder(), ".");
-}
-
 TEST(ConfigFile, WritesWhatItReadWithOverridesAndWithoutWhatIsLeftOut) {
   const auto file = ConfigFile::parse(
       "b.deep.on = true  # a comment\n"

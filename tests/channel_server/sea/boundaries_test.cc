@@ -42,7 +42,7 @@ struct LevelSea {
     config.propagation.sediment = sediment;
     config.propagation.fading.bottom_roughness_m = roughness_m;
     config.propagation.fading.scattering_loss = loses;
-    const auto water = make_environment(config.environment, bus::Scenario(), ".");
+    const auto water = make_environment(config.environment, bus::Scenario());
     RayPropagation propagation(std::make_shared<EnvironmentTimeline>(water),
                                testing::seabed_around(from, to, [&](double) { return depth_m; }),
                                make_rays(config));

@@ -55,7 +55,7 @@ Reception reception_at(std::uint64_t place, double depth_m, const acoustics::Mod
   const auto depth = [&](std::uint32_t end) { return draw(place, end, 0.02, 0.97) * depth_m; };
   const Vec3 from(0, 0, depth(1)), to(std::pow(10, draw(place, 3, 2, 3.5)), 0, depth(2));
   RayPropagation propagation(
-      std::make_shared<EnvironmentTimeline>(make_environment(config.environment, bus::Scenario(), ".")),
+      std::make_shared<EnvironmentTimeline>(make_environment(config.environment, bus::Scenario())),
       testing::seabed_around(from, to, [&](double) { return depth_m; }), model);
   return propagation.reception(at_s(1), {1, from, Vec3::Zero(), &modem}, {2, to, Vec3::Zero(), &modem});
 }

@@ -67,7 +67,7 @@ class LevelBound : public ::testing::TestWithParam<Sea> {
       config.environment.profile.speeds_mps = sea.speeds_mps;
     }
     const auto waters =
-        std::make_shared<EnvironmentTimeline>(make_environment(config.environment, bus::Scenario(), "."));
+        std::make_shared<EnvironmentTimeline>(make_environment(config.environment, bus::Scenario()));
     acoustics::Modem modem;
     modem.centre_frequency_hz = sea.frequency_hz;
     modem.bandwidth_hz = sea.frequency_hz / 5;

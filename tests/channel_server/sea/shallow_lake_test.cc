@@ -55,7 +55,7 @@ Link link_at(double range_m, const char* sediment, bool reverberation, double wi
   const acoustics::Modem modem = transmitter();
   const Vec3 from(0, 0, 1), to(range_m, 0, 1.5);
   RayPropagation propagation(
-      std::make_shared<EnvironmentTimeline>(make_environment(config.environment, bus::Scenario(), ".")),
+      std::make_shared<EnvironmentTimeline>(make_environment(config.environment, bus::Scenario())),
       testing::seabed_around(from, to, [](double) { return kDepthM; }), make_rays(config));
   const Reception reception =
       propagation.reception(at_s(1), {1, from, Vec3::Zero(), &modem}, {2, to, Vec3::Zero(), &modem});

@@ -103,7 +103,7 @@ class Predictor {
       config.environment.profile.water_rows = {
           {0, 22, 38}, {15, 22, 38}, {30, 15, 38}, {50, 13, 38}, {100, 13, 38}};
     }
-    const acoustics::Environment water = make_environment(config.environment, bus::Scenario(), ".");
+    const acoustics::Environment water = make_environment(config.environment, bus::Scenario());
     const auto seabed = testing::seabed_around(place.from, place.to,
                                                [&](double north) { return depth_at(place.sea, north); });
     RayPropagation propagation(std::make_shared<EnvironmentTimeline>(water), seabed, model_);

@@ -40,9 +40,11 @@ class RunCommand : public ::testing::Test {
     int code;
     std::string output;
   };
-  // With the test's folder as the working folder.
+  // With the test's folder as the working folder, and its folder tmp, if it has one, for temporary files.
   std::vector<std::string> command(const std::string& arguments) const {
-    return {"/bin/sh", "-c", "cd '" + folder_ + "' && exec '" + kProgram + "' " + arguments};
+    return {"/bin/sh", "-c",
+            "cd '" + folder_ + "' && [ ! -d tmp ] || export TMPDIR=$PWD/tmp; exec '" + kProgram + "' " +
+                arguments};
   }
   Ended run(const std::string& arguments) {
     Process process(command(arguments));

@@ -154,12 +154,12 @@ TEST_F(RunCommand, NoCommandReplacesWhatIsThereButByForce) {
 
 TEST_F(RunCommand, WhatIsReadIsNeverWritten) {
   const std::string scenario = bytes_of(folder_ + "/pond.toml");
-  for (const char* command : {"run pond.toml --duration 1 --no-csv --log pond.lcm --force",
-                              "run pond.toml --duration 1 --no-csv --log ./pond.lcm"}) {
-    const Ended end = run(command);
-    EXPECT_EQ(end.code, 2) << command;
-    EXPECT_THAT(end.output, HasSubstr("pond.toml is what is read; allowed is another place to write to"));
+  std::ofstream(folder_ + "/pond.html") << scenario;
+  for (const char* command : {"run pond.toml --duration 1 --no-csv --log pond.toml --force",
+                              "run pond.html --duration 1 --no-csv --log pond.lcm --force"}) {
+    EXPECT_EQ(run(command).code, 2) << command;
     EXPECT_EQ(bytes_of(folder_ + "/pond.toml"), scenario);
+    EXPECT_EQ(bytes_of(folder_ + "/pond.html"), scenario);
   }
   ASSERT_EQ(run("run pond.toml --duration 20 --out here --quiet --no-csv").code, 0);
   const std::string log = bytes_of(folder_ + "/here/pond.lcm");
@@ -169,6 +169,109 @@ TEST_F(RunCommand, WhatIsReadIsNeverWritten) {
                               "report here/pond.lcm --out here/pond.lcm --force"}) {
     EXPECT_EQ(run(command).code, 2) << command;
     EXPECT_EQ(bytes_of(folder_ + "/here/pond.lcm"), log) << command;
+  }
+}
+
+// The log holds the configuration that it was made with, overrides too.
+TEST_F(RunCommand, ALogMayLieBesideItsScenarioUnderItsName) {
+  const std::string scenario = bytes_of(folder_ + "/pond.toml");
+  const Ended made = run("run pond.toml --duration 30 --seed 5 --no-csv --log pond.lcm");
+  EXPECT_EQ(made.code, 0) << made.output;
+  EXPECT_EQ(bytes_of(folder_ + "/pond.toml"), scenario);
+  EXPECT_EQ(run("run pond.toml --duration 30 --seed 5 --no-csv --log ./pond.lcm").code, 2);  // a log is there
+  const Ended again = run("replay pond.lcm --log again.lcm");
+  EXPECT_EQ(again.code, 0) << again.output;
+  EXPECT_THAT(again.output, HasSubstr(": 0 changed their outcome"));
+  EXPECT_EQ(run("replay again.lcm --scenario pond.toml --log pond.lcm").code, 2);
+  EXPECT_EQ(bytes_of(folder_ + "/pond.toml"), scenario);
+}
+
+// A bay whose every file is its own: modem with another rate, vehicle, cast, noise, terrain.
+void write_bay(const fs::path& bay) {
+  fs::create_directories(bay / "modems");
+  std::ofstream(bay / "modems/own.toml")
+      << "family = \"own\"\nsource_level_db = 175\nrates = \"../fast.toml janus\"\n";
+  std::ofstream(bay / "fast.toml") << "family = \"own\"\nbit_rate_bps = 1000\nrate_number = 7\n";
+  std::ofstream(bay / "auv.toml") << "based_on = \"torpedo\"\nname = \"own auv\"\n";
+  std::ofstream(bay / "cast.csv") << "depth_m,temperature_degC,salinity_psu\n0,18,35\n60,12,35\n";
+  std::ofstream(bay / "noise.csv") << "t_s,frequency_khz,level_db\n0,1,70\n0,100,40\n";
+  std::ofstream ground(bay / "ground.asc");
+  ground << "ncols 5\nnrows 5\nxllcorner -2500\nyllcorner -2500\ncellsize 1000\n";
+  for (int i = 0; i < 25; ++i) ground << "-60 ";
+  std::ofstream(bay / "bay.toml")
+      << "[scenario]\nname = \"bay\"\nduration_s = 40\n[modem]\nprofile = \"modems/own.toml\"\n"
+         "[environment]\nprofile = \"file\"\nprofile_file = \"cast.csv\"\nnoise_file = \"noise.csv\"\n"
+         "[terrain]\nkind = \"raster\"\nsize_north_m = 2000\nsize_east_m = 2000\n"
+         "[terrain.raster]\npath = \"ground.asc\"\ncoordinate_system = \"local\"\n"
+         "[[vehicle]]\nname = \"a\"\nid = 1\nmodel = \"auv.toml\"\nstart_ned_m = [0.0, 0.0, 20.0]\n"
+         "[[vehicle]]\nname = \"b\"\nid = 2\nmodel = \"fixed\"\nstart_ned_m = [0.0, 300.0, 20.0]\n"
+         "[vehicle.traffic]\nperiod_s = 5\npayload_bytes = 4\n";
+}
+
+TEST_F(RunCommand, ALogReplaysWhereNoneOfItsFilesIs) {
+  write_bay(folder_ + "/bay");
+  fs::create_directories(folder_ + "/away/tmp");
+  const Ended made = run("run bay/bay.toml --log bay/made.lcm --no-csv --set modem.source_level_db=180");
+  ASSERT_EQ(made.code, 0) << made.output;
+  fs::rename(folder_ + "/bay/made.lcm", folder_ + "/away/made.lcm");
+  fs::remove_all(folder_ + "/bay");
+  folder_ += "/away";
+  for (const std::string log : {"made", "again"}) {
+    const std::string next = log == "made" ? "again" : "third";
+    const Ended replayed = run("replay " + log + ".lcm --log " + next + ".lcm");
+    EXPECT_EQ(replayed.code, 0) << replayed.output;
+    EXPECT_THAT(replayed.output, HasSubstr(": 0 changed their outcome")) << replayed.output;
+    EXPECT_EQ(run("report " + log + ".lcm --out " + log + ".html").code, 0);
+  }
+  EXPECT_EQ(run("compare made.lcm again.lcm").code, 0);
+  EXPECT_THAT(bytes_of(folder_ + "/made.html"), HasSubstr("It carries the files that it names."));
+  EXPECT_THAT(bytes_of(folder_ + "/made.html"), Not(HasSubstr("[[file]]")));
+  // The configuration beside the log is whole as well, and nothing stays in the folder of temporary files.
+  const Ended config = run("config again.toml");
+  EXPECT_EQ(config.code, 0) << config.output;
+  EXPECT_TRUE(fs::is_empty(folder_ + "/tmp"));
+  folder_ = fs::path(folder_).parent_path().string();
+}
+
+// A raster above 1 MB.
+TEST_F(RunCommand, ALargeFileIsNamedByItsPlaceAndMissedByIt) {
+  write_bay(folder_ + "/bay");
+  std::ofstream ground(folder_ + "/bay/ground.asc");
+  ground << "ncols 700\nnrows 700\nxllcorner -2500\nyllcorner -2500\ncellsize 7.142857142857143\n";
+  for (int i = 0; i < 490'000; ++i) ground << "-60 ";
+  ground.close();
+  ASSERT_EQ(run("run bay/bay.toml --log away/made.lcm --no-csv --no-report --quiet").code, 0);
+  EXPECT_EQ(run("replay away/made.lcm --log away/1.lcm").code, 0);
+  std::ofstream(folder_ + "/bay/ground.asc", std::ios::app) << " ";
+  EXPECT_THAT(run("replay away/made.lcm --log away/2.lcm").output,
+              HasSubstr("it is another file than the one of"));
+  fs::rename(folder_ + "/bay/ground.asc", folder_ + "/away/moved.asc");
+  const Ended missed = run("replay away/made.lcm --log away/3.lcm");
+  EXPECT_EQ(missed.code, 2);
+  EXPECT_THAT(missed.output, HasSubstr("terrain.raster.path is 'ground.asc'; cannot read"));
+  EXPECT_THAT(missed.output, HasSubstr("bay/ground.asc: there is no such file; a file of 19"));
+  EXPECT_EQ(run("replay away/made.lcm --log away/4.lcm --set terrain.raster.path=away/moved.asc").code, 0);
+}
+
+TEST_F(RunCommand, APathOfTheCommandLineStartsAtTheWorkingDirectory) {
+  fs::create_directory(folder_ + "/casts");
+  std::ofstream(folder_ + "/here.csv") << "depth_m,temperature_degC,salinity_psu\n0,18,35\n60,12,35\n";
+  fs::rename(folder_ + "/pond.toml", folder_ + "/casts/pond.toml");
+  const Ended found =
+      run("config casts/pond.toml --set environment.profile=file --set environment.profile_file=here.csv");
+  EXPECT_EQ(found.code, 0) << found.output;
+  EXPECT_THAT(found.output,
+              HasSubstr("profile_file = \"" + fs::canonical(folder_ + "/here.csv").string() + "\""));
+  EXPECT_EQ(run("config casts/pond.toml --set modem.profile=janus").code, 0);
+}
+
+TEST_F(RunCommand, NumbersOutOfRangeAreShownShort) {
+  for (const std::string arguments :
+       {"run pond.toml --duration 1e300", "config pond.toml --set scenario.duration_s=1e300",
+        "config pond.toml --set scenario.duration_s=1" + std::string(300, '0')}) {
+    const Ended refused = run(arguments);
+    EXPECT_EQ(refused.code, 2) << arguments;
+    EXPECT_LT(refused.output.size(), 400u) << refused.output;
   }
 }
 

@@ -13,9 +13,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "clients/modem_gateway/protocols/base64.h"
 #include "clients/modem_gateway/protocols/fields.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
+#include "core/text/base64.h"
 #include "core/check.h"
 #include "core/sim_time.h"
 #include "tests/clients/modem_gateway/fake_port.h"

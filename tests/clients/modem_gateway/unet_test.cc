@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "clients/modem_gateway/protocols/base64.h"
 #include "clients/modem_gateway/protocols/unet/unet_json.h"
+#include "core/text/base64.h"
 #include "core/check.h"
 #include "core/names.h"
 #include "tests/clients/modem_gateway/fake_port.h"

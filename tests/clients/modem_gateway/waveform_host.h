@@ -17,7 +17,7 @@
 
 #include "acoustics/waveform/moving_link.h"
 #include "clients/modem_gateway/endpoint.h"
-#include "clients/modem_gateway/protocols/base64.h"
+#include "core/text/base64.h"
 
 namespace halocline::modem_gateway::testing {
 

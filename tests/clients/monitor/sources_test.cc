@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a source makes of the scenario: modems, and changes of the water.
+#include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include "bus/config/config.h"
+#include "clients/halocline/scenario/composition.h"
+#include "clients/monitor/sources/log_nodes.h"
 #include "clients/monitor/sources/modems.h"
 #include "clients/monitor/sources/water_changes.h"
 #include "core/sim_time.h"
@@ -33,6 +41,30 @@ TEST(Modems, AreThoseOfTheConfiguration) {
   EXPECT_EQ(janus->utime, 5'000'000);
   EXPECT_TRUE(modems_in("[modem]\nprofile = \"away.toml\"", names, SimTime()).empty());
   EXPECT_TRUE(modems_in("[modem", names, SimTime()).empty());
+}
+
+// A configuration that carries its files, as a log has it; away from where it was written.
+TEST(LogNodes, ComputeWithTheOwnModemThatTheConfigurationCarries) {
+  const std::string folder = ::testing::TempDir() + "own-modem-" + std::to_string(getpid());
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder + "/own.toml") << "source_level_db = 171\nbit_rate_bps = 250\n";
+  std::ofstream(folder + "/sea.toml")
+      << "[modem]\nprofile = \"own.toml\"\n[[vehicle]]\nname = \"a\"\nid = 1\n";
+  auto scenario = bus::ConfigFile::load(folder + "/sea.toml");
+  const std::string carried =
+      clients::load_scenario(scenario, clients::ScenarioUse::kWater).scenario.configuration;
+  std::filesystem::remove_all(folder);
+  LogNodes nodes([&] { return bus::ConfigFile::parse(carried, "SCENARIO"); });
+  std::optional<modem_config_t> modem;
+  while (!nodes.is_ready() && nodes.problem().empty())
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(nodes.problem(), "");
+  for (const BusMessage& message : nodes.take()) {
+    if (message.channel == "MODEM.a") modem = bus::decoded<modem_config_t>(message.bytes);
+  }
+  ASSERT_TRUE(modem);
+  EXPECT_EQ(modem->source_level_db, 171);
+  EXPECT_EQ(modem->bit_rate_bps, 250);
 }
 
 TEST(Modems, ThresholdIsThatOfTheModem) {

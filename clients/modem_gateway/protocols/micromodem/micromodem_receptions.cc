@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "clients/modem_gateway/protocols/base64.h"
 #include "clients/modem_gateway/protocols/fields.h"
+#include "core/text/base64.h"
 #include "core/names.h"
 #include "core/sim_time.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "clients/modem_gateway/protocols/base64.h"
+#include "core/text/base64.h"
 
 namespace halocline::modem_gateway {
 namespace {

@@ -307,7 +307,7 @@ ScenarioConfig front(const std::string& model, const std::string& carries_sound)
 
 TEST(LinkSurvey, TheStraightPathGoesThroughTheOceansField) {
   const ScenarioConfig config = front("straight", "true");
-  const auto sea = make_environment(config.channel_server.environment, config.scenario, config.folder);
+  const auto sea = make_environment(config.channel_server.environment, config.scenario);
   const Vec3 from = link_end(config, "warm").position_ned_m,
              way = link_end(config, "cold").position_ned_m - from;
   constexpr int kPieces = 5000;

@@ -67,7 +67,7 @@ TEST(SweepPlan, IsReadAsItWasWritten) {
   std::remove(path.c_str());
   EXPECT_EQ(read.runs(), 12u);
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(run_of(read, i).overrides, run_of(plan(), i).overrides);
-  EXPECT_THAT(read.scenario, ::testing::EndsWith("/harbour.toml"));
+  EXPECT_THAT(read.scenario.place(), ::testing::EndsWith("/harbour.toml"));
 }
 
 TEST(SweepPlan, AllErrorsOfAFileAreReportedTogether) {

@@ -170,7 +170,7 @@ TEST_F(WaveformTest, AbsorptionTakesMoreOfAHigherFrequency) {
   };
   const double range_m =
       survey_link(config, link_end(config, "west"), link_end(config, "east")).reception.budget.range_m;
-  const auto water = channel_server::make_water_model(config.channel_server, config.scenario, config.folder);
+  const auto water = channel_server::make_water_model(config.channel_server, config.scenario);
   const double depth_m =
       (link_end(config, "west").position_ned_m.z() + link_end(config, "east").position_ned_m.z()) / 2;
   const auto alpha = acoustics::absorption_spectrum_at(water.propagation->environment(SimTime()), depth_m);

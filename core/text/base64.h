@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-namespace halocline::modem_gateway {
+namespace halocline {
 
 std::string base64_of(std::span<const std::uint8_t> bytes);
 // None for a text that is no base 64.
 std::optional<std::vector<std::uint8_t>> bytes_of_base64(std::string_view text);
 
-}  // namespace halocline::modem_gateway
+}  // namespace halocline

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "clients/modem_gateway/protocols/base64.h"
+#include "core/text/base64.h"
 
 #include <algorithm>
 #include <cstddef>
 
-namespace halocline::modem_gateway {
+namespace halocline {
 namespace {
 
 constexpr std::string_view kBase64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -39,4 +39,4 @@ std::optional<std::vector<std::uint8_t>> bytes_of_base64(std::string_view text) 
   return bytes;
 }
 
-}  // namespace halocline::modem_gateway
+}  // namespace halocline

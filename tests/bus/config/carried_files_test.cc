@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paths as keys: where they start, and how the files that they name travel with a configuration.
+#include "bus/config/carried_files.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "bus/config/config.h"
+#include "core/files/file_path.h"
+
+namespace halocline::bus {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+struct Sea {
+  FilePath cast, raster, model;
+  std::vector<FilePath> rates;
+};
+
+void visit(ConfigVisitor& v, Sea& sea) {
+  v.file("cast", sea.cast, FileNames::kFiles, "");
+  v.file("raster", sea.raster, FileNames::kRasters, "");
+  v.file("model", sea.model, FileNames::kShipped, "");
+  v.files("rates", sea.rates, FileNames::kShipped, "");
+}
+
+Sea sea_in(ConfigFile& file) {
+  Sea sea;
+  file.read([&](ConfigVisitor& v) { visit(v, sea); });
+  file.check(/*whole_file=*/true);
+  return sea;
+}
+
+std::string bytes_of(const std::string& place) {
+  std::ifstream in(place, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class CarriedFile : public ::testing::Test {
+ protected:
+  CarriedFile() { fs::create_directories(folder_ / "sub"); }
+  ~CarriedFile() override { fs::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return (folder_ / name).string();
+  }
+  ConfigFile load(const std::string& toml, const std::vector<std::string>& overrides = {}) const {
+    return ConfigFile::load(write("sea.toml", toml), overrides);
+  }
+  // The configuration that travels, read where none of its files is.
+  ConfigFile moved(const std::string& toml) {
+    ConfigFile file = load(toml);
+    sea_in(file);
+    const std::string text = file.to_toml();
+    fs::remove_all(folder_);
+    return ConfigFile::parse(text, "SCENARIO");
+  }
+
+  const fs::path folder_ = fs::path(::testing::TempDir()) / ("carried-" + std::to_string(getpid()));
+};
+
+TEST_F(CarriedFile, APathStartsWhereItStands) {
+  ConfigFile file =
+      load("cast = \"sub/a.csv\"\nraster = \"/data/b.tif\"\nmodel = \"torpedo\"\n", {"rates=c.toml janus"});
+  const Sea sea = sea_in(file);
+  EXPECT_EQ(sea.cast.place(), (folder_ / "sub/a.csv").string());
+  EXPECT_EQ(sea.cast.given(), "sub/a.csv");
+  EXPECT_EQ(sea.raster.place(), "/data/b.tif");
+  EXPECT_EQ(sea.model.place(), "torpedo");
+  ASSERT_EQ(sea.rates.size(), 2u);
+  EXPECT_EQ(sea.rates[0].place(), "c.toml");
+  EXPECT_EQ(sea.rates[1].place(), "janus");
+}
+
+TEST_F(CarriedFile, NamesOfGdalAreNoPaths) {
+  ConfigFile file = load("raster = 'NETCDF:\"a.nc\":z'\n");
+  EXPECT_EQ(sea_in(file).raster.place(), "NETCDF:\"a.nc\":z");
+}
+
+TEST_F(CarriedFile, IsReadByteForByteFarFromItsOrigin) {
+  const std::string text = "a \"quoted\" line\r\n\ttab\n\nno end", bytes("\0\xff\x80\n", 4);
+  write("sub/a.csv", text);
+  write("b.tif", bytes);
+  write("c.toml", "");
+  ConfigFile file = moved("cast = \"sub/a.csv\"\nraster = \"b.tif\"\nrates = \"c.toml janus\"\n");
+  const Sea sea = sea_in(file);
+  EXPECT_EQ(bytes_of(sea.cast.place()), text);
+  EXPECT_EQ(bytes_of(sea.raster.place()), bytes);
+  ASSERT_EQ(sea.rates.size(), 2u);
+  EXPECT_EQ(bytes_of(sea.rates[0].place()), "");
+  EXPECT_EQ(sea.rates[1].place(), "janus");
+  EXPECT_EQ(file.to_toml(), [&] {
+    ConfigFile again = ConfigFile::parse(file.to_toml(), "SCENARIO");
+    sea_in(again);
+    return again.to_toml();
+  }());
+}
+
+TEST_F(CarriedFile, TwoOfOneNameAreToldApart) {
+  write("a.csv", "first");
+  write("sub/a.csv", "second");
+  ConfigFile file = moved("cast = \"a.csv\"\nraster = \"sub/a.csv\"\n");
+  const Sea sea = sea_in(file);
+  EXPECT_EQ(bytes_of(sea.cast.place()), "first");
+  EXPECT_EQ(bytes_of(sea.raster.place()), "second");
+}
+
+TEST_F(CarriedFile, BringsTheFilesThatItNamesInTurn) {
+  write("sub/inner.toml", "model = \"torpedo\"\n");
+  write("sub/own.toml", "cast = \"../a.csv\"\nrates = \"inner.toml\"\n");
+  write("a.csv", "cast");
+  ConfigFile file = load("model = \"sub/own.toml\"\n");
+  const auto nested = [](const FilePath& path) {
+    ConfigFile inside = ConfigFile::load_named(path);
+    return sea_in(inside);
+  };
+  nested(sea_in(file).model);
+  const std::string text = file.to_toml();
+  fs::remove_all(folder_);
+  ConfigFile again = ConfigFile::parse(text, "SCENARIO");
+  const Sea inside = nested(sea_in(again).model);
+  EXPECT_EQ(bytes_of(inside.cast.place()), "cast");
+  EXPECT_EQ(bytes_of(inside.rates.at(0).place()), "model = \"torpedo\"\n");
+}
+
+TEST_F(CarriedFile, StaysAsLongAsItsPathAndNoLonger) {
+  write("a.csv", "cast");
+  FilePath cast;
+  {
+    ConfigFile file = moved("cast = \"a.csv\"\n");
+    cast = sea_in(file).cast;
+  }
+  const std::string place = cast.place();
+  EXPECT_EQ(bytes_of(place), "cast");
+  cast = FilePath();
+  EXPECT_FALSE(fs::exists(place));
+}
+
+TEST_F(CarriedFile, AboveAMegabyteOrWithCompanionsIsNamedByItsPlace) {
+  const std::string large = write("large.csv", std::string(kMaxCarriedBytes + 1, '1'));
+  const std::string raster = write("small.asc", "ncols 1\n");
+  write("small.prj", "");
+  ConfigFile file = load("cast = \"large.csv\"\nraster = \"small.asc\"\n");
+  sea_in(file);
+  const std::string text = file.to_toml();
+  EXPECT_LT(text.size(), 2000u);
+  {
+    ConfigFile again = ConfigFile::parse(text, "SCENARIO");
+    const Sea sea = sea_in(again);
+    EXPECT_EQ(sea.cast.place(), large);
+    EXPECT_EQ(sea.raster.place(), raster);
+    EXPECT_THAT(again.warnings(), IsEmpty());
+  }
+  write("large.csv", std::string(kMaxCarriedBytes + 1, '2'));
+  ConfigFile changed = ConfigFile::parse(text, "SCENARIO");
+  sea_in(changed);
+  EXPECT_THAT(changed.warnings(), ElementsAre(HasSubstr("it is another file than the one of 1000001 bytes")));
+  fs::remove(large);
+  ConfigFile gone = ConfigFile::parse(text, "SCENARIO");
+  Sea sea;
+  gone.read([&](ConfigVisitor& v) {
+    visit(v, sea);
+    require_readable(v, "cast", sea.cast);
+  });
+  try {
+    gone.check(/*whole_file=*/true);
+    FAIL() << "nothing was refused";
+  } catch (const ConfigErrors& errors) {
+    EXPECT_THAT(errors.what(),
+                HasSubstr("cannot read " + large + ": there is no such file; a file of 1000001 bytes"));
+  }
+}
+
+TEST_F(CarriedFile, OfAnotherHashOrOfAPlaceOutsideIsRefused) {
+  const auto error_of = [](const std::string& table) -> std::string {
+    try {
+      ConfigFile::parse("[[file]]\n" + table, "SCENARIO");
+    } catch (const ConfigErrors& errors) {
+      return errors.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(error_of("name = \"a\"\nxxh3 = \"0\"\nlines = [\"x\"]\n"),
+              HasSubstr("its bytes have the hash"));
+  for (const std::string name : {"../a", "/etc/a", "..", ""})
+    EXPECT_THAT(error_of("name = \"" + name + "\"\nplace = \"/a\"\nbytes = 1\n"),
+                HasSubstr("without a folder"));
+  EXPECT_THAT(error_of("name = \"a\"\nbase64 = [\"!\"]\n"), HasSubstr("base64"));
+  EXPECT_THAT(error_of("name = \"a\"\n"), HasSubstr("is missing"));
+}
+
+TEST_F(CarriedFile, WarningsOfAFileThatIsReadAreThoseOfTheConfiguration) {
+  write("own.toml", "x = 1\n");
+  ConfigFile file = load("model = \"own.toml\"\n");
+  file.read([&](ConfigVisitor& v) {
+    Sea sea;
+    visit(v, sea);
+    ConfigFile inside = ConfigFile::load_named(sea.model);
+    inside.read([](ConfigVisitor& w) {
+      double x = 0;
+      w.when(false, "y = 2", [&] { w.number("x", x, {0, 9, "", ""}); });
+    });
+    inside.check(/*whole_file=*/true);
+  });
+  file.check(/*whole_file=*/true);
+  EXPECT_THAT(file.warnings(),
+              ElementsAre(HasSubstr("own.toml:1: x is 1; it has no effect, it counts only with y = 2")));
+}
+
+}  // namespace
+}  // namespace halocline::bus
