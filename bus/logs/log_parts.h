@@ -25,14 +25,20 @@ struct LogRotation {
   bool rotates() const { return part_bytes > 0 || part_time > SimDuration(); }
 };
 
+// kReplace: of the file that is there, and of the parts of an earlier series of that name. kAppend: to a log
+// in one file; LCM numbers the events from 0 again.
+enum class LogStart { kReplace, kAppend };
+
 class LogParts {
  public:
-  // Replaces the file at `path`, and the parts of an earlier series of that name; throws InvalidArgument when it
-  // cannot be written.
-  LogParts(const std::string& path, const LogRotation& rotation);
+  // Throws InvalidArgument when the file at `path` cannot be written.
+  LogParts(const std::string& path, const LogRotation& rotation, LogStart start = LogStart::kReplace);
 
   // `event` but for its number.
   void write(lcm::LogEvent event);
+  // Hands to the file what was written since the last call. False when the disk refused any of it: then all
+  // of it is taken back, so that the file ends with a whole event and may go on when there is room again.
+  [[nodiscard]] bool flush();
   void close();
 
   int parts() const { return part_ + 1; }      // begun so far
@@ -40,13 +46,16 @@ class LogParts {
 
  private:
   void rotate_before(SimTime stamp, std::int64_t bytes);
-  [[nodiscard]] bool open_part(int part);
+  [[nodiscard]] bool open_part(int part, LogStart start);
+  void take_back();
 
   std::string path_;
   LogRotation rotation_;
   std::unique_ptr<lcm::LogFile> file_;
   int part_ = 0;
-  std::int64_t part_bytes_ = 0;  // written to this part
+  std::int64_t part_bytes_ = 0;   // written to this part
+  std::int64_t sound_bytes_ = 0;  // of the file, up to the last flush
+  bool is_refused_ = false;       // something since then
   SimTime part_ends_ = SimTime::never();
   std::int64_t events_ = 0;
   bool failed_ = false;

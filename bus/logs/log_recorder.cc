@@ -6,8 +6,8 @@
 
 namespace halocline::bus {
 
-LogRecorder::LogRecorder(const std::string& path, const LogRotation& rotation)
-    : path_(path), parts_(path, rotation), writer_([this] { write_batches(); }) {}
+LogRecorder::LogRecorder(const std::string& path, const LogRotation& rotation, LogStart start)
+    : path_(path), parts_(path, rotation, start), writer_([this] { write_batches(); }) {}
 
 LogRecorder::~LogRecorder() {
   try {
@@ -59,6 +59,7 @@ void LogRecorder::write_batches() {
 }
 
 void LogRecorder::write(const MessageBatch& batch) {
+  std::int64_t events = 0;
   batch.for_each([&](SimTime stamp, const std::string& channel, std::span<const std::uint8_t> message) {
     lcm::LogEvent event{};
     event.timestamp = stamp.to_utime();
@@ -66,7 +67,9 @@ void LogRecorder::write(const MessageBatch& batch) {
     event.datalen = static_cast<std::int32_t>(message.size());
     event.data = const_cast<std::uint8_t*>(message.data());  // LCM only reads it
     parts_.write(std::move(event));
+    ++events;
   });
+  if (!parts_.flush()) events_refused_ += events;
 }
 
 void LogRecorder::close() {

@@ -2,10 +2,12 @@
 // These tests write files, which is what a recorder is for: below the folder for temporary files, and removed.
 #include "bus/logs/log_recorder.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "bus/runtime/lockstep_runner.h"
 #include "core/check.h"
 #include "tests/bus/runtime/test_nodes.h"
+#include "tests/support/file_size_limit.h"
 
 namespace halocline::bus {
 namespace {
@@ -115,6 +118,49 @@ TEST_F(LogRecorderTest, AFullDiskIsAnError) {
   record_all(runner, recorder);
   runner.run_until(SimTime::from_seconds(3));
   EXPECT_THROW(recorder.close(), std::runtime_error);
+}
+
+std::vector<std::uint8_t> bytes_of_size(std::size_t size) { return std::vector<std::uint8_t>(size, 7); }
+
+TEST_F(LogRecorderTest, ItAppendsBehindWhatIsThere) {
+  const std::vector<std::uint8_t> bytes = bytes_of_size(3);
+  for (const LogStart start : {LogStart::kReplace, LogStart::kAppend}) {
+    LogRecorder recorder(path("log"), {}, start);
+    recorder.record(SimTime::from_utime(start == LogStart::kAppend ? 2 : 1), "A", bytes);
+    recorder.close();
+  }
+  const auto events = events_of(path("log"));
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(std::get<0>(events[0]), 1);
+  EXPECT_EQ(std::get<0>(events[1]), 2);
+}
+
+TEST_F(LogRecorderTest, WhatIsHandedOverIsInTheFileWhileItIsWritten) {
+  LogRecorder recorder(path("log"));
+  recorder.record(SimTime::from_utime(1), "A", bytes_of_size(3));
+  recorder.flush();
+  EXPECT_EQ(events_of(path("log")).size(), 1u);
+}
+
+// A batch that does not fit leaves nothing behind; the log goes on when there is room again.
+TEST_F(LogRecorderTest, OfWhatTheDiskRefusesNoPartIsInTheLogAndItIsCounted) {
+  LogRecorder recorder(path("log"));
+  const auto record_batch = [&](std::int64_t utime, int events, std::size_t size) {
+    for (int i = 0; i < events; ++i) recorder.record(SimTime::from_utime(utime), "A", bytes_of_size(size));
+    recorder.flush();
+  };
+  record_batch(1, 3, 1000);
+  {
+    const halocline::testing::FileSizeLimit full(20'000);
+    record_batch(2, 30, 1000);
+    record_batch(3, 2, 1000);
+  }
+  record_batch(4, 2, 1000);
+  EXPECT_THROW(recorder.close(), std::runtime_error);
+  EXPECT_EQ(recorder.events_refused(), 30);
+  std::vector<std::int64_t> stamps;
+  for (const auto& event : events_of(path("log"))) stamps.push_back(std::get<0>(event));
+  EXPECT_THAT(stamps, ::testing::ElementsAre(1, 1, 1, 3, 3, 4, 4));
 }
 
 TEST_F(LogRecorderTest, PartsPutTogetherAreTheLogInOnePiece) {
