@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <iostream>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -20,9 +21,11 @@
 #include "clients/monitor/pages/request_fields.h"
 #include "clients/monitor/pages/requests.h"
 #include "clients/monitor/pages/terrain_window.h"
+#include "clients/monitor/run_network.h"
 #include "clients/monitor/sources/bus_source.h"
 #include "clients/monitor/sources/handover.h"
 #include "clients/monitor/sources/log_source.h"
+#include "clients/monitor/web/listening_socket.h"
 #include "core/check.h"
 
 namespace halocline::monitor {
@@ -219,10 +222,13 @@ void Monitor::begin_link(ConnectionId id, const json& request) {
   queries_.ask(std::move(*query), finish_link);
 }
 
-void run_monitor(const MonitorOptions& options, std::ostream& out, const std::function<bool()>& should_stop) {
+void run_monitor(MonitorOptions options, std::ostream& out, const std::function<bool()>& should_stop) {
+  options.web.socket = listening_socket(options.web.access);  // in the network of who looks at the pages
+  const RunNetwork network(options.network);
   Monitor monitor(options);
   out << monitor.url() << std::endl;  // at once: a script waits for it
-  while (!should_stop()) monitor.tick();
+  while (!should_stop() && !network.has_ended()) monitor.tick();
+  if (network.has_ended()) std::cerr << "halocline-monitor: the run has ended" << std::endl;
 }
 
 }  // namespace halocline::monitor

@@ -67,7 +67,8 @@ class Monitor {
   std::unique_ptr<WebServer> server_;  // last: its callbacks use the others
 };
 
-// Prints the URL to `out` and serves until `should_stop`, which is called at least every 0.1 s.
-void run_monitor(const MonitorOptions& options, std::ostream& out, const std::function<bool()>& should_stop);
+// Prints the URL to `out` and serves until `should_stop`, which is called at least every 0.1 s, or until the
+// run whose network was entered has ended.
+void run_monitor(MonitorOptions options, std::ostream& out, const std::function<bool()>& should_stop);
 
 }  // namespace halocline::monitor

@@ -42,6 +42,11 @@ void describe(CLI::App& app, MonitorOptions& options) {
   app.add_option("--lcm-url", options.lcm_url,
                  "of the bus; default: LCM_DEFAULT_URL, or "
                  "udpm on this host");
+  app.add_option("--network", options.network,
+                 "process in whose network the bus is, while pages are served in this one's, until it ends; "
+                 "./scripts/join gives it")
+      ->check(CLI::PositiveNumber)
+      ->type_name("PID");
   app.add_option("--accept", options.accept,
                  "other hosts whose messages are received: any, or addresses and ranges as "
                  "10.0.3.7,10.0.4.0/24; default: any if the bus has ttl=1, none with ttl=0");

@@ -13,6 +13,7 @@ namespace halocline::monitor {
 struct MonitorOptions {
   std::vector<std::string> logs;  // one log, or its parts in order; empty: the bus
   std::string lcm_url;            // empty: the default
+  int network = 0;                // a process in whose network the bus is; 0: in this one's
   std::string accept;             // hosts of the bus (bus/runtime/receive_filter.h)
   std::string scenario;           // configuration of a log; empty: what the log holds, or the file beside it
   double history_s = 3600;        // of a bus: what is older is dropped

@@ -173,7 +173,7 @@ TEST(Scripts, WithoutSlurmAJobIsRefusedWithWhatIsMissing) {
   std::filesystem::remove_all(folder);
 }
 
-// A run leaves its files, and scripts/join finds them, in `folder`.
+// A run leaves its files in `folder`.
 std::vector<std::string> in_folder(const std::string& folder, const std::vector<std::string>& command) {
   std::vector<std::string> all{"/usr/bin/env", "TMPDIR=" + folder, "HALOCLINE_BIN=" HALOCLINE_BIN_DIR};
   all.insert(all.end(), command.begin(), command.end());
@@ -185,38 +185,6 @@ bool prints(const Process& process, const std::string& text) {
   while (process.output().find(text) == std::string::npos && std::chrono::steady_clock::now() < end)
     std::this_thread::sleep_for(20ms);
   return process.output().find(text) != std::string::npos;
-}
-
-class Join : public ::testing::Test {
- protected:
-  void start() { ASSERT_TRUE(prints(run_, "to join their bus: ./scripts/join")) << run_.output(); }
-  [[nodiscard]] Process joined(const std::vector<std::string>& command) const {
-    std::vector<std::string> all{script("join")};
-    all.insert(all.end(), command.begin(), command.end());
-    return Process(in_folder(here_, all));
-  }
-  void stop_run() {
-    run_.signal(SIGTERM);
-    EXPECT_EQ(run_.wait(), 0) << run_.output();
-  }
-
-  TemporaryFolder folder_;
-  std::string here_ = std::filesystem::current_path().string();
-  Process run_{
-      in_folder(here_, {script("run_distributed"), HALOCLINE_TEST_DATA "/scenarios/two_vehicles.toml",
-                        "--duration", "60", "--log", here_ + "/run.lcmlog"})};
-};
-
-TEST_F(Join, AForeignVehicleJoinsADistributedRun) {
-  start();
-  Process vehicle = joined({"foreign-vehicle", "--name", "visitor", "--every", "1", "--north", "200"});
-  EXPECT_TRUE(prints(vehicle, "packet 0 accepted")) << vehicle.output();
-  EXPECT_TRUE(prints(vehicle, ": from vehicle ")) << vehicle.output();
-  EXPECT_THAT(vehicle.output(), Not(HasSubstr("no CLOCK")));
-  stop_run();
-  Process late = joined({"/bin/true"});
-  EXPECT_EQ(late.wait(), 2);
-  EXPECT_THAT(late.output(), HasSubstr("no run: start one with ./scripts/run --distributed"));
 }
 
 std::string text_of(const std::string& path) {

@@ -14,6 +14,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 
+#include "clients/monitor/web/listening_socket.h"
 #include "clients/monitor/web/web_files.h"
 #include "core/check.h"
 
@@ -262,24 +263,9 @@ class BeastServer::Connection : public std::enable_shared_from_this<Connection> 
 
 BeastServer::BeastServer(const Options& options, WebHandlers handlers)
     : options_(options), handlers_(std::move(handlers)) {
-  WebAccess& access = options_.access;
-  error_code error;
-  const auto address =
-      asio::ip::make_address(access.address == "localhost" ? "127.0.0.1" : access.address, error);
-  require(!error, "--address is '" + access.address + "'; allowed is an IP address");
-  require(is_loopback(access.address) || !access.token.empty(),
-          "--address is " + access.address + ", which others reach; then a --token is needed");
-  try {
-    const asio::ip::tcp::endpoint endpoint(address, access.port);
-    acceptor_.open(endpoint.protocol());
-    acceptor_.set_option(asio::socket_base::reuse_address(true));
-    acceptor_.bind(endpoint);
-    acceptor_.listen();
-  } catch (const boost::system::system_error& problem) {
-    throw InvalidArgument("cannot listen on " + access.address + ", port " + std::to_string(access.port) +
-                          ": " + problem.code().message());
-  }
-  access.port = acceptor_.local_endpoint().port();
+  if (options_.socket < 0) options_.socket = listening_socket(options_.access);
+  const bool is_v6 = options_.access.address.find(':') != std::string::npos;
+  acceptor_.assign(is_v6 ? asio::ip::tcp::v6() : asio::ip::tcp::v4(), options_.socket);
   accept();
 }
 

@@ -47,6 +47,7 @@ class WebServer {
   struct Options {
     WebAccess access = {};  // port 0: any that is free
     std::string page = {};  // folder of the bundle
+    int socket = -1;        // of listening_socket(), which it takes over; -1: it opens one
   };
   virtual ~WebServer() = default;
 
