@@ -204,6 +204,16 @@ void Bus::subscribe_to_all(RawHandler handler) {
   subscribe_raw(std::string(kAllChannels), std::move(handler), Wakeup::kMayAdvanceDue);
 }
 
+void Bus::subscribe_to_all_flows(FlowOf flow_of, RawHandler handler) {
+  follows_all_ = true;
+  subscribe_to_all([this, flow_of = std::move(flow_of), handler = std::move(handler)](
+                       std::string_view channel, const void* data, std::size_t size) {
+    const auto head = flow_of(channel, std::span(static_cast<const std::uint8_t*>(data), size));
+    if (!head && is_repair_) return handler(channels::kRepair.of(channel), data, size);
+    if (!head || takes(channel, *head, true)) handler(channel, data, size);
+  });
+}
+
 void Bus::deliver(std::string_view channel, std::span<const std::uint8_t> message) {
   is_repair_ = false;
   for (const Subscription* subscription : subscriptions_to(channel))
@@ -230,11 +240,13 @@ void Bus::refuse_rival(std::string_view channel, std::int64_t session) {
 }
 
 // A copy of an old message is looked for before rivals are: it tells nothing of who publishes now.
-bool Bus::takes(std::string_view channel, const FlowHead& head) {
+// A recorder judges a message once, as bytes, and records rivals, too.
+bool Bus::takes(std::string_view channel, const FlowHead& head, bool as_bytes) {
+  if (follows_all_ && !as_bytes) return true;
   const auto& [session, sequence, utime, receiver, is_packet] = head;
   const bool may_come_again = is_packet && !is_repair_;
   const bool is_old = repair_ && !may_come_again && flows_.is_old(steady_, channel, session, sequence, utime);
-  if (repair_ && !is_old && !sessions_.on_message(steady_, channel, session, receiver)) {
+  if (repair_ && !is_old && !as_bytes && !sessions_.on_message(steady_, channel, session, receiver)) {
     refuse_rival(channel, session);
     return false;
   }
@@ -286,17 +298,23 @@ void Bus::on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat)
     repair_->on_heartbeat(steady_, node, heartbeat, [](std::string_view) { return false; });
     return refuse_rival(channels::kHeartbeat.of(node), heartbeat.session);
   }
-  const auto decodes = [this](std::string_view channel) {
+  const auto is_followed = [this](std::string_view channel) {
+    if (follows_all_) return true;
     const auto matching = subscribed_to(channel);
     return std::any_of(matching.begin(), matching.end(),
                        [this](std::size_t i) { return subscribed_[i].expression != kAllChannels; });
   };
-  counters_.gaps = saturating_sum(counters_.gaps, repair_->on_heartbeat(steady_, node, heartbeat, decodes));
+  counters_.gaps =
+      saturating_sum(counters_.gaps, repair_->on_heartbeat(steady_, node, heartbeat, is_followed));
 }
 
 SimTime Bus::next_repair() const {
   if (!repair_) return SimTime::never();
   return std::min(repair_->next_due(), unsent_.next_due());
+}
+
+void Bus::announce_flows() {
+  if (repair_) repair_->hasten_heartbeat(steady_);
 }
 
 void Bus::repair(SimTime sim, SimTime steady, bool may_request) {

@@ -6,7 +6,6 @@
 // enable_repair(). An exception that a handler throws never crosses LCM's C frames: rethrow_if_failed() throws it.
 //   Bus bus(lcm, {"channel-server", session});
 //   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s) { ... });
-//   bus.publish(channels::kOutcome, outcome);
 //
 // One Bus belongs to one node; several may share an lcm::LCM, which outlives them, and must with memq. Not thread-safe.
 #pragma once
@@ -81,16 +80,17 @@ class Bus {
   using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
   void publish_bytes(std::string_view channel, const void* data, std::size_t size);
   void subscribe_to_all(RawHandler handler);
-  // When LCM received the message that is being handled, wall time (Unix); the kernel's stamp over udpm.
-  SimTime received_at() const { return received_at_; }
+  // The same for a recorder: of a flow each message once, under its own channel; what is missing is requested.
+  void subscribe_to_all_flows(FlowOf flow_of, RawHandler handler);
+  const FlowWatch& flows() const { return flows_; }
+  SimTime received_at() const { return received_at_; }  // of the message that is handled: by LCM, Unix time
   void set_tap(RawHandler tap) { tap_ = std::move(tap); }  // called with what is accepted, before its handler
   // Handles a message as if LCM had dispatched it: a runner in LCM's place, or an input of an earlier incarnation of this
   // node (message_journal.h), whose gaps are then known, and repaired. Throws what a handler throws.
   void deliver(std::string_view channel, std::span<const std::uint8_t> message);
   // Takes what an earlier incarnation published into the history that answers repair requests. After enable_repair().
   void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes bytes);
-  // What can be repaired of what was published; null before enable_repair().
-  const FlowRepair* flow_repair() const { return repair_.get(); }
+  const FlowRepair* flow_repair() const { return repair_.get(); }  // null before enable_repair()
   void rethrow_if_failed();  // once, what a handler threw while LCM was dispatching
   // For a bus that loses datagrams: repairs what is lost, drops duplicates (flow_repair.h), refuses rivals (session_watch.h) and paces
   // bursts (publication_pace.h). Its runner calls set_steady() before LCM dispatches, and repair() by next_repair().
@@ -98,6 +98,7 @@ class Bus {
   void set_steady(SimTime steady) { steady_ = steady; }
   void repair(SimTime sim, SimTime steady, bool may_request = true);
   SimTime next_repair() const;
+  void announce_flows();                    // in the next repair(): nothing more will be published
   void forget_flows() { flows_.forget(); }  // another run has begun: sequences may start anew
   void continue_flows(FlowWatch::Knows knows) { flows_.go_on(std::move(knows)); }  // of earlier incarnations
   std::size_t num_missing() const { return flows_.num_missing(); }  // messages that are requested
@@ -106,8 +107,7 @@ class Bus {
   BusCounters& counters() { return counters_; }
   const BusCounters& counters() const { return counters_; }
   EventLog& log() { return log_; }
-  // What a node itself finds impossible: counted and reported like what did not decode.
-  void refuse(std::string_view channel, std::string_view reason);
+  void refuse(std::string_view channel, std::string_view reason);  // what a node itself finds impossible
 
  private:
   struct Subscription;
@@ -120,7 +120,7 @@ class Bus {
   template <class Message>
   [[nodiscard]] bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
   void refuse_rival(std::string_view channel, std::int64_t session);
-  bool takes(std::string_view channel, const FlowHead& head);
+  bool takes(std::string_view channel, const FlowHead& head, bool as_bytes = false);
   void on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat);
   void note_lateness(std::string_view channel, const void* data, std::size_t size);
   bool send(const std::string& channel, const void* data, std::size_t size);
@@ -137,7 +137,7 @@ class Bus {
   UnsentMessages unsent_;
   LatenessWatch lateness_;
   SimTime steady_, received_at_;
-  bool is_repair_ = false;  // the message being handled came on REPAIR.<channel>
+  bool is_repair_ = false, follows_all_ = false;  // the message handled came on REPAIR.<channel>; all flows
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports
   std::exception_ptr failure_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;

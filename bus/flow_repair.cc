@@ -17,8 +17,9 @@ void FlowRepair::on_request(SimTime steady, const repair_request_t& request) {
   const std::string& channel = request.missing_channel;
   for (const std::int64_t sequence : request.missing_sequence) {
     if (wanted_.size() >= kMaxWanted) return;
-    if (history_.want(channel, request.publisher_session, sequence, steady))
-      wanted_.push_back({channel, request.publisher_session, sequence});
+    if (!history_.want(channel, request.publisher_session, sequence, steady)) continue;
+    wanted_.push_back({channel, request.publisher_session, sequence});
+    ++num_requested_;
   }
 }
 

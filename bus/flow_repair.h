@@ -69,6 +69,10 @@ class FlowRepair {
   // take_heartbeat() schedules the next a period later.
   bool heartbeat_is_due(SimTime steady) const { return steady >= next_heartbeat_; }
   flow_heartbeat_t take_heartbeat(SimTime sim, SimTime steady);
+  // The next heartbeat is due at once: nothing more will be published.
+  void hasten_heartbeat(SimTime steady) { next_heartbeat_ = std::min(next_heartbeat_, steady); }
+  // Messages that were requested and are kept, since the start.
+  std::int64_t num_requested() const { return num_requested_; }
 
   // ---- as a receiver
   // HEARTBEAT.<node>. Returns how many messages of the flows that `is_subscribed_to` selects are newly missing. Flows of which nothing was received are
@@ -110,6 +114,7 @@ class FlowRepair {
   std::int64_t heartbeats_ = 0;
   bool resumes_ = false;
   std::deque<Wanted> wanted_;
+  std::int64_t num_requested_ = 0;
   double answers_ = kLeastAnswers;  // the bucket at filled_at_
   SimTime filled_at_, next_answer_ = SimTime::at_once();
   std::unordered_map<std::int64_t, Heard> heartbeats_of_others_;  // by session; bounded

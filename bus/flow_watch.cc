@@ -38,14 +38,15 @@ FlowWatch::Publisher* FlowWatch::find(std::string_view channel, std::int64_t ses
   return &found->second.back();
 }
 
-void FlowWatch::make_room(SimTime steady, Publishers& publishers) {
+void FlowWatch::make_room(SimTime steady, std::string_view channel, Publishers& publishers) {
   const auto is_superfluous = [&](const Publisher& longest_silent) {
     return publishers.size() >= kMaxSessions || num_flows_ >= kMaxFlows ||
            steady - longest_silent.heard_at >= kForgottenAfter;
   };
   while (publishers.size() >= kSessionsKept && is_superfluous(publishers.front())) {
+    keep_lacking(channel, publishers.front());
     const std::size_t missing = publishers.front().missing.size();
-    lose(static_cast<std::int64_t>(missing));
+    lost_ = saturating_sum(lost_, static_cast<std::int64_t>(missing));
     num_missing_ -= missing;
     --num_flows_;
     publishers.erase(publishers.begin());
@@ -56,7 +57,7 @@ FlowWatch::Publisher& FlowWatch::add(SimTime steady, std::string_view channel, s
                                      std::int64_t first) {
   auto found = received_.find(channel);
   if (found == received_.end()) found = received_.emplace(std::string(channel), Publishers()).first;
-  make_room(steady, found->second);
+  make_room(steady, channel, found->second);
   // A flow that was not yet in its publisher's heartbeat is expected from sequence number 0.
   const bool began_after = listed_.contains(session);
   const std::int64_t expected = began_after ? std::min<std::int64_t>(first, 0) : first;
@@ -109,11 +110,10 @@ void FlowWatch::begin_at(Publisher& publisher, std::int64_t sequence) {
   publisher.last = before(sequence);
 }
 
-void FlowWatch::lose(std::int64_t count) { lost_ = saturating_sum(lost_, count); }
-
 void FlowWatch::lose(Publisher& publisher, std::int64_t first, std::int64_t end) {
   if (first >= end) return;
-  lose(distance(first, end));
+  lost_ = saturating_sum(lost_, distance(first, end));
+  publisher.num_lost = saturating_sum(publisher.num_lost, distance(first, end));
   std::vector<Span>& lost = publisher.lost;
   if (!lost.empty() && lost.back().end == first) {
     lost.back().end = end;
@@ -134,6 +134,7 @@ bool FlowWatch::take_lost(Publisher& publisher, std::int64_t sequence) {
   std::vector<Span>& lost = publisher.lost;
   const auto span = span_with(lost, sequence);
   if (span == lost.end()) return false;
+  --publisher.num_lost;
   const Span later{sequence + 1, std::exchange(span->end, sequence)};
   if (later.first < later.end) {
     if (span->first == span->end) {
@@ -271,7 +272,30 @@ void FlowWatch::go_on(Knows knows) {
   }
 }
 
+void FlowWatch::keep_lacking(std::string_view channel, const Publisher& publisher) {
+  const auto missing = static_cast<std::int64_t>(publisher.missing.size());
+  if (publisher.num_lost == 0 && missing == 0) return;
+  Lacking& lacking =
+      forgotten_.try_emplace(std::string(channel), Lacking{std::string(channel), 0, false}).first->second;
+  lacking.messages = saturating_sum(lacking.messages, saturating_sum(publisher.num_lost, missing));
+  lacking.is_listed = lacking.is_listed || publisher.lister != 0;
+}
+
+std::vector<FlowWatch::Lacking> FlowWatch::lacking() const {
+  FlowWatch all;
+  all.forgotten_ = forgotten_;
+  for (const auto& [channel, publishers] : received_) {
+    for (const Publisher& publisher : publishers) all.keep_lacking(channel, publisher);
+  }
+  std::vector<Lacking> lacking;
+  for (auto& [channel, one] : all.forgotten_) lacking.push_back(std::move(one));
+  return lacking;
+}
+
 void FlowWatch::forget() {
+  for (const auto& [channel, publishers] : received_) {
+    for (const Publisher& publisher : publishers) keep_lacking(channel, publisher);
+  }
   received_.clear();
   listed_.clear();
   knows_ = knows_none;

@@ -105,6 +105,13 @@ class FlowWatch {
   std::int64_t lost() const { return lost_; }
   // Messages that are missing now.
   std::size_t num_missing() const { return num_missing_; }
+  // The channels of which messages are missing or were given up, by name.
+  struct Lacking {
+    std::string channel;
+    std::int64_t messages = 0;  // saturates
+    bool is_listed = false;     // by heartbeats of its publisher
+  };
+  std::vector<Lacking> lacking() const;
   // Sessions of channels that are remembered.
   std::size_t num_flows() const { return num_flows_; }
 
@@ -135,6 +142,7 @@ class FlowWatch {
     std::optional<std::int64_t> leap;  // the number ahead that nothing has confirmed yet
     std::map<std::int64_t, Missing> missing;
     std::vector<Span> lost;  // the latest that were given up
+    std::int64_t num_lost = 0;
   };
   static constexpr std::size_t kSpansKept = 8;  // of one flow
   // Sessions kept per channel: of more than kSessionsKept those that are silent for kForgottenAfter make room, so that memory stays
@@ -148,11 +156,11 @@ class FlowWatch {
   Publisher* find(std::string_view channel, std::int64_t session);
   static bool is_old(SimTime steady, const Publisher& publisher, std::int64_t sequence, std::int64_t utime);
   Publisher& add(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t first);
-  void make_room(SimTime steady, Publishers& publishers);
+  void make_room(SimTime steady, std::string_view channel, Publishers& publishers);
+  void keep_lacking(std::string_view channel, const Publisher& publisher);
   static bool knows_none(std::string_view) { return false; }
   static bool leaps(Publisher& publisher, std::int64_t sequence);
   void begin_at(Publisher& publisher, std::int64_t sequence);
-  void lose(std::int64_t count);
   void lose(Publisher& publisher, std::int64_t first, std::int64_t end);
   template <class Spans>
   static auto span_with(Spans& spans, std::int64_t sequence);
@@ -165,6 +173,8 @@ class FlowWatch {
   std::unordered_set<std::int64_t> listed_;  // sessions whose flows a heartbeat has listed
   SimTime next_due_ = SimTime::never();
   std::int64_t lost_ = 0;
+  // What sessions lacked that are remembered no more, by channel.
+  std::map<std::string, Lacking, std::less<>> forgotten_;
   std::size_t num_missing_ = 0, num_flows_ = 0;  // of all channels
 };
 

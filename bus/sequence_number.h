@@ -4,7 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <type_traits>
 
 #include "bus/messages.h"
@@ -54,6 +57,9 @@ struct FlowHead {
   std::optional<std::int32_t> receiver;  // of an OUTCOME
   bool is_packet = false;                // a SEND
 };
+// Of a message in its bytes; empty for one of no flow.
+using FlowOf =
+    std::function<std::optional<FlowHead>(std::string_view channel, std::span<const std::uint8_t> message)>;
 
 template <class Message>
 FlowHead flow_head_of(const Message& message) {

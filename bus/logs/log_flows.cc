@@ -2,11 +2,11 @@
 #include "bus/logs/log_flows.h"
 
 #include <algorithm>
+#include <optional>
 #include <ostream>
 
 #include "bus/channels.h"
 #include "bus/flow_watch.h"
-#include "bus/logs/channel_types.h"
 #include "bus/sequence_number.h"
 #include "bus/session_watch.h"
 
@@ -14,15 +14,6 @@ namespace halocline::clients {
 namespace {
 
 constexpr std::size_t kMostMissing = 10'000;  // of one flow; beyond these the oldest are only counted
-
-// Packets are numbered by their senders as they like.
-std::int64_t flow_type_of(std::string_view channel) {
-  std::int64_t type = 0;
-  with_type_of(channel, [&]<class Message>() {
-    if constexpr (bus::IsOfFlow<Message> && !bus::IsPacketToSend<Message>) type = Message::getHash();
-  });
-  return type;
-}
 
 // Elsewhere several sessions are no surprise: shards, clients.
 bool has_one_publisher(std::string_view channel) {
@@ -57,8 +48,12 @@ void LogFlows::Flow::take(std::int64_t sequence) {
 
 LogFlows::Channel& LogFlows::channel_of(std::string_view name) {
   auto found = channels_.find(name);
-  if (found == channels_.end())
-    found = channels_.emplace(std::string(name), Channel{.type = flow_type_of(name)}).first;
+  if (found == channels_.end()) {
+    const bus::FlowType type = bus::flow_type_of(name);  // packets are numbered by their senders as they like
+    found =
+        channels_.emplace(std::string(name), Channel{.type = type.is_packet_to_send ? bus::FlowType() : type})
+            .first;
+  }
   return found->second;
 }
 
@@ -67,12 +62,9 @@ void LogFlows::count(std::string_view channel, std::span<const std::uint8_t> dat
   const std::string_view repair = bus::channels::kRepair.prefix;
   while (channel.starts_with(repair)) channel.remove_prefix(repair.size());
   Channel& counted = channel_of(channel);
-  if (counted.type == 0 || data.size() < bus::kFlowHeadBytes || bus::int64_at(data, 0) != counted.type)
-    return;
-  const std::int64_t utime = bus::int64_at(data, bus::kUtimeAt);
-  const std::int64_t session = bus::int64_at(data, bus::kSessionAt);
-  const std::int64_t sequence = bus::int64_at(data, bus::kSequenceAt);
-  if (session == 0 && sequence == 0) return;
+  const std::optional<bus::FlowHead> head = bus::flow_head(counted.type, data);
+  if (!head) return;
+  const std::int64_t utime = head->utime, session = head->session, sequence = head->sequence;
   ++counted.messages;
   const auto [found, is_new] = counted.flows.try_emplace(session, Flow{sequence, sequence, utime, {}, 0});
   Flow& flow = found->second;

@@ -17,6 +17,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "bus/logs/flow_head.h"
 #include "core/hash.h"
 
 namespace halocline::clients {
@@ -45,7 +46,7 @@ class LogFlows {
     void note_missing(std::int64_t from, std::int64_t end);
   };
   struct Channel {
-    std::int64_t type = 0;  // LCM's fingerprint; 0: no flow
+    bus::FlowType type;
     std::int64_t messages = 0;
     std::map<std::int64_t, Flow> flows = {};  // by session
   };

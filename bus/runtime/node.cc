@@ -171,6 +171,14 @@ void Node::stop(const Now& now) {
   });
 }
 
+bool Node::repair_after_stop(const Now& now, bool announces) {
+  bus_.rethrow_if_failed();
+  if (announces) bus_.announce_flows();
+  bus_.repair(now.sim, now.steady, !is_behind_);
+  const std::int64_t requested = bus_.flow_repair() != nullptr ? bus_.flow_repair()->num_requested() : 0;
+  return requested > std::exchange(requests_seen_, requested);
+}
+
 void Node::publish_status(const Now& now, const std::string& text) {
   node_status_t status{};
   const BusCounters& counters = bus_.counters();

@@ -62,6 +62,7 @@ class Node {
 
   // For a node on a bus that loses datagrams, once, before its first step (Bus::enable_repair).
   void enable_repair() { bus_.enable_repair(); }
+  bool has_repair() const { return bus_.flow_repair() != nullptr; }
   // Keeps its state in `journal` from now on, and first takes up what an earlier incarnation left there: it goes on from
   // that state, with its numbers. Once, after enable_repair(), before anything is received; of a node that was made
   // with the session in the journal. Throws InvalidArgument when the state is another node's.
@@ -121,6 +122,12 @@ class Node {
   void restart(const Now& now);
   // The last step: publishes what remains, then a final STATUS.
   void stop(const Now& now);
+  // After stop(), on a bus that loses datagrams: announces the last number of each flow where `announces`,
+  // answers who misses any, and requests what it misses itself. Returns whether somebody requested anything
+  // since the last call.
+  bool repair_after_stop(const Now& now, bool announces);
+  // Whether it misses something that it may not end without.
+  virtual bool wants_repair() const { return false; }
 
  protected:
   virtual Due on_due() const = 0;
@@ -160,6 +167,7 @@ class Node {
   SimTime next_status_, next_lateness_report_;  // steady
   std::int64_t status_sequence_ = 0;
   bool is_behind_ = false;
+  std::int64_t requests_seen_ = 0;  // by repair_after_stop()
   std::unique_ptr<StateJournal> journal_;
   bool has_journal_ = true;              // the disk takes it
   Archive saved_;                        // what went to the journal last

@@ -26,6 +26,14 @@ struct Arguments {
   bool example = false, interface = false, print_config = false;
 };
 
+std::string exit_codes_of(const NodeProgram& program) {
+  std::string text = "Exit codes: 0 stopped when asked to, 1 failed, " + std::to_string(kExitConfiguration) +
+                     " wrong command line or configuration, ";
+  for (const auto& [code, meaning] : program.other_exit_codes)
+    text += std::to_string(code) + " " + meaning + ", ";
+  return text + std::to_string(kExitNetwork) + " the network cannot be used.";
+}
+
 void describe(CLI::App& app, Arguments& arguments, const NodeProgram& program) {
   app.add_option("scenario", arguments.scenario_path, "scenario file (TOML); without one, defaults hold");
   app.add_option("--set", arguments.overrides,
@@ -65,9 +73,7 @@ void describe(CLI::App& app, Arguments& arguments, const NodeProgram& program) {
   app.add_flag("--print-config", arguments.print_config, "print the effective configuration and exit");
   app.set_version_flag("--version", [&program] { return version_text(program.program); });
   app.footer("Examples:\n  " + program.program + " " + program.example_scenario + " --log-level debug\n\n" +
-             "Exit codes: 0 stopped when asked to, 1 failed, " + std::to_string(kExitConfiguration) +
-             " wrong command line or configuration, " + std::to_string(kExitNetwork) +
-             " the network cannot be used.");
+             exit_codes_of(program));
 }
 
 std::vector<std::string> overrides_of(const Arguments& arguments, const NodeProgram& program) {

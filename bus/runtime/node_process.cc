@@ -33,15 +33,15 @@ namespace {
 // Set in a signal handler, read by any thread.
 std::atomic<bool> stop_signal_seen = false, interrupt_seen = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
-// Ends the process when it has not ended by itself kStopDeadline after the first signal.
-constexpr long kStopDeadlineNs = 900'000'000;
+// Ends the process when it has not ended by itself 0.9 s after the first signal.
 std::atomic<bool> has_deadline = false;
+std::atomic<int> exit_code_at_deadline = 0;
 timer_t deadline_timer;
 
 void on_stop_signal(int number) {
   if (number == SIGINT) interrupt_seen = true;
   if (stop_signal_seen.exchange(true) || !has_deadline) return;
-  const itimerspec once{{0, 0}, {0, kStopDeadlineNs}};
+  const itimerspec once{{0, 0}, {0, 900'000'000}};
   timer_settime(deadline_timer, 0, &once, nullptr);
 }
 
@@ -49,10 +49,11 @@ void on_stop_signal(int number) {
 void on_deadline(int) {
   constexpr std::string_view kWords = "stopped in the middle of a step\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, kWords.data(), kWords.size());
-  _exit(0);
+  _exit(exit_code_at_deadline);
 }
 
-void stop_by_deadline() {
+void stop_by_deadline(int exit_code) {
+  exit_code_at_deadline = exit_code;
   struct sigaction action {};
   action.sa_handler = on_deadline;
   sigaction(SIGALRM, &action, nullptr);
@@ -64,16 +65,29 @@ void stop_by_deadline() {
 
 // Longest sleep: a stop requested by other means than a signal is seen within this.
 constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(100);
+constexpr SimDuration kMemoryPeriod = SimDuration::from_milliseconds(60'000);
 // Messages dispatched between two steps at most, so that a flood cannot keep a node from its steps.
 constexpr int kMaxMessagesPerTurn = 2000;
 
 // Handles what the bus has delivered when a stop is requested: until it is silent for a moment, since LCM's own thread
-// hands over the messages of the socket one by one. Other nodes may never be silent: no longer than kLongest.
+// hands over the messages of the socket one by one. Other nodes may never be silent: for 0.3 s at most.
 void dispatch_until_silent(lcm::LCM& lcm) {
-  constexpr int kSilenceMs = 100;
-  constexpr SimDuration kLongest = SimDuration::from_milliseconds(300);
-  const SimTime end = steady_now() + kLongest;
-  while (steady_now() < end && lcm.handleTimeout(kSilenceMs) > 0) {
+  const SimTime end = steady_now() + SimDuration::from_milliseconds(300);
+  while (steady_now() < end && lcm.handleTimeout(100) > 0) {
+  }
+}
+
+// Repair after the last step: where a datagram of the last messages was lost, they would be lost with their
+// publisher. Until nobody has requested anything for kQuiet, or `end`.
+void repair_after_stop(lcm::LCM& lcm, Node& node, Now now, SimTime end) {
+  constexpr SimDuration kQuiet = SimDuration::from_milliseconds(250);
+  SimTime quiet_since = steady_now(), next = quiet_since;
+  while (now.steady < end && (now.steady - quiet_since < kQuiet || node.wants_repair())) {
+    if (lcm.handleTimeout(5) > 0) dispatch_waiting(lcm);
+    node.set_steady(now.steady = steady_now());
+    const bool announces = now.steady >= next;
+    if (announces) next = now.steady + SimDuration::from_milliseconds(20);
+    if (node.repair_after_stop(now, announces)) quiet_since = now.steady;
   }
 }
 
@@ -84,19 +98,12 @@ void sleep_for(SimDuration duration) {
   nanosleep(&time, nullptr);
 }
 
-// Gives what bursts left free back to the system now and then, so that memory is what the node needs.
-class FreeMemory {
- public:
-  void give_back_if_due(SimTime steady) {
-    if (steady < due_) return;
-    due_ = steady + kPeriod;
-    malloc_trim(0);
-  }
-
- private:
-  static constexpr SimDuration kPeriod = SimDuration::from_milliseconds(60'000);
-  SimTime due_ = steady_now() + kPeriod;
-};
+// Gives what bursts left free back to the system once a minute, so that memory is what the node needs.
+void give_back_memory(SimTime steady, SimTime& due) {
+  if (steady < due) return;
+  due = steady + kMemoryPeriod;
+  malloc_trim(0);
+}
 
 // The steady time of the next step; at_once() for a node that is due at once.
 SimTime wake_time(const Node& node, const TimeSource& time) {
@@ -164,29 +171,17 @@ class NodeTime {
   std::int64_t refused_ = 0;
 };
 
-std::unique_ptr<TimeSource> make_time_source(TimeSourceKind kind, lcm::LCM& lcm, const std::string& name) {
-  switch (kind) {
-    case TimeSourceKind::kConductor:
-      return std::make_unique<ConductorTime>(lcm, name);
-    case TimeSourceKind::kMessages:
-      return std::make_unique<MessageTime>(lcm, name);
-    case TimeSourceKind::kWall:
-    case TimeSourceKind::kLockstep:
-      break;
-  }
-  return std::make_unique<WallTime>(wall_now().to_utime() - steady_now().to_utime());
-}
-
 // In lockstep a node is on a bus of its own, and its identity is the same in every run.
-void run_in_lockstep(const NodeRun& run, const NodeProgram& program) {
+int run_in_lockstep(const NodeRun& run, const NodeProgram& program) {
   lcm::LCM memq("memq://");
   const NodeIdentity identity{run.identity.name, session_of(run.scenario.seed, run.identity.name),
                               program.stage};
   const auto node = program.make_node({memq, identity, run.scenario, run.sync_url, true, run.file.get()});
   run_lockstep_participant(*node, run.sync_url, run.scenario, stop_requested);
+  return 0;
 }
 
-void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& log) {
+int run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& log) {
   const std::string url = effective_url(run.lcm_url);
   const auto lcm = open_transport(url);
   if (const std::string warning = receive_buffer_warning(url); !warning.empty()) {
@@ -200,11 +195,12 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
   }
   const NodeProgram::Context context{*lcm,  identity,       run.scenario,      run.sync_url,
                                      false, run.file.get(), run.config_digest, url};
-  if (program.run_otherwise && program.run_otherwise(context)) return;
+  if (program.run_otherwise && program.run_otherwise(context)) return 0;
   ReceiveFilter filter(*lcm, url,
                        accepted_hosts(run.scenario.accept, url));  // before anything is subscribed to
   const auto time = program.make_time_source ? program.make_time_source(context)
-                                             : make_time_source(run.time_source, *lcm, run.identity.name);
+                                             : make_time_source(run.time_source, *lcm, run.identity.name,
+                                                                wall_now() - (steady_now() - SimTime()));
   const auto tiles = run.scenario.tile_m > 0 ? std::make_unique<TileGroups>(url, run.scenario)
                                              : std::unique_ptr<TileGroups>();
   const auto node = program.make_node(context);
@@ -219,22 +215,20 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
   node->set_clock([&] { return time->now(steady_now()); }, run.scenario.state_lag);
   run_node(*lcm, *node, *time, stop_requested, &filter);
   if (const auto now = time->now(steady_now())) log.set_time(*now);
+  return program.finish ? program.finish() : 0;
 }
 
 int run_checked(int argc, char** argv, const NodeProgram& program) {
   const auto run = parse_node_command_line(argc, argv, program);
   if (!run) return 0;
   set_log_level(run->log_level);
-  stop_by_deadline();
+  stop_by_deadline(program.exit_code_when_cut);
   catch_stop_signals();
   EventLog log(run->identity.name);
-  if (run->time_source == TimeSourceKind::kLockstep) {
-    run_in_lockstep(*run, program);
-  } else {
-    run_on_transport(*run, program, log);
-  }
+  const int exit_code = run->time_source == TimeSourceKind::kLockstep ? run_in_lockstep(*run, program)
+                                                                      : run_on_transport(*run, program, log);
   log.info("stopped");
-  return 0;
+  return exit_code;
 }
 
 }  // namespace
@@ -300,7 +294,7 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
   NodeTime node_time(node, time);
   sleep_precisely();
   MessageBatches batches;
-  FreeMemory free_memory;
+  SimTime memory_due = steady_now() + kMemoryPeriod;
   bool is_behind = false;
   SimTime emptied = steady_now();  // when nothing waited on the bus
   while (!should_stop()) {
@@ -320,13 +314,15 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
     batches.note_handled(handled);
     node_time.update();
     node_time.step_if_due();
-    free_memory.give_back_if_due(node_time.now().steady);
+    give_back_memory(node_time.now().steady, memory_due);
   }
+  const SimTime repaired_until = steady_now() + SimDuration::from_milliseconds(600);
   time.set_steady(steady_now(), wall_now());
   dispatch_until_silent(lcm);
   node_time.update();
   node_time.step_if_due();
   node.stop(node_time.now());
+  if (node.has_repair()) repair_after_stop(lcm, node, node_time.now(), repaired_until);
 }
 
 int run_node_program(int argc, char** argv, const NodeProgram& program) {

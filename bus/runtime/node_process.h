@@ -2,16 +2,17 @@
 // A node in a process of its own: command line, transport, time source, loop, and an orderly end.
 // Each program's main describes itself in a NodeProgram and calls run_node_program. SIGINT, SIGTERM and
 // SIGHUP end the loop: messages that the bus has delivered are handled, the node takes its last step and
-// publishes a final STATUS; exit code 0. A node in the middle of a step that takes longer ends there, 0.9 s
-// after the signal: what it holds on disk serves as after SIGKILL. An error of the user (configuration,
-// command line) prints one line per problem; exit code 2. A network that cannot be used, or on which another
-// conductor runs: 69. Any other error: 1.
+// publishes a final STATUS, and others get what they missed of it, in 0.6 s at most; exit code 0. A node in the
+// middle of a step that takes longer ends there, 0.9 s after the signal: what it holds on disk serves as after
+// SIGKILL. An error of the user (configuration, command line) prints one line per problem; exit code 2. A
+// network that cannot be used, or on which another conductor runs: 69. Any other error: 1.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lcm/lcm-cpp.hpp>
@@ -68,6 +69,10 @@ struct NodeProgram {
   std::function<std::unique_ptr<Node>(const Context&)> make_node = nullptr;
   // Only for the program that makes the time itself; the others choose with --time-source.
   std::function<std::unique_ptr<TimeSource>(const Context&)> make_time_source = nullptr;
+  // Called at the end of a node that stopped when asked to, while it exists: the exit code. Default: 0.
+  std::function<int()> finish = nullptr;
+  int exit_code_when_cut = 0;  // of a process that is ended in the middle of a step
+  std::vector<std::pair<int, std::string>> other_exit_codes = {};  // of `finish`, and what each means
   // Another way to run than run_node: returns true when the command line selects it, after it has run.
   std::function<bool(const Context&)> run_otherwise = nullptr;
 };

@@ -187,4 +187,18 @@ TimeSourceKind time_source_from_name(std::string_view name) {
                         "'; allowed are conductor, messages, wall, lockstep");
 }
 
+std::unique_ptr<TimeSource> make_time_source(TimeSourceKind kind, lcm::LCM& lcm, const std::string& name,
+                                             SimTime wall_at_start) {
+  switch (kind) {
+    case TimeSourceKind::kConductor:
+      return std::make_unique<ConductorTime>(lcm, name);
+    case TimeSourceKind::kMessages:
+      return std::make_unique<MessageTime>(lcm, name);
+    case TimeSourceKind::kWall:
+    case TimeSourceKind::kLockstep:
+      break;
+  }
+  return std::make_unique<WallTime>(wall_at_start.to_utime());
+}
+
 }  // namespace halocline::bus

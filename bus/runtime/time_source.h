@@ -165,5 +165,8 @@ class WallTime : public TimeSource {
 enum class TimeSourceKind { kConductor, kMessages, kWall, kLockstep };
 // "conductor", "messages", "wall" or "lockstep"; throws InvalidArgument that lists them otherwise.
 TimeSourceKind time_source_from_name(std::string_view name);
+// For process `name` on a bus that loses datagrams; `wall_at_start`: Unix time at steady time 0. kLockstep: as kWall.
+std::unique_ptr<TimeSource> make_time_source(TimeSourceKind kind, lcm::LCM& lcm, const std::string& name,
+                                             SimTime wall_at_start);
 
 }  // namespace halocline::bus

@@ -25,7 +25,7 @@
 #include "clients/monitor/sources/bus_source.h"
 #include "clients/monitor/sources/handover.h"
 #include "clients/monitor/sources/log_source.h"
-#include "clients/monitor/web/listening_socket.h"
+#include "clients/monitor/web/web_server_socket.h"
 #include "core/check.h"
 
 namespace halocline::monitor {

@@ -10,6 +10,7 @@ import sys
 import tempfile
 import time
 
+from fleet import log_flows
 from fleet.measure import Refusal
 from fleet.output import markdown
 from fleet.scenario import fleet
@@ -89,13 +90,14 @@ def last_statuses(log):
     return statuses
 
 
-def processes(count, laying, model, duration_s):
-    """Runs the fleet for `duration_s` of wall time after its start, and returns tables: CPU and losses."""
+def processes(count, laying, model, duration_s, recorder):
+    """Runs the fleet for `duration_s` of wall time after its start, and returns tables: CPU, losses, and what the
+    log lacks."""
     (ROOT / "runs").mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory(dir=ROOT / "runs") as folder:
         scenario, log = os.path.join(folder, "fleet.toml"), os.path.join(folder, "run.lcmlog")
         pathlib.Path(scenario).write_text(fleet(count, laying, model, START_S + duration_s + END_S))
-        run = subprocess.Popen([ROOT / "scripts/run_distributed", scenario, "--log", log],
+        run = subprocess.Popen([ROOT / "scripts/run_distributed", scenario, "--log", log, "--recorder", recorder],
                                env=dict(os.environ, HALOCLINE_BIN=str(ROOT / "build/release/bin")), stdout=subprocess.DEVNULL)
         try:
             time.sleep(START_S)
@@ -110,18 +112,26 @@ def processes(count, laying, model, duration_s):
             run.wait()
         finally:
             run.terminate()
-        return tables(first, last, last_statuses(log), load)
+        return "\n\n".join((*tables(first, last, last_statuses(log)), log_table(log_flows.counts(log)),
+                            f"Load of the machine: {min(load):.1f} to {max(load):.1f}."))
 
 
-def tables(first, last, statuses, load):
+def log_table(counts):
+    """What was published, of all flows and of each family that the log lacks messages of."""
+    rows = [("log", *map(sum, zip(*counts.values())))]
+    rows += [(f"of these {name}", *both) for name, both in sorted(counts.items()) if both[0] != both[1]]
+    return markdown(("recording, from the first message on", "published", "in the log", "lacking"),
+                    [(name, published, logged, published - logged) for name, published, logged in rows])
+
+
+def tables(first, last, statuses):
     passed_s = last.at_s - first.at_s
     cpu = {key: (seconds - first.cpu_s.get(key, 0)) / passed_s for key, seconds in last.cpu_s.items()}
     rows = [(program, f"{share:.2f}") for (_, program), share in sorted(cpu.items(), key=lambda item: -item[1])]
     grown = {name: last.udp[name] - first.udp[name] for name in last.udp}
     losses = [(name, *(status[field] for field in ("gaps", "repaired", "lost", "late"))) for name, status in sorted(statuses.items())]
-    return "\n\n".join((
+    return (
         markdown(("process", "CPU, s a second"), [*rows, ("all", f"{sum(cpu.values()):.2f}")]),
         markdown(("datagrams of the bus in", "delivered a second", "lost by full buffers"),
                  [(f"{passed_s:.0f} s", f"{grown['InDatagrams'] / passed_s:.0f}", grown["RcvbufErrors"])]),
-        markdown(("node, from its start on", "messages missed", "repaired", "lost", "late"), losses),
-        f"Load of the machine: {min(load):.1f} to {max(load):.1f}."))
+        markdown(("node, from its start on", "messages missed", "repaired", "lost", "late"), losses))

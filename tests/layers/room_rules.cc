@@ -87,7 +87,7 @@ bool is_message_type(std::string_view path) { return starts_with_any(path, {"hal
 bool is_of_the_system(std::string_view path) {  // POSIX and Linux
   return starts_with_any(path, {"sys/", "linux/", "arpa/", "net/", "netinet/"}) ||
          is_one_of(path, {"unistd.h", "fcntl.h", "poll.h", "spawn.h", "signal.h", "dirent.h", "sched.h",
-                          "malloc.h"});
+                          "malloc.h", "stdio_ext.h"});
 }
 
 std::string_view first_element(std::string_view path) { return path.substr(0, path.find('/')); }

@@ -169,7 +169,11 @@ TEST_F(Join, APortThatIsTakenIsAnError) {
 // Without root the network of a run lies in a namespace of users.
 TEST_F(Join, AUserWhoIsNotRootSeesThePageOfHisRun) {
   if (getuid() == 0) as_ = {"/usr/bin/setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
-  fs::permissions(".", fs::perms::all);
+  const fs::path folder = "/tmp/halocline-join-" + std::to_string(getpid());  // which he reaches
+  fs::create_directory(folder);
+  fs::permissions(folder, fs::perms::all);
+  const WorkingFolder working(folder);
+  here_ = folder.string();
   const auto possible = start({"/bin/sh", "-c", "test -x \"$HALOCLINE_BIN/halocline\" && unshare -rn true"});
   if (possible->wait(kPatience) != 0) return;  // this machine lets only root make networks, or read the tree
   start_run();
@@ -177,6 +181,7 @@ TEST_F(Join, AUserWhoIsNotRootSeesThePageOfHisRun) {
   expect_page_outside(*monitor);
   stop_run();
   EXPECT_EQ(monitor->wait(kPatience), 0) << monitor->output();
+  fs::remove_all(folder);
 }
 
 TEST_F(Join, ANetworkThatCannotBeEnteredIsAnError) {
@@ -212,7 +217,8 @@ TEST_F(Join, WhatScriptsInstallAndBuildTheyDoOutsideOfTheRun) {
                                    "echo the page of the test >../../../build/monitor/page/index.html");
   write_script("tree/bin/java", "readlink /proc/self/ns/net >'" + here_ + "/network of the spy'");
   fs::create_directories("tree/clients/monitor/page/src");
-  std::ofstream("tree/clients/monitor/page/package-lock.json") << "{}";
+  for (const char* file : {"package-lock.json", "index.html", "page.ts", "page.js", ".npmrc", "src/page.ts"})
+    std::ofstream(std::string("tree/clients/monitor/page/") + file) << "{}";
   fs::create_directories("tree/build/release/bin");
   fs::create_symlink(HALOCLINE_BIN_DIR "/halocline-monitor", "tree/build/release/bin/halocline-monitor");
   const auto in_tree = [&](const std::string& program) {

@@ -22,7 +22,7 @@ TEST(Programs, LinkNeitherGdalNorNetcdf) {
   for (const char* program :
        {"halocline", "halocline-autopilot", "halocline-bathymetry", "halocline-channel-server",
         "halocline-conductor", "halocline-localiser", "halocline-modem-gateway", "halocline-network",
-        "halocline-traffic", "halocline-vehicle-sim"}) {
+        "halocline-recorder", "halocline-traffic", "halocline-vehicle-sim"}) {
     Process ldd({"/usr/bin/ldd", std::string(HALOCLINE_BIN_DIR) + "/" + program});
     EXPECT_EQ(ldd.wait(), 0) << program;
     EXPECT_THAT(ldd.output(), HasSubstr("libc.so")) << program;

@@ -14,8 +14,8 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 
-#include "clients/monitor/web/listening_socket.h"
 #include "clients/monitor/web/web_files.h"
+#include "clients/monitor/web/web_server_socket.h"
 #include "core/check.h"
 
 namespace halocline::monitor {
@@ -122,11 +122,11 @@ class BeastServer::Exchange : public std::enable_shared_from_this<Exchange> {
     if (request.count(http::field::host) > 1 || request.count(http::field::origin) > 1)
       return write(request, {400, "Host and Origin are given once.\n"});
     const WebRequest parts = parts_of(request);
-    const auto& [access, page] = server_.options_;
+    const WebAccess& access = server_.options_.access;
     const bool opens = websocket::is_upgrade(request) && path_of(parts.target) == "/ws" &&
                        judge(access, parts) == WebVerdict::kAllowed;
     if (opens) return upgrade(request);
-    write(request, answer_to(access, page, view_of(request.method_string()), parts));
+    write(request, answer_to(access, server_.options_.page, view_of(request.method_string()), parts));
   }
 
   void upgrade(const Request& request) {

@@ -184,5 +184,37 @@ TEST_F(KilledNode, AJournalOfAnotherSessionIsRefused) {
   EXPECT_THROW(node.keep_state_in(files_.open()), InvalidArgument);
 }
 
+// Else a last message that the network loses would be lost with its publisher.
+TEST_F(NodeTest, AfterItsLastStepItAnnouncesItsFlowsAndAnswersWhoMissesTheirEnd) {
+  TickingNode node(lcm_, "a", SimDuration::from_milliseconds(100), journal_);
+  node.enable_repair();
+  std::vector<flow_heartbeat_t> heartbeats;
+  int repairs = 0;
+  listener_.subscribe<flow_heartbeat_t>(
+      channels::kHeartbeat,
+      [&](std::string_view, const flow_heartbeat_t& heartbeat) { heartbeats.push_back(heartbeat); });
+  listener_.subscribe_to_all([&](std::string_view channel, const void*, std::size_t) {
+    repairs += channel == "STATUS.a" ? 1 : 0;  // under its own channel, like the first
+  });
+  node.stop({at(5), at(5)});
+  EXPECT_FALSE(node.repair_after_stop({at(5), at(5)}, true));
+  drain();
+  ASSERT_EQ(heartbeats.size(), 1u);
+  EXPECT_THAT(heartbeats[0].flow_channel, ::testing::ElementsAre("STATUS.a"));
+  EXPECT_FALSE(node.repair_after_stop({at(5.01), at(5.01)}, false));
+  repair_request_t request;
+  request.utime = 0;
+  request.client_name = "listener";
+  request.missing_channel = "STATUS.a";
+  request.publisher_session = heartbeats[0].flow_session[0];
+  request.num_missing = 1;
+  request.missing_sequence = {heartbeats[0].flow_last_sequence[0]};
+  listener_.publish(channels::kRepairRequest, request);
+  drain();
+  EXPECT_TRUE(node.repair_after_stop({at(5.02), at(5.02)}, false));
+  drain();
+  EXPECT_EQ(repairs, 2);
+}
+
 }  // namespace
 }  // namespace halocline::bus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "clients/monitor/web/listening_socket.h"
+#include "clients/monitor/web/web_server_socket.h"
 
 #include <string>
 
