@@ -77,8 +77,7 @@ WaterModel ray_model(const acoustics::Environment& environment, const RayModel& 
 WaterSources read_water(const ChannelServerConfig& config, const bus::Scenario& scenario) {
   WaterSources sources{EnvironmentTimeline(make_environment(config.environment, scenario)), {}};
   const ReplayConfig& replay = config.propagation.replay;
-  if (replay.is_wanted())
-    sources.measured = make_measured_links(replay, make_modems(config), scenario);
+  if (replay.is_wanted()) sources.measured = make_measured_links(replay, make_modems(config), scenario);
   schedule_changes(config, scenario, sources.timeline);
   return sources;
 }

@@ -19,10 +19,10 @@
 
 #include "bus/config/config.h"
 #include "bus/config/config_document.h"
-#include "core/text/base64.h"
 #include "core/check.h"
 #include "core/files/file_path.h"
 #include "core/hash.h"
+#include "core/text/base64.h"
 
 namespace halocline::bus {
 namespace {

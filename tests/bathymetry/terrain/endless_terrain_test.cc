@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -21,9 +20,9 @@ namespace halocline::bathymetry {
 namespace {
 
 using ::halocline::testing::tolerance;
+using testing::kNoData;
 
 constexpr GridGeometry kGrid{-100, -100, 10, 21, 21};
-constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
 
 Terrain endless(const Shape& shape, const GridGeometry& geometry = kGrid) {
   return Terrain(make_grid(geometry, shape), {},
@@ -72,7 +71,9 @@ TEST(EndlessTerrain, GoesOnAsALargerGridWouldToTheLastBit) {
     const RayHit here = beyond.closest_hit(ray), there = whole.closest_hit(ray);
     if (there.status == RayStatus::kOutside) continue;
     ASSERT_EQ(here.status, there.status) << i;
-    if (here.status == RayStatus::kHit) ASSERT_NEAR(here.range_m, there.range_m, 1e-6) << i;
+    if (here.status == RayStatus::kHit) {
+      ASSERT_NEAR(here.range_m, there.range_m, 1e-6) << i;
+    }
     EXPECT_EQ(beyond.closest_hits(std::vector{ray}).front().range_m, here.range_m) << "one as many";
   }
 }

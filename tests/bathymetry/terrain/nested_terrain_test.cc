@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -21,8 +20,8 @@ namespace halocline::bathymetry {
 namespace {
 
 using halocline::testing::tolerance;
+using testing::kNoData;
 
-constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
 // Posts are float: at 300 m they round by 1.5e-5 m, and a border post may differ from the surface by that.
 constexpr double kFloatStepM = 3.1e-5;
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -24,8 +23,7 @@ namespace halocline::bathymetry {
 namespace {
 
 using halocline::testing::tolerance;
-
-constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
+using testing::kNoData;
 
 const Terrain& rugged_terrain() {
   static const Terrain terrain(testing::rugged_grid(129));

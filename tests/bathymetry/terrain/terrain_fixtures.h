@@ -2,6 +2,7 @@
 // Terrains that several tests and the benchmark share.
 #pragma once
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,9 @@
 #include "core/huge_page_vector.h"
 
 namespace halocline::bathymetry::testing {
+
+inline constexpr float kNoData =
+    std::numeric_limits<float>::quiet_NaN();  // the depth of a post that has none
 
 // Rugged bottom about 300 m deep, posts 10 m apart, its south-west corner at the origin: slopes to 45 degrees
 // and more, and relief down to single cells, so that rays meet every kind of cell.

@@ -15,9 +15,9 @@ namespace halocline::bathymetry {
 namespace {
 
 using halocline::testing::tolerance;
+using testing::kNoData;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // x and y from -100 to 100.

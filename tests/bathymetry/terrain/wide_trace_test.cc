@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -26,7 +25,7 @@
 namespace halocline::bathymetry {
 namespace {
 
-constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
+using testing::kNoData;
 
 double draw(std::uint32_t what, std::uint64_t which, double low, double high) {
   return low +

@@ -298,7 +298,7 @@ TEST_F(MessageJournalTest, AFileThatOthersDeleteOrTruncateIsGivenUp) {
 // Its check sum is right, as a program may make it; sums of such times are none.
 TEST_F(MessageJournalTest, AnEntryOfNoTimeIsDamage) {
   receive(*open(), 1, "STATE.a", 5);
-  for (const std::uint8_t first : {0x80, 0x7f}) {
+  for (const std::uint8_t first : std::array<std::uint8_t, 2>{0x80, 0x7f}) {
     JournalFile file(path_, "HALOCLINE INPUT2");
     ASSERT_TRUE(file.append(std::array{JournalFile::Record{0, {first, 0, 0, 0, 0, 0, 0, 9, 1, 'x', 6}}}));
   }

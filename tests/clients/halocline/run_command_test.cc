@@ -266,8 +266,9 @@ TEST_F(RunCommand, APathOfTheCommandLineStartsAtTheWorkingDirectory) {
 }
 
 TEST_F(RunCommand, NumbersOutOfRangeAreShownShort) {
-  for (const std::string arguments :
-       {"run pond.toml --duration 1e300", "config pond.toml --set scenario.duration_s=1e300",
+  for (const std::string& arguments :
+       {std::string("run pond.toml --duration 1e300"),
+        std::string("config pond.toml --set scenario.duration_s=1e300"),
         "config pond.toml --set scenario.duration_s=1" + std::string(300, '0')}) {
     const Ended refused = run(arguments);
     EXPECT_EQ(refused.code, 2) << arguments;

@@ -15,9 +15,9 @@
 
 #include "clients/modem_gateway/protocols/fields.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
-#include "core/text/base64.h"
 #include "core/check.h"
 #include "core/sim_time.h"
+#include "core/text/base64.h"
 #include "tests/clients/modem_gateway/fake_port.h"
 
 namespace halocline::modem_gateway {

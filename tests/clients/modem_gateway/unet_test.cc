@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/modem_gateway/protocols/unet/unet_json.h"
-#include "core/text/base64.h"
 #include "core/check.h"
 #include "core/names.h"
+#include "core/text/base64.h"
 #include "tests/clients/modem_gateway/fake_port.h"
 
 namespace halocline::modem_gateway {

@@ -200,7 +200,7 @@ TEST_P(ShippedNetwork, MakesSense) {
   if (GetParam().starts_with("sweep_")) {
     const clients::SweepPlan plan = clients::load_plan(file);
     for (std::size_t i = 0; i < plan.runs(); ++i)
-      EXPECT_NO_THROW(clients::load_scenario(plan.scenario, run_of(plan, i).overrides)) << i;
+      EXPECT_NO_THROW(clients::load_scenario(plan.scenario.place(), run_of(plan, i).overrides)) << i;
   } else {
     EXPECT_THAT(clients::load_checked(file, {}).warnings, ::testing::IsEmpty());
   }

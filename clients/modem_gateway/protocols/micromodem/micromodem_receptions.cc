@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "clients/modem_gateway/protocols/fields.h"
-#include "core/text/base64.h"
 #include "core/names.h"
 #include "core/sim_time.h"
+#include "core/text/base64.h"
 
 namespace halocline::modem_gateway {
 namespace {

@@ -33,10 +33,10 @@
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
 #include "clients/modem_gateway/protocols/unet/unet_json.h"
-#include "core/text/base64.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/sim_time.h"
+#include "core/text/base64.h"
 
 namespace halocline::modem_gateway {
 namespace {

@@ -93,8 +93,8 @@ TEST_F(ScenarioChecks, AWaypointLiesInTheWater) {
   const std::string outside = vehicle_with("[vehicle.mission]\nwaypoints = [[3000.0, 0.0, 20.0]]\n");
   EXPECT_THAT(findings_in(outside).errors, IsEmpty());
   EXPECT_THAT(findings_in(outside).warnings, IsEmpty()) << "a level bottom has no end";
-  write_text(folder_ + "/sea.asc",
-             "ncols 2\nnrows 2\nxllcorner -1500\nyllcorner -1500\ncellsize 1000\n-100 -100\n-100 -100\n");
+  replace_file(folder_ + "/sea.asc",
+               "ncols 2\nnrows 2\nxllcorner -1500\nyllcorner -1500\ncellsize 1000\n-100 -100\n-100 -100\n");
   const auto beyond = findings_in(outside +
                                   "[terrain]\nkind = \"raster\"\nwhole_file = true\n[terrain.raster]\npath = "
                                   "\"sea.asc\"\ncoordinate_system = \"local\"\n");
@@ -107,28 +107,6 @@ TEST_F(ScenarioChecks, ALevelBottomAsksForNoSpacing) {
   EXPECT_THAT(findings_in(vehicle + size).errors, IsEmpty());
   EXPECT_THAT(findings_in(vehicle + size + "kind = \"slope\"\n").errors,
               ElementsAre(HasSubstr("allowed is a spacing that divides")));
-}
-
-// 53 bytes at 200 bit/s last 2.12 s and their preamble; the farthest two are 600 m apart.
-TEST_F(ScenarioChecks, ANetworksTimesHoldItsPacketsAndItsDistances) {
-  const auto warnings = [&](const std::string& network) {
-    std::string text = "[modem]\nbit_rate_bps = 200.0\n[network]\n" + network;
-    for (const int i : {1, 2, 3})
-      text += "[[vehicle]]\nname = \"n" + std::to_string(i) + "\"\nid = " + std::to_string(i) +
-              "\nmodel = \"fixed\"\nstart_ned_m = [" + std::to_string(300 * i) + ".0, 0.0, 30.0]\n";
-    return findings_in(text).warnings;
-  };
-  const std::string tdma = "mac = \"tdma\"\n";
-  EXPECT_THAT(warnings(tdma + "slot_s = 0.1\n"),
-              ElementsAre(AllOf(HasSubstr("network.slot_s is 0.1"), HasSubstr("a packet of data"))));
-  EXPECT_THAT(warnings(tdma + "slot_s = 10.0\n"), IsEmpty());
-  EXPECT_THAT(warnings("mac = \"slotted-aloha\"\nslot_s = 1.0\n"), ElementsAre(HasSubstr("slot_s")));
-  EXPECT_THAT(warnings("mac = \"t-lohi\"\ncontention_s = 0.5\n"),
-              ElementsAre(HasSubstr("a tone and twice the greatest travel time")));
-  EXPECT_THAT(warnings("mac = \"t-lohi\"\ncontention_s = 2.0\n"), IsEmpty());
-  EXPECT_THAT(warnings("mac = \"maca\"\nhandshake_s = 0.5\nexchange_s = 0.5\n"),
-              ElementsAre(HasSubstr("handshake_s"), HasSubstr("exchange_s")));
-  EXPECT_THAT(warnings("mac = \"aloha-ca\"\npacket_s = 0.5\n"), ElementsAre(HasSubstr("packet_s")));
 }
 
 // 53 bytes at 200 bit/s last 2.12 s and their preamble; the farthest two are 600 m apart.
