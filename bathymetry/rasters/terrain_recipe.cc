@@ -126,12 +126,11 @@ std::string extent_text(const Terrain& terrain) {
 
 double memory_of(const TerrainRecipe& recipe) {
   constexpr double kBytesAPost = sizeof(float) * 4.0 / 3;  // shallowest_pyramid.h
-  std::vector<DomainRecipe> domains;
-  if (recipe.kind != TerrainKind::kRaster || !recipe.whole_file) domains.push_back(recipe.domain);
-  for (const NestedRecipe& inner : recipe.nested) domains.push_back(inner.domain);
+  std::vector<GridGeometry> grids;
+  if (recipe.kind != TerrainKind::kRaster || !recipe.whole_file) grids.push_back(grid_of(recipe));
+  for (const NestedRecipe& inner : recipe.nested) grids.push_back(inner.domain.geometry());
   double posts = 0;
-  for (const DomainRecipe& domain : domains) {
-    const GridGeometry grid = domain.geometry();
+  for (const GridGeometry& grid : grids) {
     posts += static_cast<double>(grid.posts_x) * grid.posts_y;
   }
   require(posts <= static_cast<double>(kMaxTerrainPosts),

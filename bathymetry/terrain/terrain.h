@@ -22,8 +22,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <utility>
@@ -169,15 +167,9 @@ class Terrain {
   RayHit follow_beyond(const Departure& departure) const;
   RayHit finish(const Departure& departure, const TraceResult& result, const Patch& owner) const;
 
-  // Made when it is asked for first.
-  struct Gaps {
-    std::once_flag once;
-    std::optional<NearestDepths> filled;
-  };
-
   std::vector<Patch> patches_;
   std::optional<EndlessBottom> beyond_;
-  std::unique_ptr<Gaps> gaps_ = std::make_unique<Gaps>();
+  std::optional<NearestDepths> filled_;  // of a base grid with gaps
   std::uint64_t version_ = 0;
 };
 

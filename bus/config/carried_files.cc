@@ -140,7 +140,8 @@ std::string joined(const toml::array& lines, std::string_view between) {
   return text;
 }
 
-// One [[file]].
+}  // namespace
+
 void unpack(const toml::table& table, UnpackedFiles& files) {
   const std::string name = text_in(table, "name"), xxh3_text = text_in(table, "xxh3");
   if (const toml::array* lines = table["lines"].as_array()) {
@@ -154,27 +155,6 @@ void unpack(const toml::table& table, UnpackedFiles& files) {
     require(!place.empty(), "lines, base64 or place is missing");
     files.add(name, {place, table["bytes"].value_or(std::uint64_t{0}), xxh3_text});
   }
-}
-
-}  // namespace
-
-void ConfigDocument::unpack_files() {
-  toml::node* node = root.get("file");
-  if (node == nullptr) return;
-  const toml::array* tables = node->as_array();
-  if (tables == nullptr || !tables->is_homogeneous(toml::node_type::table))
-    throw ConfigErrors({place_of(*node) + ": file; an array of tables [[file]] is needed"});
-  std::string name;
-  try {
-    unpacked = std::make_shared<UnpackedFiles>();
-    for (const toml::node& table : *tables) {
-      name = text_in(*table.as_table(), "name");
-      unpack(*table.as_table(), *unpacked);
-    }
-  } catch (const std::exception& error) {
-    throw ConfigErrors({place_of(*node) + ": file '" + name + "'; " + error.what()});
-  }
-  root.erase("file");
 }
 
 bool names_a_file(const std::string& text, FileNames names) {

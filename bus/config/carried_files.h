@@ -5,11 +5,11 @@
 // A configuration that is written to travel ends with a table for each file that its keys name:
 //
 //   [[file]]
-//   name = "modem.toml"       # by which the keys name it
-//   xxh3 = "90a1c2d3e4f50617"
+//   name = "modem.toml"
+//   xxh3 = "a9ca6625fbec8fdf"
 //   lines = ["source_level_db = 181.0", ""]
 //
-// A text is carried by its lines, other bytes as `base64`. What is above kMaxCarriedBytes, or made of several
+// Keys name the file by `name`. A text is carried by its lines, other bytes as `base64`. What is above kMaxCarriedBytes, or made of several
 // files, is not carried: its table has `place` and `bytes`, and the file is read there.
 #pragma once
 

@@ -196,9 +196,8 @@ class ConfigFile {
   std::shared_ptr<ConfigDocument> document_;
 };
 
-// The configuration as TOML: every key that counts with its value; with_comments every key, with unit, range
-// and meaning.
-// Files are named by their absolute places, or carried along (`to_portable_toml`).
+// The configuration as TOML: every key that counts with its value, or every key with unit, range and meaning;
+// files by their absolute places, or carried along (`to_portable_toml`).
 std::string to_toml(const std::function<void(ConfigVisitor&)>& body, bool with_comments);
 std::string to_portable_toml(const std::function<void(ConfigVisitor&)>& body);
 

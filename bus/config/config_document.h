@@ -63,6 +63,9 @@ struct ConfigDocument {
 std::string to_text(const ConfigDocument& document, const std::vector<std::string>& left_out,
                     CarriedFiles& files);
 
+// Adds what one table [[file]] holds. Throws where it cannot be one.
+void unpack(const toml::table& table, UnpackedFiles& files);
+
 // A number and a text as TOML has them.
 std::string exact(double value);
 std::string toml_quoted(const std::string& value);

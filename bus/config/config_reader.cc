@@ -72,10 +72,29 @@ std::string ConfigDocument::folder() const {
   return folder.empty() ? "." : folder;
 }
 
+void ConfigDocument::unpack_files() {
+  toml::node* node = root.get("file");
+  if (node == nullptr) return;
+  const toml::array* tables = node->as_array();
+  if (tables == nullptr || !tables->is_homogeneous(toml::node_type::table))
+    throw ConfigErrors({place_of(*node) + ": file; an array of tables [[file]] is needed"});
+  std::string name;
+  try {
+    unpacked = std::make_shared<UnpackedFiles>();
+    for (const toml::node& table : *tables) {
+      name = (*table.as_table())["name"].value_or(std::string());
+      unpack(*table.as_table(), *unpacked);
+    }
+  } catch (const std::exception& error) {
+    throw ConfigErrors({place_of(*node) + ": file '" + name + "'; " + error.what()});
+  }
+  root.erase("file");
+}
+
 FilePath ConfigDocument::resolved(const toml::node& node, const std::string& given, FileNames names) {
   if (!names_a_file(given, names)) return FilePath(given);
-  for (const FilePath& known : files[&node].paths)
-    if (known.given() == given) return known;
+  for (const FilePath& earlier : files[&node].paths)
+    if (earlier.given() == given) return earlier;
   const bool is_own = !is_override(node);
   if (const auto place = is_own && unpacked ? unpacked->place_of(given) : std::nullopt) {
     if (const std::string difference = unpacked->difference(given); !difference.empty())

@@ -90,7 +90,7 @@ TEST(BathymetryConfig, FillsTheRecipe) {
   EXPECT_EQ(recipe.relief.seed, 5u);
   ASSERT_EQ(recipe.nested.size(), 1u);
   EXPECT_EQ(recipe.nested[0].holes, Holes::kFillFromAround);
-  EXPECT_EQ(recipe.nested[0].raster.path, "fine.tif");
+  EXPECT_EQ(recipe.nested[0].raster.path.given(), "fine.tif");
 }
 
 TEST(BathymetryConfig, ReportsTheFaultOfEachKey) {
@@ -194,6 +194,7 @@ TEST(TerrainRecipe, ReadsRastersRelativeToTheScenarioAndNestsThem) {
 
 TEST(TerrainRecipe, RefusesASpacingThatDoesNotDivideTheSize) {
   TerrainRecipe recipe;
+  recipe.kind = TerrainKind::kSlope;
   recipe.domain.spacing_m = 30;
   EXPECT_THROW(prepare_terrain(recipe, {}), InvalidArgument);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The examples in the comments of the headers of bus/, compiled and run (tests/docs/check_examples).
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,12 +13,14 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "bus/bus.h"
+#include "bus/config/carried_files.h"
 #include "bus/config/config.h"
 #include "bus/lockstep/sequencer.h"
 #include "bus/numbered_publisher.h"
 #include "bus/runtime/crash_journal.h"
 #include "bus/runtime/node.h"
 #include "bus/runtime/thread_pool.h"
+#include "core/files/file_path.h"
 #include "core/sim_time.h"
 #include "tests/bus/messages_for_tests.h"
 #include "tests/support/working_folder.h"
@@ -62,6 +66,22 @@ TEST(HeaderExamples, Config) {
   file.read([&](ConfigVisitor& v) { visit(v, config); });
   file.check(/*whole_file=*/true);
   EXPECT_EQ(config.wind_mps, 12);
+}
+
+TEST(HeaderExamples, CarriedFiles) {
+  FilePath modem;
+  ConfigFile file = ConfigFile::parse(R"(
+    modem = "modem.toml"
+    [[file]]
+    name = "modem.toml"
+    xxh3 = "a9ca6625fbec8fdf"
+    lines = ["source_level_db = 181.0", ""]
+  )",
+                                      "test.toml");
+  file.read([&](ConfigVisitor& v) { v.file("modem", modem, FileNames::kFiles, ""); });
+  file.check(/*whole_file=*/true);
+  std::ifstream in(modem.place());
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "source_level_db = 181.0\n");
 }
 
 TEST(HeaderExamples, Sequencer) {

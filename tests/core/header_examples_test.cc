@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The examples in the comments of the headers of core/, compiled and run (tests/docs/check_examples).
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "core/archive.h"
 #include "core/atomic_file.h"
+#include "core/files/file_path.h"
 #include "core/frames.h"
 #include "core/lru_cache.h"
 #include "core/random.h"
@@ -60,6 +62,15 @@ TEST(HeaderExamples, AtomicFileByItsTemporaryPath) {
   write_netcdf(results, file.temporary_path());
   file.commit();
   EXPECT_EQ(content_of("sweep.nc"), results);
+}
+
+TEST(HeaderExamples, FilePath) {
+  const testing::TemporaryFolder folder;
+  std::filesystem::create_directories("casts");
+  std::ofstream("casts/may.csv") << "depth_m\n";
+  FilePath cast("casts/may.csv");  // of code: as it is
+  std::ifstream in(cast.place());
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "depth_m\n");
 }
 
 TEST(HeaderExamples, LruCache) {

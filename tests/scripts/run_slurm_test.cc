@@ -124,7 +124,7 @@ TEST_F(RunSlurm, TwoHostsInLockstepWriteTheLogOfOneProcess) {
 TEST_F(RunSlurm, ChannelServersAndVehiclesAreSpreadOverTheHostsAndAllOthersAreOnTheFirst) {
   const auto run = this->run({"--shards", "2", "--blocks", "2", "--duration", "40", "--log",
                               log("run.lcmlog"), "--partition", "main"});
-  const auto programs = programs_of(*run, 9);
+  const auto programs = programs_of(*run, 10);
   for (const auto& [name, program] : programs) {
     const bool on_second = name == "channel-server/0/2" || name == "vehicle-sim/1/2";
     EXPECT_EQ(program.host, on_second ? "host-2" : "host-1") << name;
@@ -169,7 +169,7 @@ TEST_F(RunSlurm, TwoJobsOnTheSameHostsDoNotReceiveEachOther) {
 
 TEST_F(RunSlurm, SigtermCancelsTheJobAndLeavesNoProcess) {
   const auto run = this->run({"--duration", "100", "--log", log("run.lcmlog")});
-  const auto programs = programs_of(*run, 7);
+  const auto programs = programs_of(*run, 8);
   std::this_thread::sleep_for(3s);
   run->signal(SIGTERM);
   EXPECT_EQ(run->wait(), 0) << run->output();
@@ -211,7 +211,7 @@ TEST_F(RunSlurm, AJobCancelledBySlurmEndsWithAReadableLogAndExitCode1) {
 
 TEST_F(RunSlurm, AHostThatFailsEndsTheJobAndLeavesNoProcess) {
   const auto run = this->run({"--duration", "100", "--log", log("run.lcmlog")});
-  const auto programs = programs_of(*run, 7);
+  const auto programs = programs_of(*run, 8);
   const std::string status =
       text_of("/proc/" + std::to_string(programs.at("channel-server").pid) + "/status");
   kill(std::stoi(status.substr(status.find("PPid:") + 5)), SIGKILL);

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "bus/config/config.h"
-#include "bus/runtime/scenario.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_framing.h"
 #include "channel_server/vehicles/modem_schedule.h"
@@ -26,9 +25,12 @@ class NetworkChecks {
  public:
   NetworkChecks(const ScenarioConfig& config, bus::ConfigFile& file)
       : config_(config), rules_(config.network.rules), file_(file) {
-    for (const bus::VehicleEntry& one : config.scenario.vehicles) {
-      for (const bus::VehicleEntry& other : config.scenario.vehicles)
-        farthest_m_ = std::max(farthest_m_, (one.start_ned_m - other.start_ned_m).norm());
+    for (const networks::NetworkMember& one : config.network.members) {
+      for (const networks::NetworkMember& other : config.network.members) {
+        const double distance_m = (one.start_ned_m - other.start_ned_m).norm();
+        farthest_m_ = std::max(farthest_m_, distance_m);
+        if (sends_to(one, other)) farthest_hop_m_ = std::max(farthest_hop_m_, distance_m);
+      }
     }
   }
 
@@ -39,15 +41,15 @@ class NetworkChecks {
       expect("contention_s", rules_.contention, longest_s(kToneBytes) + 2 * travel_s(),
              "a tone and twice the greatest travel time");
     if (mac == MacKind::kMaca || mac == MacKind::kDacap) {
-      expect("handshake_s", rules_.handshake, 2 * longest_s(kMarkBytes) + 2 * travel_s(),
-             "request, leave and twice the greatest travel time");
-      expect("exchange_s", rules_.exchange, longest_s(data_bytes()) + 2 * travel_s(),
-             "the data and twice the greatest travel time");
+      expect("handshake_s", rules_.handshake, 2 * longest_s(kMarkBytes) + 2 * hop_s(),
+             "a request, a leave and twice the travel time to the farthest destination");
+      expect("exchange_s", rules_.exchange, longest_s(data_bytes()) + 2 * hop_s(),
+             "the data and twice the travel time to the farthest destination");
     }
     if (mac == MacKind::kAlohaCa || mac == MacKind::kDacap)
       expect("packet_s", rules_.packet, longest_s(data_bytes()), "a packet of data");
     if (mac == MacKind::kDacap)
-      expect("longest_travel_s", rules_.longest_travel, travel_s(), "the greatest travel time");
+      expect("longest_travel_s", rules_.longest_travel, hop_s(), "the way to the farthest destination");
   }
 
  private:
@@ -59,6 +61,13 @@ class NetworkChecks {
     expect("slot_s", rules_.slot,
            packet_s + (is_shared_out && rules_.slot.seconds() >= packet_s ? travel_s() : 0),
            rules_.slot.seconds() < packet_s ? "a packet of data" : "a packet and the greatest travel time");
+  }
+
+  // True when packets of `one` go to `other` directly.
+  bool sends_to(const networks::NetworkMember& one, const networks::NetworkMember& other) const {
+    const std::string& hop = one.via.empty() ? one.destination : one.via;
+    if (hop == "all" || rules_.router == networks::RouterKind::kFlooding) return !hop.empty();
+    return hop == other.vehicle;
   }
 
   // As the MAC sends it.
@@ -83,18 +92,19 @@ class NetworkChecks {
     return longest_s;
   }
   double travel_s() const { return farthest_m_ / rules_.sound_speed_mps; }
+  double hop_s() const { return farthest_hop_m_ / rules_.sound_speed_mps; }
 
   void expect(const std::string& key, SimDuration given, double least_s, const std::string& what) {
     if (given.seconds() >= least_s) return;
     file_.warn("network." + key, format_number(given.seconds()),
-               what + " take up to " + format_number(rounded_up(least_s)) +
+               what + " may last " + format_number(rounded_up(least_s)) +
                    " s with these modems and places: packets collide, or are given up too early");
   }
 
   const ScenarioConfig& config_;
   const networks::NetworkRules& rules_;
   bus::ConfigFile& file_;
-  double farthest_m_ = 0;
+  double farthest_m_ = 0, farthest_hop_m_ = 0;
 };
 
 }  // namespace

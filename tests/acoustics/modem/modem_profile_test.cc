@@ -51,8 +51,9 @@ TEST(ModemProfile, EveryFileOfTheFolderIsKnownByItsName) {
   std::sort(names.begin(), names.end());
   EXPECT_EQ(built_in_modems(), names);
   for (const std::string& name : names) {
-    channel_server::VehicleModem by_path = load_modem((kFolder / (name + ".toml")).string());
-    EXPECT_EQ(by_path.profile, name + ".toml");
+    const std::string path = (kFolder / (name + ".toml")).string();
+    channel_server::VehicleModem by_path = load_modem(path);
+    EXPECT_EQ(by_path.profile, path);
     by_path.profile = name;
     EXPECT_EQ(by_path, load_modem(name));
   }

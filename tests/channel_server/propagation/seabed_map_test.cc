@@ -132,7 +132,7 @@ TEST_F(SeabedMapTest, BeyondTheTerrainTheLastDepthIsHeldAndSaidSo) {
     }
     return map_.between(from, to);
   };
-  for (const double north : {-510.0, -500.0, -499.0, 0.0, 509.9, 510.0}) {
+  for (const double north : {-510.0, -501.0, -499.0, 0.0, 509.9, 510.0}) {
     for (const double east : {-490.0, 0.0, 489.0, 490.0}) {
       const auto profile = answer_within({north, east, 10}, {0, 0, 10});
       ASSERT_NE(profile, nullptr) << north << " " << east;

@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
         Feature{"StraightThroughARidge",
                 "[propagation]\nmodel = \"straight\"\n[terrain]\nkind = "
                 "\"ridge\"\n[terrain.ridge]\nazimuth_deg = 90.0\n"
-                "crest_north_m = 900.0\ndepth_m = 100.0\nheight_m = 90.0\nhalf_width_m = 100.0\n"},
+                "crest_north_m = 400.0\ndepth_m = 100.0\nheight_m = 90.0\nhalf_width_m = 100.0\n"},
         Feature{"ASlope", kRays + "[terrain]\nkind = \"slope\"\n"},
         Feature{"BeyondTheArea", kRays + "[terrain]\nsize_north_m = 400.0\nsize_east_m = 400.0\n"}),
     [](const auto& info) { return info.param.name; });

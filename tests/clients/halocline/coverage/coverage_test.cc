@@ -216,8 +216,8 @@ TEST(Coverage, AlongATrackTheBestDepthIsBetterThanEveryOther) {
   const std::vector<TrackPlace> track{{0, -2000, 0}, {10, 0, 500}, {20, 3000, 1000}, {30, 9000, 0}};
   const auto choices = best_depths(config, terrain, from, track, depths, 2);
   ASSERT_EQ(choices.size(), track.size());
-  EXPECT_FALSE(choices.back().best);  // beyond the terrain
-  for (std::size_t i = 0; i + 1 < track.size(); ++i) {
+  EXPECT_FALSE(best_depths(config, terrain, from, track, {200}, 1).front().best) << "in the bottom";
+  for (std::size_t i = 0; i < track.size(); ++i) {
     ASSERT_TRUE(choices[i].best);
     for (std::size_t depth = 0; depth < 3; ++depth) {
       LinkSurveyEnd to = link_end(config, "0,0,0");

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Each check of sense: a scenario that breaks it, and one beside it that does not.
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include "bus/config/config.h"
-#include "clients/halocline/scenario/composition.h"
 #include "core/atomic_file.h"
+#include "tests/clients/halocline/scenario/scenario_checks_fixture.h"
 
 namespace halocline::clients {
 namespace {
@@ -20,36 +17,6 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-// What a scenario of this text is refused for, or warned of.
-struct Findings {
-  std::vector<std::string> errors, warnings;
-};
-
-class ScenarioChecks : public ::testing::Test {
- protected:
-  ScenarioChecks() { std::filesystem::create_directories(folder_); }
-  ~ScenarioChecks() override { std::filesystem::remove_all(folder_); }
-
-  Findings findings_in(const std::string& text) {
-    replace_file(folder_ + "/sea.toml", text);
-    try {
-      return {{}, load_checked(folder_ + "/sea.toml", {}).warnings};
-    } catch (const bus::ConfigErrors& errors) {
-      return {errors.lines(), {}};
-    }
-  }
-  // A flat bottom at 100 m, 4 km by 4 km, and one vehicle 20 m deep; `more` goes on in its table.
-  std::vector<std::string> errors_with(const std::string& more, const std::string& model = "torpedo") {
-    return findings_in(vehicle_with(more, model)).errors;
-  }
-  static std::string vehicle_with(const std::string& more, const std::string& model = "torpedo") {
-    return "[[vehicle]]\nname = \"auv\"\nid = 1\nmodel = \"" + model + "\"\n" +
-           (more.find("start_ned_m") == std::string::npos ? "start_ned_m = [0.0, 0.0, 20.0]\n" : "") + more;
-  }
-
-  std::string folder_ = ::testing::TempDir() + "checks-" + std::to_string(getpid());
-};
 
 TEST_F(ScenarioChecks, AVehicleStartsInTheWater) {
   EXPECT_THAT(errors_with("start_ned_m = [0.0, 0.0, 100.0]\n"), IsEmpty());
@@ -60,11 +27,13 @@ TEST_F(ScenarioChecks, AVehicleStartsInTheWater) {
                             "(the sea surface) to 100 m (the ground)"))));
   EXPECT_THAT(errors_with("start_ned_m = [0.0, 0.0, -20.0]\n"),
               ElementsAre(HasSubstr("above the sea surface")));
-  EXPECT_THAT(errors_with("start_ned_m = [2000.0, 0.0, 20.0]\n"), IsEmpty());
-  EXPECT_THAT(errors_with("start_ned_m = [2000.1, 0.0, 20.0]\n"),
-              ElementsAre(HasSubstr(
-                  "the terrain is not known there; allowed is a place on it, north -2000 to 2000 m, "
-                  "east -2000 to 2000 m")));
+  EXPECT_THAT(errors_with("start_ned_m = [2000.1, 0.0, 20.0]\n"), IsEmpty()) << "a level bottom has no end";
+  const std::string raster = level_raster();
+  EXPECT_THAT(findings_in(raster + vehicle_with("start_ned_m = [500.0, 0.0, 20.0]\n")).errors, IsEmpty());
+  EXPECT_THAT(
+      findings_in(raster + vehicle_with("start_ned_m = [500.1, 0.0, 20.0]\n")).errors,
+      ElementsAre(HasSubstr("the terrain is not known there; allowed is a place on it, north -500 to 500 m, "
+                            "east -500 to 500 m")));
 }
 
 TEST_F(ScenarioChecks, AFixedVehicleIsCheckedAndAnExternalOneIsNot) {
@@ -93,11 +62,7 @@ TEST_F(ScenarioChecks, AWaypointLiesInTheWater) {
   const std::string outside = vehicle_with("[vehicle.mission]\nwaypoints = [[3000.0, 0.0, 20.0]]\n");
   EXPECT_THAT(findings_in(outside).errors, IsEmpty());
   EXPECT_THAT(findings_in(outside).warnings, IsEmpty()) << "a level bottom has no end";
-  replace_file(folder_ + "/sea.asc",
-               "ncols 2\nnrows 2\nxllcorner -1500\nyllcorner -1500\ncellsize 1000\n-100 -100\n-100 -100\n");
-  const auto beyond = findings_in(outside +
-                                  "[terrain]\nkind = \"raster\"\nwhole_file = true\n[terrain.raster]\npath = "
-                                  "\"sea.asc\"\ncoordinate_system = \"local\"\n");
+  const auto beyond = findings_in(level_raster() + outside);
   EXPECT_THAT(beyond.errors, IsEmpty());
   EXPECT_THAT(beyond.warnings, ElementsAre(HasSubstr("the terrain is not known there")));
 }
@@ -115,7 +80,8 @@ TEST_F(ScenarioChecks, ANetworksTimesHoldItsPacketsAndItsDistances) {
     std::string text = "[modem]\nbit_rate_bps = 200.0\n[network]\n" + network;
     for (const int i : {1, 2, 3})
       text += "[[vehicle]]\nname = \"n" + std::to_string(i) + "\"\nid = " + std::to_string(i) +
-              "\nmodel = \"fixed\"\nstart_ned_m = [" + std::to_string(300 * i) + ".0, 0.0, 30.0]\n";
+              "\nmodel = \"fixed\"\nstart_ned_m = [" + std::to_string(300 * i) +
+              ".0, 0.0, 30.0]\n[vehicle.network]\ndestination = \"" + (i == 3 ? "n1" : "n3") + "\"\n";
     return findings_in(text).warnings;
   };
   const std::string tdma = "mac = \"tdma\"\n";
@@ -345,93 +311,6 @@ TEST_F(ScenarioChecks, AllThatMakesNoSenseIsFoundAtOnce) {
       "start_ned_m = [0.0, 0.0, 200.0]\n[vehicle.mission]\nspeed_mps = 9\nwaypoints = [[0.0, 0.0, 300.0]]\n"
       "[vehicle.traffic]\nperiod_s = 1000\npayload_bytes = 5000\n");
   EXPECT_EQ(errors.size(), 4u) << ::testing::PrintToString(errors);
-}
-
-// Of each choice of a scenario: keys that lack it, and the words of what they lack.
-struct IdleKey {
-  std::string toml, key, choice;
-};
-
-TEST_F(ScenarioChecks, KeysThatLackTheirChoiceAreWarnedOf) {
-  const std::string vehicle = vehicle_with("");
-  const std::vector<IdleKey> idle{
-      {"[environment]\nprofile_file = \"cast.csv\"\n", "environment.profile_file", "profile = \"file\""},
-      {"[environment]\nprofile = \"munk\"\nisovelocity_mps = 1490\n", "environment.isovelocity_mps",
-       "profile = \"isovelocity\""},
-      {"[environment]\nwater_rows = [[0, 10, 35]]\n", "environment.water_rows", "profile = \"water-table\""},
-      {"[environment]\nassumed_salinity_psu = 30\n", "environment.assumed_salinity_psu",
-       "profile = \"munk\" or \"isovelocity\" or \"speed-table\" or \"file\""},
-      {"[environment]\nnoise_spread_s = 3\n", "environment.noise_spread_s", "noise_spread_db above 0"},
-      {"[environment]\nimpulse_s = 3\n", "environment.impulse_s", "impulse_exponent above 0"},
-      {"[terrain.raster]\npath = \"gone.tif\"\n", "terrain.raster", "kind = \"raster\""},
-      {"[terrain.slope]\nslope = 0.1\n", "terrain.slope", "kind = \"slope\""},
-      {"[terrain]\nframe = \"enu\"\n", "terrain.frame", "kind = \"raster\", or a nested raster"},
-      {"[terrain.relief]\nhurst = 0.5\n", "terrain.relief.hurst", "rms_m above 0"},
-      {"[ocean]\ncarries_sound = false\n", "ocean.carries_sound", "file = \"FILE\""},
-      {"[propagation]\nmodel = \"straight\"\nsolver = \"arcs\"\n", "propagation.solver", "model = \"rays\""},
-      {"[propagation]\nbottom_density_ratio = 2\nsediment = \"MediumSand\"\n",
-       "propagation.bottom_density_ratio", "sediment = \"custom\""},
-      {"[propagation]\nfading = \"none\"\nrice_factor_db = 3\n", "propagation.rice_factor_db",
-       "fading = \"sea\""},
-      {"[propagation]\nbottom_scattering_db = -30\n", "propagation.bottom_scattering_db",
-       "reverberation = \"lambert\""},
-      {"[propagation]\nreplay_level = \"file\"\n", "propagation.replay_level",
-       "replay = \"FILE\" or a replay_pair"},
-      {"[channel_server]\nreach = \"none\"\nreach_below_noise_db = 9\n",
-       "channel_server.reach_below_noise_db", "reach = \"level\""},
-      {"[modem]\ncarrier_threshold_db = 3\n", "modem.carrier_threshold_db", "events = true"},
-      {"[vehicle_sim.waves]\nheight_m = 2\n", "vehicle_sim.waves.height_m",
-       "sea = \"regular\" or \"pierson-moskowitz\" or \"jonswap\""},
-      {"[vehicle_sim.current]\ntide_period_s = 9\n", "vehicle_sim.current.tide_period_s",
-       "tide_amplitude_mps above 0"},
-      {"[sensors.dvl]\nrate_hz = 0\nrange_m = 50\n", "sensors.dvl.range_m", "rate_hz above 0"},
-      {"[network]\ninterval_s = 9\n", "network.interval_s", "a mac"},
-      {"[network]\nmac = \"csma\"\nslot_s = 9\n", "network.slot_s", "mac = \"slotted-aloha\" or \"tdma\""},
-  };
-  for (const IdleKey& one : idle) {
-    const Findings found = findings_in(one.toml + vehicle);
-    EXPECT_THAT(found.errors, IsEmpty()) << one.toml;
-    EXPECT_THAT(found.warnings, ElementsAre(AllOf(HasSubstr("sea.toml:"), HasSubstr(": " + one.key + " is "),
-                                                  HasSubstr("counts only with " + one.choice))))
-        << one.toml;
-  }
-}
-
-TEST_F(ScenarioChecks, KeysOfAVehicleThatLackTheirChoiceAreWarnedOf) {
-  const std::vector<IdleKey> idle{
-      {"has_modem = false\n[vehicle.modem]\nsource_level_db = 180\n", "modem", "has_modem = true"},
-      {"[vehicle.clock]\nset_by_gps = false\ngps_residual_s = 0.1\n", "clock.gps_residual_s",
-       "set_by_gps = true"},
-      {"[vehicle.noise]\nvaries_with = \"nothing\"\nreference_rpm = 900\n", "noise.reference_rpm",
-       "varies_with = \"propeller\""},
-      {"[vehicle.traffic]\npayload_bytes = 9\n", "traffic.payload_bytes", "period_s above 0"},
-      {"[vehicle.mission]\nwaypoints = [[100, 0, 20]]\n[vehicle.mission.navigator]\nlog_drift_mps = 0.1\n",
-       "mission.navigator", "navigate_by = \"sensors\""},
-      {"[vehicle.mission]\nwaypoints = [[100, 0, 20]]\nat_end = \"stop\"\nhold_radius_m = 30\n",
-       "mission.hold_radius_m", "at_end = \"hold\""},
-      {"[vehicle.mission]\nwaypoints = [[100, 0, 20]]\n[vehicle.mission.glide]\nvolume_m3 = 0.1\n",
-       "mission.glide", "steering = \"buoyancy\""},
-      {"[[vehicle.mission.behaviour]]\nkind = \"loiter\"\ndepth_m = 20\nlength_m = 30\n",
-       "mission.behaviour[0].length_m", "kind = \"survey\""},
-      {"[[vehicle.mission.behaviour]]\nkind = \"survey\"\ndepth_m = 20\nradius_m = 30\n",
-       "mission.behaviour[0].radius_m", "kind = \"loiter\" or \"follow\" or \"seek_link\""},
-  };
-  for (const IdleKey& one : idle) {
-    EXPECT_THAT(findings_in(vehicle_with(one.toml)).warnings,
-                ElementsAre(AllOf(HasSubstr(": vehicle[0]." + one.key + " is "),
-                                  HasSubstr("counts only with " + one.choice))))
-        << one.toml;
-  }
-  EXPECT_THAT(findings_in(vehicle_with("speed_mps = 1\n", "fixed")).warnings,
-              ElementsAre(HasSubstr("vehicle[0].speed_mps is 1; it has no effect")));
-}
-
-// What [sensors] says holds for a vehicle that has the instrument of its own.
-TEST_F(ScenarioChecks, CommonKeysOfAnInstrumentCountWhereOneVehicleHasIt) {
-  EXPECT_THAT(
-      findings_in("[sensors.dvl]\nrange_m = 50\n" + vehicle_with("[vehicle.sensors.dvl]\nrate_hz = 1\n"))
-          .warnings,
-      IsEmpty());
 }
 
 TEST_F(ScenarioChecks, ModemsThatNeverReceiveEachOtherAreWarnedOf) {
