@@ -8,7 +8,8 @@
 namespace halocline::bathymetry {
 
 // Visits [terrain] and what lies in it: [terrain.flat], [terrain.slope], [terrain.ridge], [terrain.seamount],
-// [terrain.raster], [terrain.relief], [[terrain.nested]]. Angles are degrees in the file, radians in the recipe.
+// [terrain.raster], [terrain.relief], [[terrain.nested]]. Angles are degrees in the file, radians in the
+// recipe.
 void visit(bus::ConfigVisitor& v, TerrainRecipe& recipe);
 
 }  // namespace halocline::bathymetry

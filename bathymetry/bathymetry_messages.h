@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Between ray_query_t / ray_reply_t, terrain_query_t / terrain_tile_t and the values the service computes with.
+// Between ray_query_t / ray_reply_t, terrain_query_t / terrain_tile_t and the values the service computes
+// with.
 //
-// A query is read as it stands: rays that are impossible get their status from the service, an impossible mode,
-// count or spacing its refusal. Both directions exist for both types, for clients and for round-trip tests.
+// A query is read as it stands: rays that are impossible get their status from the service, an impossible
+// mode, count or spacing its refusal. Both directions exist for both types, for clients and for round-trip
+// tests.
 #pragma once
 
 #include <cstdint>

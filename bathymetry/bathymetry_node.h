@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bathymetry service on the bus: RAY_QUERY in, RAY_REPLY.<client> out; TERRAIN_QUERY in, TERRAIN_REPLY.<client> out; and
-// TERRAIN, the whole seabed coarsely, at the start of a run, so that a log alone has its chart.
+// The bathymetry service on the bus: RAY_QUERY in, RAY_REPLY.<client> out; TERRAIN_QUERY in,
+// TERRAIN_REPLY.<client> out; and TERRAIN, the whole seabed coarsely, at the start of a run, so that a log
+// alone has its chart.
 //
-// Stateless between queries: a client that got no reply repeats its query with the same request_id. Queries wait
-// until the next step, which answers all of them in the order they came; a query that a client repeats while it
-// waits is answered once.
+// Stateless between queries: a client that got no reply repeats its query with the same request_id. Queries
+// wait until the next step, which answers all of them in the order they came; a query that a client repeats
+// while it waits is answered once.
 #pragma once
 
 #include <memory>

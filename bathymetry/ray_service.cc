@@ -51,7 +51,8 @@ void append_depth(const Terrain& terrain, double x_m, double y_m, RayAnswers& an
   append(answers, as_ray_status(sample.status), sample.z_m);
 }
 
-// Points are products of whole numbers and the spacing, so that they are the same to the last bit whoever computes them.
+// Points are products of whole numbers and the spacing, so that they are the same to the last bit whoever
+// computes them.
 void append_tile(const Terrain& terrain, const Vec3& origin, double spacing_m, RayAnswers& answers) {
   const double north = std::round(origin.x() / spacing_m), east = std::round(origin.y() / spacing_m);
   for (std::size_t i = 0; i < kTileSide; ++i) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Answers a batch of questions about the terrain: what the bathymetry service computes, without the bus.
 //
-// Model: a query is of one mode. closest_hit and occluded follow each ray; depth looks below each origin; the two
-// profiles take one ray, whose horizontal direction and range give the line. depth_tiles looks below kTileSide x kTileSide
-// points of the lattice that has one point in the world's origin: the first is that nearest to the ray's origin, the others lie
-// north and east of it. A query is answered whole or refused whole, with the reason: never cut. Stateless: the same query always has the same answer.
+// Model: a query is of one mode. closest_hit and occluded follow each ray; depth looks below each origin; the
+// two profiles take one ray, whose horizontal direction and range give the line. depth_tiles looks below
+// kTileSide x kTileSide points of the lattice that has one point in the world's origin: the first is that
+// nearest to the ray's origin, the others lie north and east of it. A query is answered whole or refused
+// whole, with the reason: never cut. Stateless: the same query always has the same answer.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The seabed at the posts of a regular tile: what a chart is drawn from. Computed here without the bus.
 //
-// Model: posts lie `spacing_m` apart both ways, row by row from the south, each from the west; a post is the depth of the
-// terrain at its place (Terrain::depth_at), in single precision (0.25 mm at 4000 m). Between posts of a coarse tile the
-// terrain may do what it likes. Posts outside of the terrain, or where it has no data, are not known. Stateless: the same
-// query always has the same answer, whole or refused with the reason.
+// Model: posts lie `spacing_m` apart both ways, row by row from the south, each from the west; a post is the
+// depth of the terrain at its place (Terrain::depth_at), in single precision (0.25 mm at 4000 m). Between
+// posts of a coarse tile the terrain may do what it likes. Posts outside of the terrain, or where it has no
+// data, are not known. Stateless: the same query always has the same answer, whole or refused with the
+// reason.
 #pragma once
 
 #include <cstdint>
@@ -33,10 +34,12 @@ struct Tile {
   std::vector<std::int8_t> known = {};  // one a post: 1 or 0
 };
 
-// Refused are a place or a spacing that is no number, no post or too many, and a tile that does not touch the terrain.
+// Refused are a place or a spacing that is no number, no post or too many, and a tile that does not touch the
+// terrain.
 [[nodiscard]] Tile answer(const Terrain& terrain, const TileQuery& query);
 
-// The whole terrain, at the spacing of its posts or the finest that needs no more than kMaxOverviewPosts either way.
+// The whole terrain, at the spacing of its posts or the finest that needs no more than kMaxOverviewPosts
+// either way.
 Tile overview(const Terrain& terrain);
 
 // Of the finest grid, m.

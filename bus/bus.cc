@@ -87,8 +87,8 @@ struct Bus::Subscription {
   }
 };
 
-// Subscriptions to single channels of one family. LCM compares each new channel with every subscription, so many of them
-// share one of LCM's.
+// Subscriptions to single channels of one family. LCM compares each new channel with every subscription, so
+// many of them share one of LCM's.
 struct Bus::ChannelGroup {
   std::unordered_map<std::string, std::vector<const Subscription*>, TextHash, std::equal_to<>> by_channel;
   std::vector<Subscription*> all;
@@ -173,7 +173,8 @@ void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handle
   add_subscription(regular_expression, std::move(handler), wakeup).begin(lcm_, regular_expression);
 }
 
-// A program for one vehicle keeps subscriptions of its own, so that LCM drops the messages of others as they arrive.
+// A program for one vehicle keeps subscriptions of its own, so that LCM drops the messages of others as they
+// arrive.
 void Bus::subscribe_channel(std::string_view channel, RawHandler handler, Wakeup wakeup) {
   constexpr std::size_t kSharedFrom = 8;
   const std::string_view prefix = channel.substr(0, channel.find('.') + 1);
@@ -270,8 +271,8 @@ void Bus::enable_repair() {
   subscribe<flow_heartbeat_t>(
       channels::kHeartbeat,
       [this](std::string_view node, const flow_heartbeat_t& heartbeat) { on_heartbeat(node, heartbeat); });
-  // A STATUS claims its node's name (session_watch.h), also of programs without heartbeats. Where this program
-  // subscribes to it, that subscription judges it: judged twice it would be its own duplicate.
+  // A STATUS claims its node's name (session_watch.h), also of programs without heartbeats. Where this
+  // program subscribes to it, that subscription judges it: judged twice it would be its own duplicate.
   const auto claim = [this](std::string_view channel, const void* data, std::size_t size) {
     node_status_t status;
     if (subscriptions_to(channel).size() == 1) (void)accept(channel, data, size, status);

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Typed publish and subscribe on an lcm::LCM, safe against what a bus may carry.
 //
-// A message that does not decode, or holds what cannot be (message_codec.h), is counted, reported with its channel and reason
-// (the 1st, 10th, 100th, ... of a kind), and ignored. A gap in a publisher's (session, sequence) is counted and repaired after
-// enable_repair(). An exception that a handler throws never crosses LCM's C frames: rethrow_if_failed() throws it.
+// A message that does not decode, or holds what cannot be (message_codec.h), is counted, reported with its
+// channel and reason (the 1st, 10th, 100th, ... of a kind), and ignored. A gap in a publisher's (session,
+// sequence) is counted and repaired after enable_repair(). An exception that a handler throws never crosses
+// LCM's C frames: rethrow_if_failed() throws it.
 //   Bus bus(lcm, {"channel-server", session});
-//   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s) { ... });
+//   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s)
+//   { ... });
 //
-// One Bus belongs to one node; several may share an lcm::LCM, which outlives them, and must with memq. Not thread-safe.
+// One Bus belongs to one node; several may share an lcm::LCM, which outlives them, and must with memq. Not
+// thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -56,7 +59,8 @@ class Bus {
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  // Encodes and publishes. What the network refuses is counted, reported, and sent again by whatever is called next (unsent_messages.h).
+  // Encodes and publishes. What the network refuses is counted, reported, and sent again by whatever is
+  // called next (unsent_messages.h).
   template <class Message>
   void publish(std::string_view channel, const Message& message);
   template <class Message>
@@ -65,7 +69,8 @@ class Bus {
   void subscribe(const Family& family, FamilyHandler<Message> handler,
                  Wakeup wakeup = Wakeup::kMayAdvanceDue);
 
-  // Redirects what is published to `outbox`, and nowhere else: the runner of the node delivers it. Returns the one before.
+  // Redirects what is published to `outbox`, and nowhere else: the runner of the node delivers it. Returns
+  // the one before.
   using Outbox = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
   Outbox set_outbox(Outbox outbox) { return std::exchange(outbox_, std::move(outbox)); }
   // Publishes on what `route` returns, in the place of the LCM instance that it receives by.
@@ -80,20 +85,24 @@ class Bus {
   using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
   void publish_bytes(std::string_view channel, const void* data, std::size_t size);
   void subscribe_to_all(RawHandler handler);
-  // The same for a recorder: of a flow each message once, under its own channel; what is missing is requested.
+  // The same for a recorder: of a flow each message once, under its own channel; what is missing is
+  // requested.
   void subscribe_to_all_flows(FlowOf flow_of, RawHandler handler);
   const FlowWatch& flows() const { return flows_; }
   SimTime received_at() const { return received_at_; }  // of the message that is handled: by LCM, Unix time
   void set_tap(RawHandler tap) { tap_ = std::move(tap); }  // called with what is accepted, before its handler
-  // Handles a message as if LCM had dispatched it: a runner in LCM's place, or an input of an earlier incarnation of this
-  // node (message_journal.h), whose gaps are then known, and repaired. Throws what a handler throws.
+  // Handles a message as if LCM had dispatched it: a runner in LCM's place, or an input of an earlier
+  // incarnation of this node (message_journal.h), whose gaps are then known, and repaired. Throws what a
+  // handler throws.
   void deliver(std::string_view channel, std::span<const std::uint8_t> message);
-  // Takes what an earlier incarnation published into the history that answers repair requests. After enable_repair().
+  // Takes what an earlier incarnation published into the history that answers repair requests. After
+  // enable_repair().
   void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes bytes);
   const FlowRepair* flow_repair() const { return repair_.get(); }  // null before enable_repair()
   void rethrow_if_failed();  // once, what a handler threw while LCM was dispatching
-  // For a bus that loses datagrams: repairs what is lost, drops duplicates (flow_repair.h), refuses rivals (session_watch.h) and paces
-  // bursts (publication_pace.h). Its runner calls set_steady() before LCM dispatches, and repair() by next_repair().
+  // For a bus that loses datagrams: repairs what is lost, drops duplicates (flow_repair.h), refuses rivals
+  // (session_watch.h) and paces bursts (publication_pace.h). Its runner calls set_steady() before LCM
+  // dispatches, and repair() by next_repair().
   void enable_repair();
   void set_steady(SimTime steady) { steady_ = steady; }
   void repair(SimTime sim, SimTime steady, bool may_request = true);

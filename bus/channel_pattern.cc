@@ -13,8 +13,8 @@
 namespace halocline::bus {
 namespace {
 
-// Bytes that an expression and the automaton made of it while matching may take. Where they do not do, an expression is refused, and
-// matching goes on without an automaton, in the same order of time.
+// Bytes that an expression and the automaton made of it while matching may take. Where they do not do, an
+// expression is refused, and matching goes on without an automaton, in the same order of time.
 constexpr std::int64_t kMaxExpressionBytes = 256 << 10;
 
 constexpr std::string_view kSpecial = R"(\^$.|?*+()[]{})";

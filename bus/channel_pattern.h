@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a channel is matched by a subscription's expression, as LCM would have it: the whole channel, not a part.
+// Whether a channel is matched by a subscription's expression, as LCM would have it: the whole channel, not a
+// part.
 //
-// What Bus subscribes to, escaped channels and escaped prefixes before ".*", is compared as text; any other expression is one of
-// RE2, which agrees with LCM's (GLib) in all that channels need, but has neither look-around nor back-references. Whatever the
-// expression, the time of a match is at most its length times the channel's: one of a stranger (JOIN) cannot stop a process.
+// What Bus subscribes to, escaped channels and escaped prefixes before ".*", is compared as text; any other
+// expression is one of RE2, which agrees with LCM's (GLib) in all that channels need, but has neither
+// look-around nor back-references. Whatever the expression, the time of a match is at most its length times
+// the channel's: one of a stranger (JOIN) cannot stop a process.
 #pragma once
 
 #include <cstddef>

@@ -103,7 +103,8 @@ std::int64_t FlowRepair::on_heartbeat(SimTime steady, std::string_view node,
     missing += watch_.on_last(steady, heartbeat.flow_channel[i], heartbeat.flow_session[i],
                               heartbeat.flow_last_sequence[i], lister);
   }
-  // Its first heartbeat makes no flow (known), so that those which it lists, if they are older than it, would seem to begin after it.
+  // Its first heartbeat makes no flow (known), so that those which it lists, if they are older than it, would
+  // seem to begin after it.
   const bool began_now = heartbeat.sequence == 0 && (heartbeat.num_flows == 0 || heartbeat.age_us == 0);
   if ((known || began_now) && heartbeat.num_flows == heartbeat.num_flows_kept)
     watch_.on_all_listed(heartbeat.session);

@@ -2,15 +2,16 @@
 // Retransmission on a bus that loses datagrams: publisher and receiver side for one Bus (NACK-based reliable
 // multicast).
 //
-// The publisher keeps a bounded history of its flows, announces the last sequence number of each in a heartbeat,
-// and answers repair requests on REPAIR.<channel>. The receiver compares the sequence numbers of messages and
-// heartbeats, and requests what is missing (flow_watch.h) until it is received or given up.
+// The publisher keeps a bounded history of its flows, announces the last sequence number of each in a
+// heartbeat, and answers repair requests on REPAIR.<channel>. The receiver compares the sequence numbers of
+// messages and heartbeats, and requests what is missing (flow_watch.h) until it is received or given up.
 //
 // The gaps of a publisher without this library are counted, and stay.
 //
-// Requests cannot be turned against the bus. A message is answered at most once in 40 ms (flow_history.h), and answers fill a token bucket
-// (Turner 1986) that gains kAnswersPerMessage with each message published and kAnswersPerS with time: enough for several receivers
-// of a bus that loses every third datagram, and never more than a small multiple of what the node publishes anyway.
+// Requests cannot be turned against the bus. A message is answered at most once in 40 ms (flow_history.h),
+// and answers fill a token bucket (Turner 1986) that gains kAnswersPerMessage with each message published and
+// kAnswersPerS with time: enough for several receivers of a bus that loses every third datagram, and never
+// more than a small multiple of what the node publishes anyway.
 #pragma once
 
 #include <algorithm>
@@ -75,8 +76,9 @@ class FlowRepair {
   std::int64_t num_requested() const { return num_requested_; }
 
   // ---- as a receiver
-  // HEARTBEAT.<node>. Returns how many messages of the flows that `is_subscribed_to` selects are newly missing. Flows of which nothing was received are
-  // followed from the second heartbeat of a session on: a datagram by itself makes no flow.
+  // HEARTBEAT.<node>. Returns how many messages of the flows that `is_subscribed_to` selects are newly
+  // missing. Flows of which nothing was received are followed from the second heartbeat of a session on: a
+  // datagram by itself makes no flow.
   std::int64_t on_heartbeat(SimTime steady, std::string_view node, const flow_heartbeat_t& heartbeat,
                             const std::function<bool(std::string_view channel)>& is_subscribed_to);
   // Test for a copy of an old heartbeat: neither its number nor its time goes on. It tells nothing then, not

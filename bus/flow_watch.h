@@ -55,8 +55,8 @@ class FlowWatch {
   static constexpr SimDuration kGivenUpAfter = SimDuration::from_milliseconds(10'000);
   // What is silent for this, a session of a channel or who lists it, is forgotten when another comes.
   static constexpr SimDuration kForgottenAfter = SimDuration::from_milliseconds(30'000);
-  // Missing messages of one flow, beyond which the oldest count as lost; of all, and of flows of which nothing was received yet, beyond
-  // which the newest do.
+  // Missing messages of one flow, beyond which the oldest count as lost; of all, and of flows of which
+  // nothing was received yet, beyond which the newest do.
   static constexpr std::size_t kMaxMissing = 2000, kMaxMissingOfAll = 20'000, kMaxMissingUnheard = 5000;
   static constexpr std::size_t kMaxPerRequest = 200;
   // Channels beyond these are not watched: endless invented names must not exhaust memory.
@@ -77,8 +77,8 @@ class FlowWatch {
   bool is_old(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t sequence,
               std::int64_t utime) const;
 
-  // Who lists a flow. `from_its_start`: the receiver is older than the publisher, so it should have all from 0. `makes_flow`: the
-  // flow is followed although nothing of it was received yet.
+  // Who lists a flow. `from_its_start`: the receiver is older than the publisher, so it should have all from
+  // 0. `makes_flow`: the flow is followed although nothing of it was received yet.
   struct Lister {
     std::uint64_t node = 1;    // whose heartbeat it is: a hash of its name, not 0
     std::int64_t session = 0;  // of the heartbeat; its flows may have others
@@ -87,7 +87,8 @@ class FlowWatch {
   // A heartbeat announced `last` as the last sequence number of the flow. Returns how many are newly missing.
   std::int64_t on_last(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t last,
                        const Lister& lister);
-  // A heartbeat of this session listed all flows of its node (each in on_last): any other of the session, or that it lists later, begins after now.
+  // A heartbeat of this session listed all flows of its node (each in on_last): any other of the session, or
+  // that it lists later, begins after now.
   void on_all_listed(std::int64_t session);
   void forget_listed() { listed_.clear(); }
 
@@ -115,8 +116,9 @@ class FlowWatch {
   // Sessions of channels that are remembered.
   std::size_t num_flows() const { return num_flows_; }
 
-  // Goes on where an earlier incarnation of the receiver ended: whatever precedes the first number of a flow known now is not missing, and on the
-  // channels that `knows` selects all flows are known of which it received anything, so that any other is missing from its start.
+  // Goes on where an earlier incarnation of the receiver ended: whatever precedes the first number of a flow
+  // known now is not missing, and on the channels that `knows` selects all flows are known of which it
+  // received anything, so that any other is missing from its start.
   using Knows = std::function<bool(std::string_view channel)>;
   void go_on(Knows knows);
   // Another run has begun: its publishers may start their sequences anew.
@@ -136,7 +138,8 @@ class FlowWatch {
     std::int64_t utime = std::numeric_limits<std::int64_t>::min();  // that of message `last`
     SimTime heard_at;
     bool is_heard = false;  // by more than a heartbeat
-    // The node whose heartbeats list it, 0: none. Its numbers go on for as long as its session then, and what is far behind is a duplicate.
+    // The node whose heartbeats list it, 0: none. Its numbers go on for as long as its session then, and what
+    // is far behind is a duplicate.
     std::uint64_t lister = 0;
     SimTime listed_at;
     std::optional<std::int64_t> leap;  // the number ahead that nothing has confirmed yet
@@ -145,8 +148,9 @@ class FlowWatch {
     std::int64_t num_lost = 0;
   };
   static constexpr std::size_t kSpansKept = 8;  // of one flow
-  // Sessions kept per channel: of more than kSessionsKept those that are silent for kForgottenAfter make room, so that memory stays
-  // flat while programs start anew; of kMaxSessions, or while kMaxFlows are known, the one silent for longest.
+  // Sessions kept per channel: of more than kSessionsKept those that are silent for kForgottenAfter make
+  // room, so that memory stays flat while programs start anew; of kMaxSessions, or while kMaxFlows are known,
+  // the one silent for longest.
   static constexpr std::size_t kSessionsKept = 4, kMaxSessions = 128, kMaxFlows = 2 * kMaxChannels;
   bool has_no_room_for(std::string_view channel) const {
     return received_.size() >= kMaxChannels && !received_.contains(channel);

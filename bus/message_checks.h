@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Validity of a decoded message. It is refused for numbers that are not finite or beyond the range that lcmtypes/*.lcm gives
-// them, enumerations without a meaning, names, lengths and times out of range, fields that contradict each other.
+// Validity of a decoded message. It is refused for numbers that are not finite or beyond the range that
+// lcmtypes/*.lcm gives them, enumerations without a meaning, names, lengths and times out of range, fields
+// that contradict each other.
 //
 // A message that fails is counted, reported with channel and reason, and ignored; never repaired, never
 // guessed. What only a model can judge (a position beyond the terrain, a modem too weak) is the business of
@@ -17,7 +18,8 @@ namespace halocline::bus {
 template <class Message>
 [[nodiscard]] std::string problem_in(const Message& message);
 
-// The part that lcmtypes/*.lcm cannot state: relations between fields. An overload for each type that has some.
+// The part that lcmtypes/*.lcm cannot state: relations between fields. An overload for each type that has
+// some.
 template <class Message>
 [[nodiscard]] std::string problem_between_fields(const Message&) {
   return "";

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Encodes and decodes messages of lcm-gen's types where LCM itself does not.
 //
-// A decoded message is valid, or refused with the reason: its bytes fit the layout of the type (wire_layout.h) and
-// its values lie within the limits of the type (message_checks.h).
+// A decoded message is valid, or refused with the reason: its bytes fit the layout of the type
+// (wire_layout.h) and its values lie within the limits of the type (message_checks.h).
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ Bytes encoded(const Message& message) {
   return bytes;
 }
 
-// Both return the problem of the bytes, empty when `message` holds one whole message. decode_unchecked leaves the
-// values unchecked.
+// Both return the problem of the bytes, empty when `message` holds one whole message. decode_unchecked leaves
+// the values unchecked.
 template <class Message>
 [[nodiscard]] std::string decode_unchecked(std::span<const std::uint8_t> bytes, Message& message) {
   std::string problem = misfit(wire_layout<Message>(), bytes.data(), bytes.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What lcmtypes/*.lcm states about a field of a message. The generated visit_fields (bus/message_fields.h) passes it
-// beside the field's value.
+// What lcmtypes/*.lcm states about a field of a message. The generated visit_fields (bus/message_fields.h)
+// passes it beside the field's value.
 #pragma once
 
 #include <concepts>

@@ -10,8 +10,8 @@
 
 namespace halocline::bus {
 
-// The order in which participants step at one instant of lockstep (lockstep_schedule.h): sources of information
-// before those that act on it.
+// The order in which participants step at one instant of lockstep (lockstep_schedule.h): sources of
+// information before those that act on it.
 enum class Stage { kTime, kTerrain, kVehicles, kPilots, kTraffic, kClients, kChannel };
 
 // The publisher: the node's name (is_valid_name), a number that differs for each incarnation, and its stage.

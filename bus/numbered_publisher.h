@@ -24,7 +24,8 @@ namespace halocline::bus {
 
 class NumberedPublisher {
  public:
-  // Channels whose numbers are kept, more than a scenario's vehicles have; beyond these the ones longest unused begin again at 0.
+  // Channels whose numbers are kept, more than a scenario's vehicles have; beyond these the ones longest
+  // unused begin again at 0.
   static constexpr std::size_t kMaxChannels = 16 * kMaxVehicles;
 
   explicit NumberedPublisher(Bus& bus) : bus_(bus) {}
@@ -42,7 +43,8 @@ class NumberedPublisher {
     message.sequence = number.sequence;
   }
 
-  // An earlier incarnation of the node published this number last: the channel goes on behind it, in its session.
+  // An earlier incarnation of the node published this number last: the channel goes on behind it, in its
+  // session.
   void resume(std::string_view channel, std::int64_t session, std::int64_t sequence);
   void archive(Archive& a) { a(channels_, uses_); }
 

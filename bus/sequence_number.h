@@ -14,8 +14,8 @@
 
 namespace halocline::bus {
 
-// A packet is numbered by its own sequence, because a SEND is repeated on purpose: by its sender, on SEND. What comes on REPAIR is for somebody
-// else where it was received before.
+// A packet is numbered by its own sequence, because a SEND is repeated on purpose: by its sender, on SEND.
+// What comes on REPAIR is for somebody else where it was received before.
 template <class Message>
 concept IsPacketToSend = requires(const Message& m) {
   m.packet_sequence;
@@ -32,7 +32,8 @@ concept IsOfFlow =
       m.sequence;
     });
 
-// Behind LCM's fingerprint every message of a flow begins with utime, session and sequence: where these lie in its bytes.
+// Behind LCM's fingerprint every message of a flow begins with utime, session and sequence: where these lie
+// in its bytes.
 inline constexpr std::size_t kUtimeAt = 8, kSessionAt = 16, kSequenceAt = 24, kFlowHeadBytes = 32;
 
 template <class Message>

@@ -46,7 +46,8 @@ class SessionWatch {
 
   // HEARTBEAT.<node> of a session. False: of a rival.
   bool on_heartbeat(SimTime steady, std::string_view node, std::int64_t session);
-  // A message on any channel, of a session or of none (0); of an OUTCOME with its receiver, 0 of several. False: of a rival.
+  // A message on any channel, of a session or of none (0); of an OUTCOME with its receiver, 0 of several.
+  // False: of a rival.
   bool on_message(SimTime steady, std::string_view channel, std::int64_t session,
                   std::optional<std::int32_t> receiver = {});
 

@@ -9,8 +9,8 @@
 
 namespace halocline::bus {
 
-// What receiving a message may do to a node. kStoreOnly is a promise: its handler only stores, so that the node is due
-// when it was due before. Lockstep then need not step the node at once, and others may run ahead.
+// What receiving a message may do to a node. kStoreOnly is a promise: its handler only stores, so that the
+// node is due when it was due before. Lockstep then need not step the node at once, and others may run ahead.
 enum class Wakeup { kMayAdvanceDue, kStoreOnly };
 
 // A subscription: an LCM regular expression, and what its messages may do to the node.

@@ -109,8 +109,8 @@ std::string receive_buffer_warning(const std::string& url) {
 
 }  // namespace halocline::bus
 
-// Takes the place of the C library's in LCM, which is a shared library, and calls it. LCM has no call that gives its
-// socket, and reads from it before any of its calls returns.
+// Takes the place of the C library's in LCM, which is a shared library, and calls it. LCM has no call that
+// gives its socket, and reads from it before any of its calls returns.
 extern "C" int bind(int socket, const sockaddr* address, socklen_t size) noexcept {
   using Bind = int (*)(int, const sockaddr*, socklen_t);
   static const auto next = reinterpret_cast<Bind>(halocline::next_symbol("bind"));

@@ -35,14 +35,15 @@ class NetworkError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Throws InvalidArgument for a URL whose provider cannot carry a simulation: allowed are udpm:// and memq://; NetworkError
-// where LCM cannot open it.
+// Throws InvalidArgument for a URL whose provider cannot carry a simulation: allowed are udpm:// and memq://;
+// NetworkError where LCM cannot open it.
 std::unique_ptr<lcm::LCM> open_transport(const std::string& url);
 
 // Tells the user, once a process, that no filter is on a socket of LCM (sending/datagram_filter.h).
 void warn_of_missing_filter();
 
-// A warning for the user when the kernel grants less receive buffer than requested; empty when it grants enough.
+// A warning for the user when the kernel grants less receive buffer than requested; empty when it grants
+// enough.
 [[nodiscard]] std::string receive_buffer_warning(const std::string& url);
 
 }  // namespace halocline::bus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the channel server reads of a scenario file: [environment], [propagation], [[environment_change]], [modem],
-// [vehicle.modem], [vehicle.clock], [vehicle.noise] and [channel_server].
+// What the channel server reads of a scenario file: [environment], [propagation], [[environment_change]],
+// [modem], [vehicle.modem], [vehicle.clock], [vehicle.noise] and [channel_server].
 //
 // The structs are SI; every key's unit and range is in the .cc, where it is visited, and in --example.
 #pragma once
@@ -146,7 +146,8 @@ struct ChannelServerConfig {
 };
 
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config);
-// Its part that is about the water: [environment], [propagation] and [[environment_change]] (water_config.cc).
+// Its part that is about the water: [environment], [propagation] and [[environment_change]]
+// (water_config.cc).
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
 
 // The keys of [environment] about noise.
@@ -160,8 +161,8 @@ acoustics::NoiseSources noise_sources(const EnvironmentConfig& config);
 // is impossible.
 acoustics::Environment make_environment(const EnvironmentConfig& config, const bus::Scenario& scenario);
 
-// Puts the ocean's field that the scenario names, where sound goes through it, and its profile at the world's origin into the
-// environment. Throws InvalidArgument when it cannot be.
+// Puts the ocean's field that the scenario names, where sound goes through it, and its profile at the world's
+// origin into the environment. Throws InvalidArgument when it cannot be.
 void set_field(const bus::Scenario& scenario, acoustics::Environment& environment);
 
 // Its profile of sound speed. Throws likewise.

@@ -32,7 +32,8 @@ constexpr SimDuration kEnvironmentPeriod = SimDuration::from_milliseconds(60'000
 constexpr SimDuration kScenarioPeriod = SimDuration::from_milliseconds(60'000);
 // After a jump of time no more tables than these are made up for.
 constexpr std::int64_t kMaxTicksBehind = 100;
-// How much longer than their rules states and receipts are kept, for every instant that may still be evaluated.
+// How much longer than their rules states and receipts are kept, for every instant that may still be
+// evaluated.
 constexpr SimDuration kKeptLonger = SimDuration::from_milliseconds(1000);
 constexpr SimDuration kForgettingPeriod = SimDuration::from_milliseconds(1000);
 
@@ -120,7 +121,8 @@ bus::Due ChannelServerNode::on_due() const {
           .steady = std::min({seabed_.due(), queries_.due(), places_.due(), exchange_.due()})};
 }
 
-// Between ticks it publishes what packets come to and answers; other servers receive only the answers of that.
+// Between ticks it publishes what packets come to and answers; other servers receive only the answers of
+// that.
 SimTime ChannelServerNode::on_quiet_until(const ChannelTest& matters) const {
   if (exchange_.will_tell_of_terrain()) return SimTime::at_once();
   for (const bus::Family& family : {channels::kReceipt, channels::kReceive, channels::kModemEvent,
@@ -254,8 +256,8 @@ void ChannelServerNode::publish_scenario(SimTime instant) {
   }
 }
 
-// The earliest instant evaluated is the start of a SEND received late, whose sender may have timed out before.
-// It walks over all vehicles and receivers, so it is done once a second.
+// The earliest instant evaluated is the start of a SEND received late, whose sender may have timed out
+// before. It walks over all vehicles and receivers, so it is done once a second.
 void ChannelServerNode::forget_old(SimTime now) {
   if (now < next_forgetting_) return;
   next_forgetting_ = next_on_grid(now, kForgettingPeriod);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The channel server on the bus: receives states, modems and transmissions of vehicles; publishes the scenario, the water,
-// the link tables, and the outcome of every packet; answers queries of links and of best places. --interface lists its channels.
+// The channel server on the bus: receives states, modems and transmissions of vehicles; publishes the
+// scenario, the water, the link tables, and the outcome of every packet; answers queries of links and of best
+// places. --interface lists its channels.
 //
-// Of several servers of one water (rules.medium.shard) each receives what all the others receive and publishes its
-// share; the first also ENVIRONMENT and SCENARIO; queries go by their request_id; MODEM_REPLY passes on answers to pings,
-// FOUND_PATHS the paths that two of them need.
+// Of several servers of one water (rules.medium.shard) each receives what all the others receive and
+// publishes its share; the first also ENVIRONMENT and SCENARIO; queries go by their request_id; MODEM_REPLY
+// passes on answers to pings, FOUND_PATHS the paths that two of them need.
 // With a journal a server that was killed goes on where it was (server_recovery.h).
 #pragma once
 
@@ -56,8 +57,9 @@ class ChannelServerNode : public bus::Node {
                     const ConfiguredModems& modems, const ServerRules& rules,
                     std::vector<scenario_info_t> scenario = {}, VehicleEquipment equipment = {});
 
-  // Keeps a journal at `path`, and resumes what an earlier incarnation left there, of the same `digest` of the configuration. Once, before anything is
-  // dispatched; not in lockstep, where the conductor replays. Throws InvalidArgument when it cannot be written.
+  // Keeps a journal at `path`, and resumes what an earlier incarnation left there, of the same `digest` of
+  // the configuration. Once, before anything is dispatched; not in lockstep, where the conductor replays.
+  // Throws InvalidArgument when it cannot be written.
   void open_journal(const std::string& path, std::uint64_t digest = 0);
   bool waits_for_repair() const override { return true; }
 
@@ -69,7 +71,8 @@ class ChannelServerNode : public bus::Node {
   std::string status_text() const override;
 
  private:
-  // The instants at which something is published by itself: tables, the scenario, and the environment where it changes.
+  // The instants at which something is published by itself: tables, the scenario, and the environment where
+  // it changes.
   SimTime next_instant() const { return std::min({next_tick_, next_environment_, next_scenario_}); }
   void set_first_instants(SimTime now);
   // False when a table waits for the seabed or for another server.

@@ -32,8 +32,8 @@ struct StepInputs {
 
 class Inbox {
  public:
-  // Subscribes to STATE, MODEM, LISTEN, SEND, SET_ENVIRONMENT, LINK_QUERY, BEST_PLACE_QUERY, of several shards MODEM_REPLY, and what the
-  // equipment needs: GPS, BATTERY, SENSORS. The bus must outlive it.
+  // Subscribes to STATE, MODEM, LISTEN, SEND, SET_ENVIRONMENT, LINK_QUERY, BEST_PLACE_QUERY, of several
+  // shards MODEM_REPLY, and what the equipment needs: GPS, BATTERY, SENSORS. The bus must outlive it.
   Inbox(bus::Bus& bus, const Shard& shard, const VehicleEquipment& equipment);
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;

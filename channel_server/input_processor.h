@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Applies the inputs of a step to the models of the channel server: states, modems and how they listen to the registry, changes
-// of the water to the timeline, transmissions and answers to pings to the packet medium.
+// Applies the inputs of a step to the models of the channel server: states, modems and how they listen to the
+// registry, changes of the water to the timeline, transmissions and answers to pings to the packet medium.
 //
-// Within a step, states and transmissions are applied by their time and the vehicle's name, not in order of arrival,
-// so that of two vehicles that claim one id at one time the same one gets it in every run. What is impossible is
-// refused on its channel.
+// Within a step, states and transmissions are applied by their time and the vehicle's name, not in order of
+// arrival, so that of two vehicles that claim one id at one time the same one gets it in every run. What is
+// impossible is refused on its channel.
 #pragma once
 
 #include <vector>

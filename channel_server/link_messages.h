@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Link tables, link queries and their replies, likewise of best places, ray queries and their answers, from messages and back.
+// Link tables, link queries and their replies, likewise of best places, ray queries and their answers, from
+// messages and back.
 #pragma once
 
 #include <cstddef>

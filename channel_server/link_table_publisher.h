@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Publishes the link tables of a tick as LINKS.<vehicle>, and reports in the log which vehicles appear and vanish.
+// Publishes the link tables of a tick as LINKS.<vehicle>, and reports in the log which vehicles appear and
+// vanish.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +55,8 @@ class LinkTablePublisher {
 
   // Whether all is known of the noise of vehicles that publish() needs for the links to compute.
   bool is_noise_ready(SimTime tick, const std::vector<EndPair>& links);
-  // `vehicles`: those present at `tick`; the rows of those that this server serves, carried on or ready to be computed.
+  // `vehicles`: those present at `tick`; the rows of those that this server serves, carried on or ready to be
+  // computed.
   void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
 
   // Another run has begun.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Transmissions, receipts and outcomes of packets, from messages and back. Session and sequence are the publisher's
-// to fill in.
+// Transmissions, receipts and outcomes of packets, from messages and back. Session and sequence are the
+// publisher's to fill in.
 #pragma once
 
 #include <string>
@@ -24,8 +24,8 @@ modem_energy_t to_message(const EnergyUse& use, SimTime at);
 // Only for an outcome whose packet is to be delivered.
 modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at);
 
-// What distinguishes an output from all others on its channel, whichever incarnation of the server computes it
-// (bus/runtime/crash_journal.h).
+// What distinguishes an output from all others on its channel, whichever incarnation of the server computes
+// it (bus/runtime/crash_journal.h).
 std::string identity_of(const modem_receipt_t& message);
 std::string identity_of(const modem_receive_t& message);
 std::string identity_of(const packet_outcome_t& message);

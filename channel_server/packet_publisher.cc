@@ -53,7 +53,8 @@ void PacketPublisher::publish(const PacketOutcome& outcome, SimTime at, bool lat
   const std::string outcomes(channels::kOutcome);
   const packet_outcome_t message = to_outcome(outcome, at);
   const std::string identity = identity_of(message);
-  // Where an earlier incarnation published the outcome, what it delivered went before it, whatever is decided now.
+  // Where an earlier incarnation published the outcome, what it delivered went before it, whatever is decided
+  // now.
   if (outcome.deliver && !journal_.was_published(outcomes, identity)) {
     const modem_receive_t delivered = to_receive(outcome, at);
     journal_.publish_once(channels::kReceive.of(outcome.receiver), delivered, identity_of(delivered));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Publishes what happens to packets: RECEIPT, RECEIVE, OUTCOME, MODEM_EVENT, MODEM_ENERGY, and MODEM_REPLY for other shards.
-// Each is published once in all incarnations of the server; what was due while it was away counts as late.
+// Publishes what happens to packets: RECEIPT, RECEIVE, OUTCOME, MODEM_EVENT, MODEM_ENERGY, and MODEM_REPLY
+// for other shards. Each is published once in all incarnations of the server; what was due while it was away
+// counts as late.
 #pragma once
 
 #include <cstdint>

@@ -36,7 +36,8 @@ struct ReplayConfig {
 void visit_replay(bus::ConfigVisitor& v, ReplayConfig& config);
 
 // Reads the files. Throws InvalidArgument when one cannot be used, when a pair names a
-// vehicle that the scenario lacks, and when the modem of a vehicle with a replayed link has a band that its file lacks.
+// vehicle that the scenario lacks, and when the modem of a vehicle with a replayed link has a band that its
+// file lacks.
 MeasuredLinks make_measured_links(const ReplayConfig& config, const ConfiguredModems& modems,
                                   const bus::Scenario& scenario);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Queries the bathymetry service for what the models need of the seabed, and hands its answers to them: tiles to the
-// map of the seabed, urgently, because packets wait for them; echo surveys to the multipath cache; and those of link
-// queries to their service. Tiles that failed are queried again a second later, or once the service is back.
+// Queries the bathymetry service for what the models need of the seabed, and hands its answers to them: tiles
+// to the map of the seabed, urgently, because packets wait for them; echo surveys to the multipath cache; and
+// those of link queries to their service. Tiles that failed are queried again a second later, or once the
+// service is back.
 //
 // Publishes RAY_QUERY, subscribes to RAY_REPLY of a client name that contains the server's session, so that a
 // recorded reply is not taken for its own. Batches, repetitions, time-outs: links/ray_query_client.h.
@@ -46,17 +47,18 @@ class SeabedClient {
   // The name to which replies to a server of this session go.
   static std::string client_name(std::int64_t session);
 
-  // True when the replies received are of another terrain than those before: what was known of that is forgotten.
+  // True when the replies received are of another terrain than those before: what was known of that is
+  // forgotten.
   [[nodiscard]] bool take_replies();
-  // Echo surveys that no batch has taken yet make room for those of the tables of a tick, at which `vehicles` are present;
-  // `links`: all links between them.
+  // Echo surveys that no batch has taken yet make room for those of the tables of a tick, at which `vehicles`
+  // are present; `links`: all links between them.
   void begin_tick(const std::vector<PlacedVehicle>& vehicles, const std::vector<EndPair>& links);
   void publish_queries(const bus::Now& now);
   // Asks for the terrain's version: another server has learned one.
   void ask_for_terrain();
 
-  // Steady time at which take_replies() or publish_queries() has something to do, or who waits for the seabed may
-  // go on.
+  // Steady time at which take_replies() or publish_queries() has something to do, or who waits for the seabed
+  // may go on.
   SimTime due() const { return has_news_ || !replies_.empty() ? SimTime::at_once() : models_.rays.due(); }
   // Empty before the first reply.
   const std::string& terrain_version() const { return terrain_version_; }

@@ -12,8 +12,8 @@ namespace {
 
 namespace channels = bus::channels;
 
-// How far back the journal reaches. Sound has gone 90 km by then; what is under way for longer is not resumed, nor
-// is anything after a longer absence.
+// How far back the journal reaches. Sound has gone 90 km by then; what is under way for longer is not
+// resumed, nor is anything after a longer absence.
 constexpr SimDuration kJournalled = SimDuration::from_milliseconds(60'000);
 
 bool is_input(std::string_view channel) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The recovery of a channel server that was killed: the steps that it does again, and the waits on the way.
 //
-// The journal holds the inputs and outputs of the last minute (bus/runtime/crash_journal.h). The steps of that time
-// are done again, from their inputs: decisions depend on contents and instants alone, so they are the same. The
-// last step is the present one: it takes what was published while the server was away, once repair had its time.
-// Two things take wall time: that, and the seabed under the links, which is queried anew.
+// The journal holds the inputs and outputs of the last minute (bus/runtime/crash_journal.h). The steps of
+// that time are done again, from their inputs: decisions depend on contents and instants alone, so they are
+// the same. The last step is the present one: it takes what was published while the server was away, once
+// repair had its time. Two things take wall time: that, and the seabed under the links, which is queried
+// anew.
 #pragma once
 
 #include <cstdint>

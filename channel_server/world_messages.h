@@ -37,8 +37,8 @@ double turn_rate_hz(const vehicle_sensors_t& sensors);
 environment_t to_message(const acoustics::Environment& environment, const WaterDescription& description,
                          SimTime from, const std::string& terrain_version);
 
-// What is set, on top of `before`, whose formula of sound speed stays. Throws InvalidArgument when the profile is
-// impossible.
+// What is set, on top of `before`, whose formula of sound speed stays. Throws InvalidArgument when the
+// profile is impossible.
 EnvironmentChange to_change(const environment_change_t& message, const acoustics::Environment& before);
 
 }  // namespace halocline::channel_server

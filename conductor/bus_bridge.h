@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mirrors the messages of a lockstep run on the ordinary bus, and receives those of other publishers there: all but
-// its own echoes.
+// Mirrors the messages of a lockstep run on the ordinary bus, and receives those of other publishers there:
+// all but its own echoes.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Publishes CLOCK: the simulation time, on the grid of the clock period. In real time it refuses and reports the CLOCKs of others; nodes follow the
-// one that they followed first (bus/runtime/time_source.h).
+// Publishes CLOCK: the simulation time, on the grid of the clock period. In real time it refuses and reports
+// the CLOCKs of others; nodes follow the one that they followed first (bus/runtime/time_source.h).
 #pragma once
 
 #include <cstdint>

@@ -17,8 +17,8 @@ class LockstepLog {
   // Touches no file. `path` empty: nothing is recorded.
   explicit LockstepLog(std::string path) : path_(std::move(path)) {}
 
-  // Replaces the file, once; throws InvalidArgument when it cannot be written. Not before the journal has proved to be
-  // of this scenario: a refused one leaves the log as it was.
+  // Replaces the file, once; throws InvalidArgument when it cannot be written. Not before the journal has
+  // proved to be of this scenario: a refused one leaves the log as it was.
   void open();
   // Opens the log before the first message.
   void record(const lockstep_message_t& message);

@@ -13,8 +13,8 @@ class LockstepOptions {
  public:
   // They point into this, which must outlive the parsing.
   std::vector<bus::ProgramOption> options();
-  // Coordinates a lockstep run when --lockstep was given; false when it was not. Throws InvalidArgument for impossible
-  // values, and for options that need --lockstep where it was not given.
+  // Coordinates a lockstep run when --lockstep was given; false when it was not. Throws InvalidArgument for
+  // impossible values, and for options that need --lockstep where it was not given.
   [[nodiscard]] bool run_if_requested(const bus::NodeProgram::Context& context) const;
 
  private:

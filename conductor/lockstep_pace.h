@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paces a lockstep run: simulation time may advance as far as the wall clock has since the run began, or was resumed,
-// times a rate.
+// Paces a lockstep run: simulation time may advance as far as the wall clock has since the run began, or was
+// resumed, times a rate.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Coordinates a lockstep run over udpm: lockstep_conductor.h on LCM, with its journal and log on disk, and the messages
-// of the run mirrored on the ordinary bus.
+// Coordinates a lockstep run over udpm: lockstep_conductor.h on LCM, with its journal and log on disk, and
+// the messages of the run mirrored on the ordinary bus.
 #pragma once
 
 #include <functional>
@@ -25,10 +25,10 @@ struct LockstepRun {
   std::string sync_url, bus_url;
 };
 
-// Returns when the run is over. `bus_lcm`: the ordinary bus, best effort. Once `should_stop` returns true, all
-// participants take their last turn at the instant reached; after a few seconds without it the process ends, and the
-// journal keeps the run open. A journal whose run is over has its log written again. Throws InvalidArgument for files
-// that cannot be written.
+// Returns when the run is over. `bus_lcm`: the ordinary bus, best effort. Once `should_stop` returns true,
+// all participants take their last turn at the instant reached; after a few seconds without it the process
+// ends, and the journal keeps the run open. A journal whose run is over has its log written again. Throws
+// InvalidArgument for files that cannot be written.
 void run_lockstep(lcm::LCM& bus_lcm, const bus::NodeIdentity& identity, const bus::Scenario& scenario,
                   const LockstepRun& run, const std::function<bool()>& should_stop);
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Simulation time as the conductor makes it: the steady clock times a rate.
 //
-// A conductor that is started into a running system continues from the time that the system has coasted to: it
-// listens for a little more than the period of STATUS, then starts from the latest utime that another one confirms within a minute, or from 0. Where another conductor still
-// publishes CLOCK then, it does not start: the first stays.
+// A conductor that is started into a running system continues from the time that the system has coasted to:
+// it listens for a little more than the period of STATUS, then starts from the latest utime that another one
+// confirms within a minute, or from 0. Where another conductor still publishes CLOCK then, it does not start:
+// the first stays.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,8 @@ class PacedTime : public bus::TimeSource {
   // `rate`: simulated seconds per second of steady time, above 0.
   PacedTime(lcm::LCM& lcm, double rate);
 
-  // Throws NetworkError where another conductor runs: two CLOCKs of one session have been received, the last within a second.
+  // Throws NetworkError where another conductor runs: two CLOCKs of one session have been received, the last
+  // within a second.
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
   const bus::Subscriptions* receives() const override { return bus_ ? &bus_->receives() : nullptr; }

@@ -9,12 +9,12 @@
 //   saved(navigator);
 //   Archive(saved.bytes())(another);  // loads
 //
-// What of a large state changes seldom can be saved apart from the rest, and only once it has changed: archive() passes it by
-// part(), with a number that changes with it.
+// What of a large state changes seldom can be saved apart from the rest, and only once it has changed:
+// archive() passes it by part(), with a number that changes with it.
 //
-// Known besides: trivially copyable types (as they lie in memory; no pointers among them), strings, vectors, deques,
-// maps, sets, optional, pairs and tuples, Eigen's matrices and quaternions of fixed size, messages of lcm-gen. No
-// format for exchange: the bytes are understood by the same build of the same program.
+// Known besides: trivially copyable types (as they lie in memory; no pointers among them), strings, vectors,
+// deques, maps, sets, optional, pairs and tuples, Eigen's matrices and quaternions of fixed size, messages of
+// lcm-gen. No format for exchange: the bytes are understood by the same build of the same program.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,8 @@ class Archive {
  public:
   // Saves what it is called with.
   Archive() = default;
-  // Loads from `bytes`, which must outlive it. Throws InvalidArgument, then or when called, where they end too early.
+  // Loads from `bytes`, which must outlive it. Throws InvalidArgument, then or when called, where they end
+  // too early.
   explicit Archive(std::span<const std::uint8_t> bytes) : source_(bytes), is_loading_(true) {}
   // The same of what was saved with its parts apart.
   Archive(std::span<const std::uint8_t> bytes, std::span<const std::vector<std::uint8_t>> parts)
@@ -44,8 +45,8 @@ class Archive {
     (pass(values), ...);
   }
 
-  // A part of the state. `changes` differs from that of every earlier call for this part after which the value has changed. A state
-  // always has the same parts, in the same order, none within another.
+  // A part of the state. `changes` differs from that of every earlier call for this part after which the
+  // value has changed. A state always has the same parts, in the same order, none within another.
   template <class T>
   void part(std::uint64_t changes, T& value) {
     if (has_parts_apart_ && !begin_part(changes)) return;
@@ -56,8 +57,8 @@ class Archive {
   bool is_loading() const { return is_loading_; }
   // All of `bytes` was loaded.
   bool is_at_end() const { return source_.empty(); }
-  // Saves anew from here on, with parts apart: all of them, or those that have changed since the last time. Keeps the
-  // memory of what was saved before.
+  // Saves anew from here on, with parts apart: all of them, or those that have changed since the last time.
+  // Keeps the memory of what was saved before.
   void begin_with_parts(bool all_parts);
   // What was saved so far, without what was saved apart.
   const std::vector<std::uint8_t>& bytes() const { return saved_; }

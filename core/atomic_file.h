@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A file that is replaced as a whole: written beside its final name, forced to disk, then renamed.
 //
-// A reader finds the old content or the new one, never a part, also after a crash of the program or the machine
-// (fsync of the file before the rename and of its folder after it; POSIX rename replaces in one step). One writer at a
-// time: two writers of one path share the name of the temporary file.
+// A reader finds the old content or the new one, never a part, also after a crash of the program or the
+// machine (fsync of the file before the rename and of its folder after it; POSIX rename replaces in one
+// step). One writer at a time: two writers of one path share the name of the temporary file.
 //
 // What is at the path and no regular file, such as a device or a pipe, is written to directly and stays what
 // it is. A link to a file stays one: the file it leads to is replaced.

@@ -4,7 +4,8 @@
 // Format: RFC 4180 (quoted cells may hold commas and doubled quotes, but no line breaks); the first line that
 // is neither empty nor a comment names the columns; lines that start with '#' and empty lines are skipped;
 // spaces around a cell and a byte order mark at the start do not count. A row keeps its text, so it can be
-// written back unchanged. Works on streams: opening files is for the caller. Numbers, of cells and elsewhere, do not depend on the locale.
+// written back unchanged. Works on streams: opening files is for the caller. Numbers, of cells and elsewhere,
+// do not depend on the locale.
 #pragma once
 
 #include <charconv>
@@ -39,8 +40,9 @@ CsvTable read_csv(std::istream& in, std::vector<std::string>& errors);
 // The text as one cell: in quotes when it holds what would end the cell or the line.
 std::string csv_cell(std::string_view text);
 
-// The number that the whole of `text` states, in [lowest, highest]; none otherwise: an empty text, spaces, a unit, hexadecimal, NaN,
-// and without bounds an infinity. A sign + is allowed. A real number may have an exponent, and is the double nearest to the text.
+// The number that the whole of `text` states, in [lowest, highest]; none otherwise: an empty text, spaces, a
+// unit, hexadecimal, NaN, and without bounds an infinity. A sign + is allowed. A real number may have an
+// exponent, and is the double nearest to the text.
 template <class Number = double>
 [[nodiscard]] std::optional<Number> parse_number(std::string_view text,
                                                  Number lowest = std::numeric_limits<Number>::lowest(),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a vehicle is between its states: the rule by which whoever receives STATE carries the last one on, and by which the
-// vehicle simulator decides when the next one is needed.
+// Where a vehicle is between its states: the rule by which whoever receives STATE carries the last one on,
+// and by which the vehicle simulator decides when the next one is needed.
 //
-// Linear velocity is constant in the world frame, angular velocity in the body frame: the dead reckoning R(P, W) of
-// IEEE 1278.1. Its error over a time h is at most a h^2 / 2 at an acceleration a.
+// Linear velocity is constant in the world frame, angular velocity in the body frame: the dead reckoning R(P,
+// W) of IEEE 1278.1. Its error over a time h is at most a h^2 / 2 at an acceleration a.
 #pragma once
 
 #include "core/elementary.h"

@@ -35,8 +35,8 @@ constexpr std::array<double, 12> kArcTangent{
     -0x1.745d165df3f95p-4, 0x1.3b1392d9e785cp-4, -0x1.110e880a7a521p-4, 0x1.e19a13b9fc6dfp-5,
     -0x1.ac7a938b69c93p-5, 0x1.74ddd408bb4c1p-5, -0x1.1b33b923aa954p-5, 0x1.0ad36a455cafbp-6};
 
-// (1 + 2 x) exp(x^2) erfc(x) in powers of (x - 4) / (x + 4), x >= 0, to 2e-18 (Chebyshev; the form is that of Shepherd and
-// Laframboise 1981).
+// (1 + 2 x) exp(x^2) erfc(x) in powers of (x - 4) / (x + 4), x >= 0, to 2e-18 (Chebyshev; the form is that of
+// Shepherd and Laframboise 1981).
 constexpr std::array<double, 26> kScaledComplement{
     0x1.3ba5916e9fd7fp+0,   -0x1.1df1ad154a28ep-3,  0x1.f7f5df66fd6bap-7,   0x1.16ecefcfa5383p-4,
     -0x1.9ddb23c3e89f3p-4,  0x1.7fee004e1295bp-4,   -0x1.0fb06dfe52605p-4,  0x1.3079edf67777bp-5,

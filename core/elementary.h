@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elementary functions whose results do not depend on the processor or its C library: the C library chooses other code for
-// exp, log or sin where it finds FMA or AVX, and its last bits differ between versions. Everything that a result depends on
-// calls these; the layers test forbids those of <cmath>. What IEEE 754 rounds correctly (sqrt, floor, fma, remainder) is the
-// same everywhere.
+// Elementary functions whose results do not depend on the processor or its C library: the C library chooses
+// other code for exp, log or sin where it finds FMA or AVX, and its last bits differ between versions.
+// Everything that a result depends on calls these; the layers test forbids those of <cmath>. What IEEE 754
+// rounds correctly (sqrt, floor, fma, remainder) is the same everywhere.
 //
-// Errors, in units in the last place, over all arguments unless a range is given; domains, signs, infinities and NaN as
-// those of <cmath>, but for the sign of sin(-0). What is inline has no tables, so that a loop over it can be vectorised. The
-// rest, and the ends of the ranges, are functions of SLEEF (Shibata and Petrogalli 2020) that take neither FMA nor vectors.
+// Errors, in units in the last place, over all arguments unless a range is given; domains, signs, infinities
+// and NaN as those of <cmath>, but for the sign of sin(-0). What is inline has no tables, so that a loop over
+// it can be vectorised. The rest, and the ends of the ranges, are functions of SLEEF (Shibata and Petrogalli
+// 2020) that take neither FMA nor vectors.
 //
-// Exponentials: exp 0.9, expm1 1.8, exp10 1.3, pow 1. Logarithms: log and log1p 0.9, log2 1.7, log10 1.8. Angles: sin and cos
-// 1.1, atan 1.3, atan2 1.6, tan, asin, acos 1. Others: cosh, acosh, atanh, cbrt 1, hypot 1.2 (sides from 1e-150 to 1e150), erfc
-// 4.5, lgamma 1.5 (x of 1 and more).
+// Exponentials: exp 0.9, expm1 1.8, exp10 1.3, pow 1. Logarithms: log and log1p 0.9, log2 1.7, log10 1.8.
+// Angles: sin and cos 1.1, atan 1.3, atan2 1.6, tan, asin, acos 1. Others: cosh, acosh, atanh, cbrt 1, hypot
+// 1.2 (sides from 1e-150 to 1e150), erfc 4.5, lgamma 1.5 (x of 1 and more).
 #pragma once
 
 #include <cmath>
@@ -21,7 +22,8 @@
 
 namespace halocline::elementary {
 
-// Without branches, for loops that are to become vectors: exp of |x| < 708 (0.9), ln(1 + x) of 0 <= x < 1e300 (1.5).
+// Without branches, for loops that are to become vectors: exp of |x| < 708 (0.9), ln(1 + x) of 0 <= x < 1e300
+// (1.5).
 inline double exp_within(double x) {
   const double rounded = x * detail::kLog2OfE + detail::kRound, n = rounded - detail::kRound;
   const double high = x - n * detail::kLn2High, low = n * detail::kLn2Low, r = high - low;

@@ -8,10 +8,12 @@
 
 namespace halocline::elementary::detail {
 
-// Added to and taken from a double below 2^51, rounds it to an integer, whose low bits are then those of the sum.
+// Added to and taken from a double below 2^51, rounds it to an integer, whose low bits are then those of the
+// sum.
 constexpr double kRound = 0x1.8p52;
 
-// ln 2, log10 2 and pi / 2 in parts whose leading ones have 32 or 33 bits: their multiples by integers below 2^20 are exact.
+// ln 2, log10 2 and pi / 2 in parts whose leading ones have 32 or 33 bits: their multiples by integers below
+// 2^20 are exact.
 constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
 constexpr double kLog10Of2High = 0x1.34413508p-2, kLog10Of2Low = 0x1.f79fef311f12bp-34;
 constexpr double kHalfPiHigh = 0x1.921fb544p+0, kHalfPiMiddle = 0x1.0b4611a6p-34,
@@ -64,8 +66,8 @@ inline Split split_one_and(double x) {
   return {n, x * scale + (scale - 1)};
 }
 
-// f - ln(1 + f) = f^2 / 2 - s (f^2 / 2 + R), s = f / (2 + f), R = 2 s^2 / 3 + 2 s^4 / 5 + ...: that ln(1 + f) is the sum of a
-// large exact term and this small one keeps its error below one unit.
+// f - ln(1 + f) = f^2 / 2 - s (f^2 / 2 + R), s = f / (2 + f), R = 2 s^2 / 3 + 2 s^4 / 5 + ...: that ln(1 + f)
+// is the sum of a large exact term and this small one keeps its error below one unit.
 inline double shortfall_of_log(double f, double carried) {
   const double s = f / (2 + f), z = s * s, z2 = z * z, z4 = z2 * z2;
   const double low = (2.0 / 3 + z * (2.0 / 5)) + z2 * (2.0 / 7 + z * (2.0 / 9)),
@@ -74,7 +76,8 @@ inline double shortfall_of_log(double f, double carried) {
   return half - (s * (half + r) + carried);
 }
 
-// x less the nearest multiple of pi / 2, as a sum of two; `quarter` counts the multiples, of which the low bits matter.
+// x less the nearest multiple of pi / 2, as a sum of two; `quarter` counts the multiples, of which the low
+// bits matter.
 struct Reduced {
   double high, low;
   std::uint64_t quarter;

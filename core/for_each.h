@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Doing the same for many numbers, in whatever way the caller has: one after the other, or shared among threads.
+// Doing the same for many numbers, in whatever way the caller has: one after the other, or shared among
+// threads.
 //
 // A body touches nothing that another body of the same call touches, so results do not depend on the way.
 #pragma once

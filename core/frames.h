@@ -36,7 +36,8 @@ struct EulerAngles {
   double roll = 0, pitch = 0, yaw = 0;
 };
 
-// The rotation by the angle |v|, radians, about the axis v. Eigen's AngleAxis and slerp call the C library's functions.
+// The rotation by the angle |v|, radians, about the axis v. Eigen's AngleAxis and slerp call the C library's
+// functions.
 inline Quaternion rotation_by(const Vec3& v) {
   const double angle = v.norm();
   if (angle == 0) return Quaternion::Identity();

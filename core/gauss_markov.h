@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A Gauss-Markov (Ornstein-Uhlenbeck) process as a function of time: stationary, variance sigma^2, correlation
-// exp(-|t| / T).
+// A Gauss-Markov (Ornstein-Uhlenbeck) process as a function of time: stationary, variance sigma^2,
+// correlation exp(-|t| / T).
 //
-// The value at an instant is one fixed number, whatever the step and the order of evaluation: the process is built from its
-// ends inwards (Levy's construction). Known at 0 and at 2^36 ms (two years; later instants hold that value), it is
-// drawn at the middle of each interval given both ends, which for a Gauss-Markov process is exact: with h
-// half the interval and c = exp(-h / T), mean (a + b) c / (1 + c^2), variance sigma^2 (1 - c^2) / (1 + c^2)
-// (Rasmussen and Williams 2006, appendix B). Each draw is addressed by the millisecond it stands for
-// (core/random.h). On whole milliseconds the process is exact in distribution; between them it is
-// interpolated linearly, so its derivative exists. random_walk() is its limit of a long correlation time that starts from 0:
-// a Wiener process, whose middles have mean (a + b) / 2 and variance s^2 h / 2. Pure; a Cursor keeps what was drawn last so that
-// neighbouring instants cost two draws instead of 37; results do not depend on it.
+// The value at an instant is one fixed number, whatever the step and the order of evaluation: the process is
+// built from its ends inwards (Levy's construction). Known at 0 and at 2^36 ms (two years; later instants
+// hold that value), it is drawn at the middle of each interval given both ends, which for a Gauss-Markov
+// process is exact: with h half the interval and c = exp(-h / T), mean (a + b) c / (1 + c^2), variance
+// sigma^2 (1 - c^2) / (1 + c^2) (Rasmussen and Williams 2006, appendix B). Each draw is addressed by the
+// millisecond it stands for (core/random.h). On whole milliseconds the process is exact in distribution;
+// between them it is interpolated linearly, so its derivative exists. random_walk() is its limit of a long
+// correlation time that starts from 0: a Wiener process, whose middles have mean (a + b) / 2 and variance s^2
+// h / 2. Pure; a Cursor keeps what was drawn last so that neighbouring instants cost two draws instead of 37;
+// results do not depend on it.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Non-cryptographic hashes: collisions are rare by chance, and easy to construct.
 //
-// FNV-1a of 64 bits (Fowler, Noll, Vo; http://www.isthe.com/chongo/tech/comp/fnv) for what is computed in pieces; XXH3 of
-// 64 bits (Collet; https://xxhash.com) for the identity of stored results and for check sums.
+// FNV-1a of 64 bits (Fowler, Noll, Vo; http://www.isthe.com/chongo/tech/comp/fnv) for what is computed in
+// pieces; XXH3 of 64 bits (Collet; https://xxhash.com) for the identity of stored results and for check sums.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,8 @@ constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t sum = kFnvSta
   return sum;
 }
 
-// XXH3, 64 bits; the same on every platform. With the hash of what comes before as the seed it covers that, too.
+// XXH3, 64 bits; the same on every platform. With the hash of what comes before as the seed it covers that,
+// too.
 std::uint64_t xxh3(std::string_view text, std::uint64_t seed = 0);
 std::uint64_t xxh3(std::span<const std::uint8_t> bytes, std::uint64_t seed = 0);
 

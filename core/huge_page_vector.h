@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vectors that are read all over: large ones ask the kernel for pages of 2 MB, so that few reads wait for the table of pages.
+// Vectors that are read all over: large ones ask the kernel for pages of 2 MB, so that few reads wait for the
+// table of pages.
 //
-// What is smaller than two such pages lies where any vector does; so does all where the kernel has none to give.
+// What is smaller than two such pages lies where any vector does; so does all where the kernel has none to
+// give.
 #pragma once
 
 #include <cstddef>

@@ -6,7 +6,8 @@
 
 namespace halocline {
 
-// Vehicles of a scenario. Ten thousand of them, a square kilometre each, take 2.3 GB in one process (straight paths).
+// Vehicles of a scenario. Ten thousand of them, a square kilometre each, take 2.3 GB in one process (straight
+// paths).
 inline constexpr std::size_t kMaxVehicles = 16384;
 
 }  // namespace halocline

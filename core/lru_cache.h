@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map of bounded size: when it is full, the entry that was used least recently makes room; forget_unused() drops the rest of long ago.
+// A map of bounded size: when it is full, the entry that was used least recently makes room; forget_unused()
+// drops the rest of long ago.
 //
 //   LruCache<std::string, Spectrum> spectra(/*capacity=*/32);
 //   const Spectrum& spectrum = spectra.find_or_make(name, [&] { return compute_spectrum(name); });
 //
-// An entry is used when it is inserted and when it is found. Which entries are kept depends on the sequence of calls
-// alone, never on addresses. Both operations take O(log size), keys being ordered by operator<; with a Hash of keys, which have
-// operator== then, O(1). The cache owns keys and values. What outlives an entry belongs in a shared_ptr value. Not thread-safe: finding an entry moves it.
+// An entry is used when it is inserted and when it is found. Which entries are kept depends on the sequence
+// of calls alone, never on addresses. Both operations take O(log size), keys being ordered by operator<; with
+// a Hash of keys, which have operator== then, O(1). The cache owns keys and values. What outlives an entry
+// belongs in a shared_ptr value. Not thread-safe: finding an entry moves it.
 #pragma once
 
 #include <cstddef>

@@ -14,7 +14,8 @@ inline constexpr std::int32_t kBroadcastId = 0;  // as a destination: every vehi
 // True when `name` matches [a-z0-9_-]{1,24}.
 [[nodiscard]] bool is_valid_name(std::string_view name);
 
-// False where `text` holds control characters, those of eight bits in UTF-8 among them: line ends, and what commands a terminal.
+// False where `text` holds control characters, those of eight bits in UTF-8 among them: line ends, and what
+// commands a terminal.
 [[nodiscard]] bool is_one_line(std::string_view text);
 
 // `text` with '?' in the place of its control characters, but for line ends.

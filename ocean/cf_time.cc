@@ -40,7 +40,8 @@ constexpr std::array<std::pair<std::string_view, Calendar>, 9> kCalendars{
 // Rounded down.
 constexpr std::int64_t quotient(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
-// Julian day number of a date at noon: days of the years since March 1 of -4800, in which leap days come last.
+// Julian day number of a date at noon: days of the years since March 1 of -4800, in which leap days come
+// last.
 std::int64_t julian_day(const Date& date, bool is_gregorian) {
   const std::int64_t early = date.month <= 2 ? 1 : 0;
   const std::int64_t year = date.year + 4800 - early, month = date.month + 12 * early - 3;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Instants as the CF conventions write them: "hours since 2000-01-01 00:00:00" in one of six calendars.
 //
-// Model: an instant is a number of seconds since noon-less day 0 of its calendar; only differences within one calendar have
-// a meaning. Calendars (CF 1.10, section 4.4.1): standard or gregorian (Julian dates up to 1582-10-04, Gregorian from
-// 1582-10-15), proleptic_gregorian, julian, noleap or 365_day, all_leap or 366_day, 360_day. Julian day numbers after
-// Fliegel and Van Flandern 1968. Times are UTC, without leap seconds. Error: 20 us, the resolution of a double after
-// 2000 years.
+// Model: an instant is a number of seconds since noon-less day 0 of its calendar; only differences within one
+// calendar have a meaning. Calendars (CF 1.10, section 4.4.1): standard or gregorian (Julian dates up to
+// 1582-10-04, Gregorian from 1582-10-15), proleptic_gregorian, julian, noleap or 365_day, all_leap or
+// 366_day, 360_day. Julian day numbers after Fliegel and Van Flandern 1968. Times are UTC, without leap
+// seconds. Error: 20 us, the resolution of a double after 2000 years.
 //
 //   const CfTimeAxis axis = CfTimeAxis::parse("hours since 2000-01-01", "standard");
 //   const double later_s = axis.seconds_at(24) - axis.seconds_of("2000-01-01T06:00:00Z");  // 64 800

@@ -7,8 +7,8 @@
 // - missing is what equals _FillValue, any element of missing_value, or the type's default fill where no
 //   _FillValue is given, all compared after rounding to the variable's type (1e20 as a double is no float);
 //   what lies outside of valid_range, valid_min and valid_max; NaN; and what is beyond 1e30;
-// - valid limits are of packed values, but of unpacked ones where their type is that of scale_factor and wider
-//   than the data's;
+// - valid limits are of packed values, but of unpacked ones where their type is that of scale_factor and
+//   wider than the data's;
 // - the rest is multiplied by scale_factor, and add_offset added.
 // Attributes may be text where numbers are meant ("-999"), and strings of netCDF-4.
 #pragma once

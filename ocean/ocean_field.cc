@@ -60,8 +60,8 @@ std::vector<bool> fill_columns(const Layers& layers) {
   return is_empty;
 }
 
-// Columns without values take those of the nearest one, by steps along rows and columns; of several, of the first found
-// going out from all in the order of the file.
+// Columns without values take those of the nearest one, by steps along rows and columns; of several, of the
+// first found going out from all in the order of the file.
 void fill_land(const Layers& layers, std::vector<bool> is_empty) {
   std::deque<std::size_t> front;
   for (std::size_t column = 0; column < is_empty.size(); ++column) {
@@ -200,8 +200,8 @@ OceanField::Bracket OceanField::bracket(const std::vector<double>& axis, double 
   return {high - 1, high, (value - axis[high - 1]) / (axis[high] - axis[high - 1])};
 }
 
-// The transverse Mercator projection's inverse to second order in the distance over the earth's radius (Snyder 1987, page
-// 63): with phi1 the latitude of the foot of the place on the origin's meridian,
+// The transverse Mercator projection's inverse to second order in the distance over the earth's radius
+// (Snyder 1987, page 63): with phi1 the latitude of the foot of the place on the origin's meridian,
 //   phi = phi1 - y^2 tan(phi1) / (2 M N),  lambda = lambda0 + y / (N cos(phi1)).
 OceanField::GeodeticPlace OceanField::geodetic(double north_m, double east_m) const {
   const double foot = origin_.latitude_rad + north_m / meridional_radius_m_;
@@ -287,8 +287,9 @@ WaterRange OceanField::extremes_at(double depth_m) const {
           std::min(a.least_psu, b.least_psu), std::max(a.greatest_psu, b.greatest_psu)};
 }
 
-// f(t) = h00 f1 + h10 H m1 + h01 f2 + h11 H m2 over t = 0..1 between points 1 and 2, H apart, with the weights of Hermite's cubic and
-// m1 = (d1 H + d2 G) / (G + H) of the differences d1 before, over G, and d2 between; m2 likewise.
+// f(t) = h00 f1 + h10 H m1 + h01 f2 + h11 H m2 over t = 0..1 between points 1 and 2, H apart, with the
+// weights of Hermite's cubic and m1 = (d1 H + d2 G) / (G + H) of the differences d1 before, over G, and d2
+// between; m2 likewise.
 OceanField::Stencil OceanField::stencil(const std::vector<double>& axis, double value) {
   const auto [low, high, t] = bracket(axis, value);
   if (low == high) return {{low, low, low, low}, {0, 1, 0, 0}};
@@ -342,8 +343,8 @@ std::vector<WaterAtDepth> OceanField::smooth_column_at(double north_m, double ea
   return column;
 }
 
-// Along the way latitude and longitude change all but evenly; a crossing is found by where their chord has it, 100 m off at
-// most over 100 km.
+// Along the way latitude and longitude change all but evenly; a crossing is found by where their chord has
+// it, 100 m off at most over 100 km.
 std::vector<double> OceanField::crossings(const Vec3& from, const Vec3& to) const {
   std::vector<double> shares;
   const auto cross = [&shares](const std::vector<double>& axis, double a, double b) {

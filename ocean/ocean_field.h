@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Current, temperature and salinity of the ocean as functions of place and time.
 //
-// Model: values on a grid of time, depth, latitude and longitude, as ocean models (HYCOM, ROMS on levels of depth) give
-// them; linear in each of the four between its points. Beyond the first and the last
+// Model: values on a grid of time, depth, latitude and longitude, as ocean models (HYCOM, ROMS on levels of
+// depth) give them; linear in each of the four between its points. Beyond the first and the last
 // time, level, row and column the values there hold. Points without a value, the seabed and land, have
 // - below the deepest value of a column, that value, above the highest that one;
-// - in a column without any, the column that is fewest steps away along the grid: so currents run along coasts undiminished.
+// - in a column without any, the column that is fewest steps away along the grid: so currents run along
+//   coasts undiminished.
 // Vertical currents are left out.
 //
-// Frames: the world's NED in its flat mode (bathymetry/terrain/local_frame.h), a transverse Mercator projection about the
-// origin. Here its inverse to second order: 10 m off at 100 km, at 45 degrees. East and north of the file are turned by the
-// meridian's convergence there. Depth is below the sea surface, m, of any sign; time is the simulation's, s.
+// Frames: the world's NED in its flat mode (bathymetry/terrain/local_frame.h), a transverse Mercator
+// projection about the origin. Here its inverse to second order: 10 m off at 100 km, at 45 degrees. East and
+// north of the file are turned by the meridian's convergence there. Depth is below the sea surface, m, of any
+// sign; time is the simulation's, s.
 //
 //   const OceanField field(grid, std::move(values), {to_radians(40), to_radians(-50)});
 //   const Vec3 current = field.current_ned_mps({1000, 2000, 50}, 3600);
@@ -34,8 +36,8 @@ struct OceanGrid {
   std::size_t columns() const { return latitudes_rad.size() * longitudes_rad.size(); }
 };
 
-// [time][depth][latitude][longitude]; NaN where the file has no value. Empty: a variable that the file has not. Currents come
-// together, as do temperature (in situ, ITS-90) and salinity (practical).
+// [time][depth][latitude][longitude]; NaN where the file has no value. Empty: a variable that the file has
+// not. Currents come together, as do temperature (in situ, ITS-90) and salinity (practical).
 struct OceanValues {
   std::vector<float> east_mps, north_mps;             // -10..10
   std::vector<float> temperature_degc, salinity_psu;  // -5..45, 0..50
@@ -56,8 +58,8 @@ struct WaterRange {
 
 class OceanField {
  public:
-  // Throws InvalidArgument that names the axis or the variable, the value and what is allowed; also when the origin lies outside
-  // of the grid or a variable has no value at all at one of its times.
+  // Throws InvalidArgument that names the axis or the variable, the value and what is allowed; also when the
+  // origin lies outside of the grid or a variable has no value at all at one of its times.
   OceanField(OceanGrid grid, OceanValues values, const GeodeticOrigin& origin,
              std::vector<std::string> remarks = {});
 
@@ -74,14 +76,16 @@ class OceanField {
   WaterAtDepth water_at(const Vec3& place, double time_s) const;
   // The same at all levels of the grid.
   std::vector<WaterAtDepth> column_at(double north_m, double east_m, double time_s) const;
-  // The same, smooth along rows and columns: cubic Hermite polynomials whose slope at a point is that of the parabola through it
-  // and its neighbours, at the first and the last that of the line; within what the points about have.
+  // The same, smooth along rows and columns: cubic Hermite polynomials whose slope at a point is that of the
+  // parabola through it and its neighbours, at the first and the last that of the line; within what the
+  // points about have.
   std::vector<WaterAtDepth> smooth_column_at(double north_m, double east_m, double time_s) const;
 
   // All water at a depth at any place and time, smooth or not; of a field that has it.
   WaterRange extremes_at(double depth_m) const;
 
-  // Where the straight way between two places crosses rows, columns or levels of the grid: shares of it in (0, 1), rising.
+  // Where the straight way between two places crosses rows, columns or levels of the grid: shares of it in
+  // (0, 1), rising.
   std::vector<double> crossings(const Vec3& from, const Vec3& to) const;
 
   // What its reader did to values beyond their units, a sentence each.

@@ -13,7 +13,8 @@
 // Missing values and packing: ocean/netcdf_file.h. Units: ocean/cf_units.h, ocean/cf_time.h. A file is looked
 // at before it is opened (ocean/netcdf_header.h): cut short or damaged, it is refused.
 //
-// netCDF is in a module of its own (halocline_ocean_fields.so), loaded by the first file. Calls may overlap between threads.
+// netCDF is in a module of its own (halocline_ocean_fields.so), loaded by the first file. Calls may overlap
+// between threads.
 #pragma once
 
 #include <memory>
@@ -30,9 +31,10 @@ struct FieldQuery {
   GeodeticOrigin origin;
 };
 
-// The field of several queries alike is read once, as long as one of them is kept. Throws InvalidArgument that names the file,
-// the variable and what is allowed: a file that cannot be read, without any of the variables, or of another layout; what
-// OceanField refuses; a start outside of its times; more than 1e8 values of a variable.
+// The field of several queries alike is read once, as long as one of them is kept. Throws InvalidArgument
+// that names the file, the variable and what is allowed: a file that cannot be read, without any of the
+// variables, or of another layout; what OceanField refuses; a start outside of its times; more than 1e8
+// values of a variable.
 std::shared_ptr<const OceanField> read_ocean_field(const FieldQuery& query);
 
 // Where in a grid of water, and in which files.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Temperature in situ of water whose potential temperature is known, as ocean models hold it.
 //
-// Model: adiabatic lapse rate of Bryden 1973, integrated by Fofonoff's fourth-order scheme of one step, both in the form of
-// Fofonoff and Millard 1983 (UNESCO Technical Paper 44). Salinity 0..42 psu, temperature -2..40 degC, pressure 0..10 000
-// dbar (their check: 40 psu, 40 degC, 10 000 dbar to the surface: 36.89073 degC). Pressure at a depth after Lovett 1978,
-// p = 1.0052405 (1 + 5.28e-3 sin^2(latitude)) z + 2.36e-6 z^2 dbar. Error below 0.01 K.
+// Model: adiabatic lapse rate of Bryden 1973, integrated by Fofonoff's fourth-order scheme of one step, both
+// in the form of Fofonoff and Millard 1983 (UNESCO Technical Paper 44). Salinity 0..42 psu, temperature
+// -2..40 degC, pressure 0..10 000 dbar (their check: 40 psu, 40 degC, 10 000 dbar to the surface: 36.89073
+// degC). Pressure at a depth after Lovett 1978, p = 1.0052405 (1 + 5.28e-3 sin^2(latitude)) z + 2.36e-6 z^2
+// dbar. Error below 0.01 K.
 #pragma once
 
 namespace halocline::ocean {

@@ -7,8 +7,8 @@
 // (ModelParameters::leak_offset_m from the dry centre of gravity, by default there; no sloshing), and adds
 // its mass and inertia to the vehicle's and no buoyancy: off the centre of gravity it trims the hull. What
 // comes in moves with the vehicle already: the momentum it takes up is left out. A negative rate pumps out.
-// Dead sensor: it measures nothing. Empty battery: propeller and thrusters stop, all else stays where it is, no sensor measures
-// anything. Each fault ends when it is mended; the water of a leak stays in.
+// Dead sensor: it measures nothing. Empty battery: propeller and thrusters stop, all else stays where it is,
+// no sensor measures anything. Each fault ends when it is mended; the water of a leak stays in.
 #pragma once
 
 #include <array>

@@ -206,8 +206,8 @@ Water Fleet::water_at(std::size_t index, const Vec3& position_ned_m) const {
   return water;
 }
 
-// The surface z = still - elevation by its tangent plane at the vehicle: dz/ds = a_s / g, for elevation's slope is -a_s / g, and
-// dz/dt = v_z.
+// The surface z = still - elevation by its tangent plane at the vehicle: dz/ds = a_s / g, for elevation's
+// slope is -a_s / g, and dz/dt = v_z.
 void Fleet::move_surface(std::size_t index, const Vec3& position_ned_m, Water& water) const {
   const ModelParameters& p = members_[index].model->parameters();
   const double least_depth =

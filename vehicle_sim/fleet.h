@@ -79,17 +79,17 @@ class Fleet {
   const FleetMember& member(std::size_t index) const { return members_[index]; }
   SimTime time() const { return time_; }  // reached in whole steps
 
-  // Schedules a command for a vehicle; it holds from the first physics step at or after its time. Fixed vehicles
-  // ignore commands.
+  // Schedules a command for a vehicle; it holds from the first physics step at or after its time. Fixed
+  // vehicles ignore commands.
   [[nodiscard]] CommandVerdict command(std::size_t index, const TimedCommand& command);
 
   // Schedules another current; it holds from the first physics step at or after `from`, of two for one
-  // instant the one scheduled later. Throws InvalidArgument where it is impossible; false, and no change, when
-  // too many wait.
+  // instant the one scheduled later. Throws InvalidArgument where it is impossible; false, and no change,
+  // when too many wait.
   [[nodiscard]] bool change_current(SimTime from, const CurrentSettings& current);
 
-  // Schedules a fault or its end; of two for one instant the one scheduled later comes later. Of fixed vehicles only
-  // sensors fail. False, and no change, when too many wait.
+  // Schedules a fault or its end; of two for one instant the one scheduled later comes later. Of fixed
+  // vehicles only sensors fail. False, and no change, when too many wait.
   [[nodiscard]] bool apply_fault(std::size_t index, const Fault& fault);
   const VehicleFaults& faults(std::size_t index) const { return faults_[index]; }
 
@@ -110,7 +110,8 @@ class Fleet {
   VehicleState state_at(std::size_t index, SimTime when) const;
   // The state that others see: that of its modem's transducer, where the model has it off the hull's middle.
   KinematicState published_at(std::size_t index, SimTime when) const;
-  // What its sensors would measure then without errors; altitude is left unavailable. Depth is that of the water's pressure.
+  // What its sensors would measure then without errors; altitude is left unavailable. Depth is that of the
+  // water's pressure.
   SensorReading reading_at(std::size_t index, SimTime when) const;
 
   double tether_distance_m(std::size_t tether) const { return world_.tether_distance_m(tether); }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vehicle models as TOML files: every parameter with its unit and range, and where a model of a scenario comes from.
+// Vehicle models as TOML files: every parameter with its unit and range, and where a model of a scenario
+// comes from.
 //
-// A file starts from nothing (an effect that it does not name is absent) or, with `based_on`, from a built-in model.
-// Its [sensors] are those that such a vehicle carries unless a scenario sets them (vehicle_sim_config.h).
-// Unknown keys, wrong types and impossible values are errors with file, line, key and what is allowed.
-// docs/vehicles.md explains the parameters; models/vehicles/ holds the built-in models as such files.
+// A file starts from nothing (an effect that it does not name is absent) or, with `based_on`, from a built-in
+// model. Its [sensors] are those that such a vehicle carries unless a scenario sets them
+// (vehicle_sim_config.h). Unknown keys, wrong types and impossible values are errors with file, line, key and
+// what is allowed. docs/vehicles.md explains the parameters; models/vehicles/ holds the built-in models as
+// such files.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicles that come with the program, by name: some are programmed, the others are the files of models/vehicles,
-// compiled in. load_model (model_config.h) makes parameters of either.
+// The vehicles that come with the program, by name: some are programmed, the others are the files of
+// models/vehicles, compiled in. load_model (model_config.h) makes parameters of either.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ namespace halocline::vehicle_sim {
 const std::vector<std::string>& built_in_models();
 bool is_built_in(std::string_view name);
 
-// The parameters of a programmed one of that name; empty when there is none. `remus100-pvs` handles a current exactly here
-// (CurrentTreatment::kGalilean); set kUpstream for the published treatment.
+// The parameters of a programmed one of that name; empty when there is none. `remus100-pvs` handles a current
+// exactly here (CurrentTreatment::kGalilean); set kUpstream for the published treatment.
 std::optional<ModelParameters> programmed_model(std::string_view name);
 
 struct ModelText {

@@ -20,8 +20,8 @@ class PendingEchoes {
   // `deadline`: steady time at which the tick goes out without echoes.
   void wait(std::int64_t request_id, SensorTick tick, SimTime deadline);
 
-  // The tick that waits for this answer, to write its echoes into; null when none does (any more). It then counts
-  // as answered.
+  // The tick that waits for this answer, to write its echoes into; null when none does (any more). It then
+  // counts as answered.
   [[nodiscard]] SensorTick* answer(std::int64_t request_id);
 
   // The oldest tick if it is complete at `steady`, taken out.

@@ -69,8 +69,9 @@ class SensorStation {
   // When the next measurement is due.
   SimTime next() const { return next_; }
 
-  // The measurements of next(), which the fleet must have reached; moves on. In ticks of `max_beams` beams at most. The first
-  // is of the vehicles that wait for no echo, if there are any: nobody waits for the echoes of others alone.
+  // The measurements of next(), which the fleet must have reached; moves on. In ticks of `max_beams` beams at
+  // most. The first is of the vehicles that wait for no echo, if there are any: nobody waits for the echoes
+  // of others alone.
   std::vector<SensorTick> take(const Fleet& fleet, std::size_t max_beams);
 
   void archive(Archive& a);

@@ -10,9 +10,9 @@
 
 namespace halocline::vehicle_sim {
 
-// Refuses in `file` each vehicle that starts above the sea surface, under ground, or where the terrain is not known;
-// those of other processes ("external") are theirs. `extent`: where the terrain lies, for a person. The errors are thrown
-// by file.check_findings().
+// Refuses in `file` each vehicle that starts above the sea surface, under ground, or where the terrain is not
+// known; those of other processes ("external") are theirs. `extent`: where the terrain lies, for a person.
+// The errors are thrown by file.check_findings().
 void check_starts(const bus::Scenario& scenario, const Seabed& seabed, const std::string& extent,
                   bus::ConfigFile& file);
 

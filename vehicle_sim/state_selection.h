@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which states of a vehicle are published where its receivers reckon between them (core/dead_reckoning.h): the states from
-// which the reckoning has strayed, and one now and then (thresholds and heartbeat of IEEE 1278.1).
+// Which states of a vehicle are published where its receivers reckon between them (core/dead_reckoning.h):
+// the states from which the reckoning has strayed, and one now and then (thresholds and heartbeat of IEEE
+// 1278.1).
 //
-// A state is published at a tick of the state grid when the reckoning from the last one published is off by more than a
-// bound, in place or in attitude, or when otherwise the next tick would lie more than `longest_silence` after that one.
+// A state is published at a tick of the state grid when the reckoning from the last one published is off by
+// more than a bound, in place or in attitude, or when otherwise the next tick would lie more than
+// `longest_silence` after that one.
 //
-// Guarantee. At each tick whoever has the states published so far is off by no more than the bounds. In between, and until a
-// state published at a tick arrives d later, the error of the place grows by at most |v - u| (T + d): v the velocity, u that
-// of the state reckoned from, T the period of the ticks. The velocity itself has no bound of its own.
+// Guarantee. At each tick whoever has the states published so far is off by no more than the bounds. In
+// between, and until a state published at a tick arrives d later, the error of the place grows by at most |v
+// - u| (T + d): v the velocity, u that of the state reckoned from, T the period of the ticks. The velocity
+// itself has no bound of its own.
 #pragma once
 
 #include <optional>
@@ -28,7 +31,8 @@ struct StateRule {
 // Of one vehicle: its last published state.
 class StateSelection {
  public:
-  // Whether its state at `when`, a tick, is published; then it is the one to reckon from. `period`: to the next tick.
+  // Whether its state at `when`, a tick, is published; then it is the one to reckon from. `period`: to the
+  // next tick.
   [[nodiscard]] bool take(const StateRule& rule, SimDuration period, SimTime when,
                           const KinematicState& state);
 

@@ -14,8 +14,9 @@ struct ScenarioPart {
   VehicleSimConfig config;  // of one simulator that is alone
 };
 
-// The vehicles of config.block with their tethers and faults, and nothing of the others. Throws InvalidArgument where a
-// tether or a fault of the scenario names no vehicle of ours, or a tether leads from block to block.
+// The vehicles of config.block with their tethers and faults, and nothing of the others. Throws
+// InvalidArgument where a tether or a fault of the scenario names no vehicle of ours, or a tether leads from
+// block to block.
 ScenarioPart part_of_block(const bus::Scenario& scenario, const VehicleSimConfig& config);
 
 // "vehicle-sim", or of several "vehicle-sim-0", "vehicle-sim-1", ...

@@ -92,8 +92,9 @@ void visit_waves(ConfigVisitor& v, WaveSettings& w) {
   });
 }
 
-// The longest time between two states by which all receivers know every vehicle. The keys belong to the receivers; here
-// they are only looked at. The age of the latest state grows to that time and a message's way.
+// The longest time between two states by which all receivers know every vehicle. The keys belong to the
+// receivers; here they are only looked at. The age of the latest state grows to that time and a message's
+// way.
 SimDuration longest_gap(ConfigVisitor& v) {
   SimDuration lag = SimDuration::from_milliseconds(50);
   SimDuration channel = SimDuration::from_milliseconds(5000), pilot = SimDuration::from_milliseconds(1000);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Configuration of the vehicle simulator: section [vehicle_sim] of a scenario, and the vehicles that it moves.
+// Configuration of the vehicle simulator: section [vehicle_sim] of a scenario, and the vehicles that it
+// moves.
 //
 //   [vehicle_sim]
 //   state_rate_hz = 10
@@ -52,9 +53,10 @@ struct VehicleSensors {
   SensorSettings sensors;
 };
 
-// Which vehicles one of several simulators moves. Those that are not "external" are cut into `count` blocks in the order of
-// the scenario, of equal size but for one vehicle. Each moves and measures as beside all others, to the last bit, except
-// that hulls of different blocks pass through each other. A tether joins vehicles of one block.
+// Which vehicles one of several simulators moves. Those that are not "external" are cut into `count` blocks
+// in the order of the scenario, of equal size but for one vehicle. Each moves and measures as beside all
+// others, to the last bit, except that hulls of different blocks pass through each other. A tether joins
+// vehicles of one block.
 struct VehicleBlock {
   int index = 0;  // 0 to count - 1
   int count = 1;  // 1 to kMaxBlocks
@@ -97,9 +99,9 @@ inline std::optional<BatterySettings> to_settings(const std::optional<bus::Vehic
   return BatterySettings{b->capacity_j, b->hotel_w + b->listening_w, b->shaft_efficiency};
 }
 
-// The vehicles of the scenario that the simulator moves or holds ("external" ones are not its own). A vehicle starts
-// level, with its speed through the water (waves left aside). Throws InvalidArgument where the model is unknown,
-// bus::ConfigErrors where its file is wrong.
+// The vehicles of the scenario that the simulator moves or holds ("external" ones are not its own). A vehicle
+// starts level, with its speed through the water (waves left aside). Throws InvalidArgument where the model
+// is unknown, bus::ConfigErrors where its file is wrong.
 std::vector<FleetMember> members_of(const bus::Scenario& scenario, const VehicleSimConfig& config);
 
 // Throws InvalidArgument where a tether names no vehicle of ours, or leads from block to block.

@@ -32,7 +32,8 @@ DropWeightState weight_of(std::int8_t released) {
   return released != 0 ? DropWeightState::kReleased : DropWeightState::kHeld;
 }
 
-// The same meanings in the same order: see the constants of vehicle_sensors_t, vehicle_dvl_t, vehicle_sonar_t.
+// The same meanings in the same order: see the constants of vehicle_sensors_t, vehicle_dvl_t,
+// vehicle_sonar_t.
 std::int8_t to_wire(AltitudeStatus status) { return static_cast<std::int8_t>(status); }
 static_assert(static_cast<int>(AltitudeStatus::kMeasured) == 0 &&
               static_cast<int>(AltitudeStatus::kNoBottom) == 1 &&

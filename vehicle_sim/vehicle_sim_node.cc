@@ -18,8 +18,8 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-// A process that was halted for this long (steady time) counts what lies further back than this (simulation time) as
-// late, and does not publish it: it is out of date, and the bus would lose the burst.
+// A process that was halted for this long (steady time) counts what lies further back than this (simulation
+// time) as late, and does not publish it: it is out of date, and the bus would lose the burst.
 constexpr SimDuration kLongestHalt = SimDuration::from_milliseconds(2000);
 constexpr SimDuration kLongestArrear = SimDuration::from_milliseconds(2000);
 constexpr SimDuration kBatteryPeriod = SimDuration::from_milliseconds(1000);

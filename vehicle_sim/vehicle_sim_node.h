@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The vehicle simulator on the bus: moves the vehicles of a scenario and publishes their states and sensors.
 //
-// Receives COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<its own client name>, and for vehicles with a USBL
-// array OUTCOME and RECEIVE.<vehicle>. Publishes STATE.<vehicle>, SENSORS.<vehicle> and DVL, GPS, SONAR.<vehicle> at
-// multiples of their periods since time 0, stamped with that instant, STATE only at those that need one
-// (state_selection.h); USBL.<vehicle> when a packet was received;
-// FAULT.<vehicle> when a fault of the scenario begins or ends, or a battery is empty; BATTERY.<vehicle> once a second of vehicles
-// with a battery, from which packets take what MODEM_ENERGY.<vehicle> states; and RAY_QUERY for the seabed below. A measurement waits for its
-// echoes until the service answers or the time-out (echo_timeout, steady time) ends; then they are unavailable.
+// Receives COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<its own client name>, and for vehicles
+// with a USBL array OUTCOME and RECEIVE.<vehicle>. Publishes STATE.<vehicle>, SENSORS.<vehicle> and DVL, GPS,
+// SONAR.<vehicle> at multiples of their periods since time 0, stamped with that instant, STATE only at those
+// that need one (state_selection.h); USBL.<vehicle> when a packet was received;
+// FAULT.<vehicle> when a fault of the scenario begins or ends, or a battery is empty; BATTERY.<vehicle> once
+// a second of vehicles with a battery, from which packets take what MODEM_ENERGY.<vehicle> states; and
+// RAY_QUERY for the seabed below. A measurement waits for its echoes until the service answers or the
+// time-out (echo_timeout, steady time) ends; then they are unavailable.
 //
-// A node that is started into a running simulation puts its vehicles where they start, at that time. One that was
-// killed and has a journal (Node::keep_state_in) goes on from the state it published last: it integrates the time of
-// its absence, with the last commands until they time out, and publishes what lies at most two seconds back.
+// A node that is started into a running simulation puts its vehicles where they start, at that time. One that
+// was killed and has a journal (Node::keep_state_in) goes on from the state it published last: it integrates
+// the time of its absence, with the last commands until they time out, and publishes what lies at most two
+// seconds back.
 #pragma once
 
 #include <cstdint>

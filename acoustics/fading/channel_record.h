@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A measured channel as a file holds it: complex baseband impulse responses h(time, delay) of one receiver.
 //
-// Files are HDF5, as netCDF-4 and MATLAB 7.3 write it, in the layout of the public replay collections (version 1). Axes
-// are named as a C program reads them; MATLAB states them the other way round.
+// Files are HDF5, as netCDF-4 and MATLAB 7.3 write it, in the layout of the public replay collections
+// (version 1). Axes are named as a C program reads them; MATLAB states them the other way round.
 //   h_hat      complex [time, receiver, delay]: a compound of two numbers called real and imag, or r and i
-//   params     group of fs_delay and fs_time, rates of the samples over delay and time, Hz, and fc, the carrier, Hz
+//   params     group of fs_delay and fs_time, rates of the samples over delay and time, Hz, and fc, the
+//              carrier, Hz
 //   version    1 and up, below 2
-//   theta_hat, phi_hat   real [time at fs_delay, receiver], optional: what the motion of the measured ends did to all
-//              delays alike. Checked for their size, which tells the order of the axes, and left out: simulated ends move
-//              by themselves. Likewise f_resamp.
-// A passband signal of spectrum S(f) is received as S(f) H(t, f), H(t, f) = sum_k h_k(t) exp(-j 2 pi (f - fc) k / fs_delay),
-// over fc - fs_delay/2 .. fc + fs_delay/2.
+//   theta_hat, phi_hat   real [time at fs_delay, receiver], optional: what the motion of the measured ends
+//                        did to all
+//              delays alike. Checked for their size, which tells the order of the axes, and left out:
+//              simulated ends move by themselves. Likewise f_resamp.
+// A passband signal of spectrum S(f) is received as S(f) H(t, f), H(t, f) = sum_k h_k(t) exp(-j 2 pi (f - fc)
+// k / fs_delay), over fc - fs_delay/2 .. fc + fs_delay/2.
 #pragma once
 
 #include <complex>
@@ -36,8 +38,8 @@ struct ChannelRecord {
 inline constexpr std::size_t kMaxRecordDelays = 16'384;
 inline constexpr std::size_t kMaxRecordTaps = 50'000'000;  // 400 MB
 
-// Throws InvalidArgument, with the record's name and what is allowed, unless rates are positive and hold the carrier, there
-// are 2 instants at least, every tap is finite and one is not 0.
+// Throws InvalidArgument, with the record's name and what is allowed, unless rates are positive and hold the
+// carrier, there are 2 instants at least, every tap is finite and one is not 0.
 void validate(const ChannelRecord& record);
 
 // Whether all of `band` was measured.

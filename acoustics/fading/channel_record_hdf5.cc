@@ -124,7 +124,8 @@ std::vector<std::complex<float>> read_taps(const Dataset& set, std::size_t recei
   return taps;
 }
 
-// Motion of the measured ends: of the record's duration and receivers, to the half instant that rounding leaves.
+// Motion of the measured ends: of the record's duration and receivers, to the half instant that rounding
+// leaves.
 void check_motion(hid_t file, const std::string& path, const std::string& name, const ChannelRecord& record,
                   hsize_t receivers) {
   if (!has(file, name)) return;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stationary complex Gaussian noise of mean power 1 as a function of time, by a sum of sines (Rice 1944; Clarke 1968):
+// Stationary complex Gaussian noise of mean power 1 as a function of time, by a sum of sines (Rice 1944;
+// Clarke 1968):
 //   g(t) = 1/sqrt(N) sum_k exp(j (2 pi f_k t + phi_k)),  N = 16
-// Its autocorrelation is exp(-(2 pi B tau)^2 / 2): the frequencies are normal with standard deviation B, one from each of
-// N strata of equal probability, then shifted and scaled to mean 0 and rms B, so that a single realisation has the right
-// rate of fading. Phases are uniform. All draws are addressed (core/random.h): the value at an instant depends on the
-// address alone. Its amplitude is Rayleigh's to within 0.8 % of probability (N = 16).
+// Its autocorrelation is exp(-(2 pi B tau)^2 / 2): the frequencies are normal with standard deviation B, one
+// from each of N strata of equal probability, then shifted and scaled to mean 0 and rms B, so that a single
+// realisation has the right rate of fading. Phases are uniform. All draws are addressed (core/random.h): the
+// value at an instant depends on the address alone. Its amplitude is Rayleigh's to within 0.8 % of
+// probability (N = 16).
 #pragma once
 
 #include <array>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bounds of what any link of a mean ratio delivers, however it fades: by which links that deliver nothing are recognised before
-// anything of them is computed.
+// Bounds of what any link of a mean ratio delivers, however it fades: by which links that deliver nothing are
+// recognised before anything of them is computed.
 //
-// A power that sums many paths is spread most where it is one that is wholly scattered: exponentially distributed. Large-scale
-// fading multiplies it by 10^(X/10), X normal. Both are divided into intervals of which the upper end counts.
+// A power that sums many paths is spread most where it is one that is wholly scattered: exponentially
+// distributed. Large-scale fading multiplies it by 10^(X/10), X normal. Both are divided into intervals of
+// which the upper end counts.
 #pragma once
 
 #include <numbers>

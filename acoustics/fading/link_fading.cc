@@ -121,7 +121,8 @@ TurningSines scattered_sines(const FadingLink& link, const SoundPath& path, doub
   return sines;
 }
 
-// What the mean power of two paths together depends on, of each: products of these take the place of sines of differences.
+// What the mean power of two paths together depends on, of each: products of these take the place of sines of
+// differences.
 struct CrossingPath {
   double coherent, medium;      // pressures
   double cos_phase, sin_phase;  // at the centre of the band
@@ -144,8 +145,8 @@ CrossingPath crossing_path(const SoundPath& path, double mean_delay_s, const Ban
           place_of(path, mean_delay_s, band, false)};
 }
 
-// Real part of the mean of h_p h_q* over the band: sqrt(P_p P_q) (sqrt(c_p c_q) + sqrt(m_p m_q) e^(-apart^2 / 2)) cos(phase
-// difference) sinc(W (delay difference)); 0 where it is at most `negligible`.
+// Real part of the mean of h_p h_q* over the band: sqrt(P_p P_q) (sqrt(c_p c_q) + sqrt(m_p m_q) e^(-apart^2 /
+// 2)) cos(phase difference) sinc(W (delay difference)); 0 where it is at most `negligible`.
 double cross_power(const CrossingPath& p, const CrossingPath& q, double negligible) {
   const double coherent = p.coherent * q.coherent, medium = p.medium * q.medium;
   if (coherent + medium < negligible) return 0;
@@ -182,7 +183,8 @@ std::vector<Complex> LinkFading::responses(const std::vector<SoundPath>& paths, 
   const double medium_spread_hz = doppler_spread_of(model_.medium_coherence_s);
   std::optional<MediumField> medium;
   for (const SoundPath& path : paths) {
-    // h = sqrt(P) 10^(X/20) (sqrt(c) e^(j phi) + e^(j phi) sqrt(m) g_m + sqrt(s) g_s): the medium turns what is coherent.
+    // h = sqrt(P) 10^(X/20) (sqrt(c) e^(j phi) + e^(j phi) sqrt(m) g_m + sqrt(s) g_s): the medium turns what
+    // is coherent.
     const PathFading& shares = path.fading;
     const double pressure = std::sqrt(to_power_ratio(path.level).value) * large_scale;
     const Complex phase = elementary::polar(1.0, path.phase_rad);

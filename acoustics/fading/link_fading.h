@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The fading of all paths of one link over time (the model: acoustics/fading/path_fading.h).
 //
-// A value is a function of (seed, pair of ends, identity of the path, absolute time of arrival) without any state:
-// threads, processes and the order of calls agree to the bit. Both directions of a link fade alike.
-//   X    large scale, dB: a Gauss-Markov process of the pair (core/gauss_markov.h) with mean -sigma^2 ln(10) / 20, which
-//        leaves the mean power as it is
+// A value is a function of (seed, pair of ends, identity of the path, absolute time of arrival) without any
+// state: threads, processes and the order of calls agree to the bit. Both directions of a link fade alike.
+//   X    large scale, dB: a Gauss-Markov process of the pair (core/gauss_markov.h) with mean -sigma^2 ln(10)
+//        / 20, which leaves the mean power as it is
 //   g_s  scattered: complex noise of the path's own (acoustics/fading/complex_noise.h)
-//   g_m  medium: one field of the pair over time, delay and the angles at both ends. Paths close in all of them cross the
-//        same water and fade together: their correlation is exp(-|x - y|^2 / 2), x = (2 B (delay - mean delay), launch
-//        angle / 4 degrees, arrival angle / 4 degrees), B the bandwidth and the mean delay weighted by power (our choice
-//        of scales: within 2 degrees the correlation is above 0.88; smooth, so that no path changes its fading suddenly).
+//   g_m  medium: one field of the pair over time, delay and the angles at both ends. Paths close in all of
+//        them cross the same water and fade together: their correlation is exp(-|x - y|^2 / 2), x = (2 B
+//        (delay - mean delay), launch angle / 4 degrees, arrival angle / 4 degrees), B the bandwidth and the
+//        mean delay weighted by power (our choice of scales: within 2 degrees the correlation is above 0.88;
+//        smooth, so that no path changes its fading suddenly).
 #pragma once
 
 #include <complex>
@@ -51,8 +52,8 @@ class LinkFading : public PathResponses {
 };
 
 // Mean over fading, and over the band, of the power of all paths together, uPa^2:
-//   sum P s + sum over pairs of sqrt(P_p P_q) (sqrt(c_p c_q) + sqrt(m_p m_q) corr_pq) cos(phase difference at the centre)
-//   sinc(B (delay_p - delay_q))
+//   sum P s + sum over pairs of sqrt(P_p P_q) (sqrt(c_p c_q) + sqrt(m_p m_q) corr_pq) cos(phase difference at
+//   the centre) sinc(B (delay_p - delay_q))
 // A model that is not enabled adds the powers.
 double mean_power(const FadingModel& model, const std::vector<SoundPath>& paths, const Band& band);
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A measured channel in the place of a link's fading paths.
 //
-// A link is somewhere else in the record than others: its own time 0 is drawn from (seed, pair of ends), and both directions
-// have the same. So a value is a function of (seed, pair, absolute time of arrival), like acoustics/fading/link_fading.h.
-// The channel's taps become paths: the first of them arrives when the reference, a path of the modelled sea, does, with its
-// angles and Doppler shift; powers are those of the record, scaled to a level in all. Large-scale fading remains the
-// model's, since a record of a minute holds none. For predictions a tap is its steady mean and otherwise scattered.
-// Left out: that the measured channel belongs to another place than that of the link's ends.
+// A link is somewhere else in the record than others: its own time 0 is drawn from (seed, pair of ends), and
+// both directions have the same. So a value is a function of (seed, pair, absolute time of arrival), like
+// acoustics/fading/link_fading.h. The channel's taps become paths: the first of them arrives when the
+// reference, a path of the modelled sea, does, with its angles and Doppler shift; powers are those of the
+// record, scaled to a level in all. Large-scale fading remains the model's, since a record of a minute holds
+// none. For predictions a tap is its steady mean and otherwise scattered. Left out: that the measured channel
+// belongs to another place than that of the link's ends.
 #pragma once
 
 #include <complex>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pressures of a link's paths over time, whatever makes them: the model of acoustics/fading/link_fading.h or a measured
-// channel (acoustics/fading/measured_fading.h).
+// The pressures of a link's paths over time, whatever makes them: the model of acoustics/fading/link_fading.h
+// or a measured channel (acoustics/fading/measured_fading.h).
 #pragma once
 
 #include <complex>

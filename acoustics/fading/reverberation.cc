@@ -18,7 +18,8 @@ constexpr double kLeastDecay = 7;  // nepers of power: 30 dB down, the tail ends
 // Numbers that no traced path has: it would bounce 16 383 times.
 constexpr std::uint64_t kTailIdentity = ~std::uint64_t{0} - kTailPaths;
 
-// Share of the power of one bounce that Lambert's law scatters: the integral of mu sin(theta) over the hemisphere.
+// Share of the power of one bounce that Lambert's law scatters: the integral of mu sin(theta) over the
+// hemisphere.
 double scattered_by_bounce(double scattering_db) {
   return std::numbers::pi * to_power_ratio(Decibels{scattering_db}).value;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Capacity of a straight leg over the nodes of a band: the innermost loop of acoustics/link/link_kernel.h.
 //
-// C = sum of w log2(1 + u exp(-(loss + nepers mean))) over the nodes: weight w in Hz, u the signal-to-noise ratio of a link
-// that loses nothing, mean the absorption along the leg in dB/km.
-// One body is compiled for each set of vector instructions. Nodes are its lanes, multiplication and addition are never
-// fused, and the sum has an order of its own: all sets give the same bits.
+// C = sum of w log2(1 + u exp(-(loss + nepers mean))) over the nodes: weight w in Hz, u the signal-to-noise
+// ratio of a link that loses nothing, mean the absorption along the leg in dB/km.
+// One body is compiled for each set of vector instructions. Nodes are its lanes, multiplication and addition
+// are never fused, and the sum has an order of its own: all sets give the same bits.
 #pragma once
 
 #include <cstddef>

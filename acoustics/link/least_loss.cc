@@ -25,7 +25,8 @@ constexpr double kSampled = 0.995;
 constexpr int kAngles = 180;
 constexpr double kAngleStep = std::numbers::pi / 2 / kAngles;
 
-// Of all water of a field at a depth, at temperatures and salinities of its extremes and between them; otherwise that of the profile.
+// Of all water of a field at a depth, at temperatures and salinities of its extremes and between them;
+// otherwise that of the profile.
 double least_absorption(const Environment& environment, double depth_m, double khz) {
   if (!environment.field) return absorption_spectrum_at(environment, depth_m).db_per_km(khz * khz);
   constexpr double kStepDegc = 0.5, kSalinities = 4;
@@ -49,8 +50,9 @@ double least_absorption(const Environment& environment, double depth_m, double k
 
 double next_depth(double depth_m) { return std::max(depth_m + kDepthStep, depth_m * kDepthGrowth); }
 
-// Sum over all ducts of the integral of 2 dtheta / h: theta of a ray at the duct's axis, h between where it turns or meets the
-// surface. Over the bottom likewise, wherever between the least and the greatest depth that holds most.
+// Sum over all ducts of the integral of 2 dtheta / h: theta of a ray at the duct's axis, h between where it
+// turns or meets the surface. Over the bottom likewise, wherever between the least and the greatest depth
+// that holds most.
 double sum_of_ducts(const Environment& environment, double least_depth_m, double greatest_depth_m) {
   std::vector<double> depths, speeds;
   for (double depth_m = 0;; depth_m = std::min(next_depth(depth_m), greatest_depth_m)) {

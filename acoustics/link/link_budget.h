@@ -45,7 +45,8 @@ struct LinkBudget {
   bool receivable = false;  // of one family, bands overlap, received level >= the cut-off
 };
 
-// Angle of the straight line from one point to another below the horizontal, -pi/2..pi/2; 0 between equal points.
+// Angle of the straight line from one point to another below the horizontal, -pi/2..pi/2; 0 between equal
+// points.
 double angle_down_rad(const Vec3& from_ned_m, const Vec3& to_ned_m);
 
 // What of a link the two modems and the noise decide, wherever they are. Immutable.
@@ -54,7 +55,8 @@ class LinkTerms {
   // Throws InvalidArgument when one of them is out of range (see their `validate`).
   LinkTerms(const Environment& environment, const Modem& transmitter, const Modem& receiver);
 
-  // Level, noise, ratios and whether the link is receivable, at a loss; noise lies `above_ambient` over that of the environment.
+  // Level, noise, ratios and whether the link is receivable, at a loss; noise lies `above_ambient` over that
+  // of the environment.
   void set_levels(LinkBudget& link, Decibels loss, Decibels above_ambient = {}) const;
   // Of both beams along the straight line: the receiver looks back.
   Decibels beam_loss(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
@@ -76,8 +78,9 @@ class LinkTerms {
   bool of_one_kind_ = false;  // one family, and bands that overlap
 };
 
-// A link by the formulas as they stand: the reference of acoustics/link/link_kernel.h, which the simulator uses. Owns copies
-// of what it needs; immutable, so calls may overlap between threads. Making one costs about a millisecond.
+// A link by the formulas as they stand: the reference of acoustics/link/link_kernel.h, which the simulator
+// uses. Owns copies of what it needs; immutable, so calls may overlap between threads. Making one costs about
+// a millisecond.
 class LinkModel {
  public:
   // Throws InvalidArgument when one of them is out of range (see their `validate`).
@@ -87,9 +90,9 @@ class LinkModel {
   // surface the water of the surface is used (whether such a link exists is for the caller to decide).
   LinkBudget budget(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
 
-  // The same for a path that some other model found: its loss at the centre frequency as given, and elsewhere in
-  // the band as much more or less as water between the two depths absorbs more or less over `path_length_m`. Delay
-  // and absorption stay those of the straight path.
+  // The same for a path that some other model found: its loss at the centre frequency as given, and elsewhere
+  // in the band as much more or less as water between the two depths absorbs more or less over
+  // `path_length_m`. Delay and absorption stay those of the straight path.
   LinkBudget budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned_m, Decibels loss,
                             double path_length_m) const;
 

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The quality of straight links, millions a second: what acoustics/link/link_budget.h states, for the simulator.
+// The quality of straight links, millions a second: what acoustics/link/link_budget.h states, for the
+// simulator.
 //
-// Method. Means of slowness and absorption along the leg come from polynomials in depth (acoustics/math/depth_means.h)
-// instead of from the formulas of the water; the capacity from as few frequencies as the band needs, in vectors
-// (acoustics/link/band_capacity.h). Frequencies are chosen once: Gauss-Legendre rules of 8, 16, 24 and 32 nodes over the band,
-// the first of which agrees with that of twice as many to 2e-12 of the capacity, for links from 1 m on to where less than a bit
-// a second passes, at the surface and at every depth of the profile's rows; else panels (frequency_band.h).
-// Against LinkModel: delay 1e-12 of it, level 1e-11 dB, capacity 1e-11 of it or of 1 bit/s, whichever is more; less exact
-// where a cell of the profile crosses 20 degrees in Francois and Garrison's formula, which steps there.
-// The same bits on every processor, and both ways along a link.
+// Method. Means of slowness and absorption along the leg come from polynomials in depth
+// (acoustics/math/depth_means.h) instead of from the formulas of the water; the capacity from as few
+// frequencies as the band needs, in vectors (acoustics/link/band_capacity.h). Frequencies are chosen once:
+// Gauss-Legendre rules of 8, 16, 24 and 32 nodes over the band, the first of which agrees with that of twice
+// as many to 2e-12 of the capacity, for links from 1 m on to where less than a bit a second passes, at the
+// surface and at every depth of the profile's rows; else panels (frequency_band.h). Against LinkModel: delay
+// 1e-12 of it, level 1e-11 dB, capacity 1e-11 of it or of 1 bit/s, whichever is more; less exact where a cell
+// of the profile crosses 20 degrees in Francois and Garrison's formula, which steps there. The same bits on
+// every processor, and both ways along a link.
 //
 //   const LinkKernel kernel(environment, transmitter, receiver);  // once for a pair of modems
 //   const LinkBudget link = kernel.budget(from_ned_m, to_ned_m, Capacity::kComputed);
 //
-// Owns copies of what it needs; immutable, so calls may overlap between threads. Making one takes a millisecond. Positions are in
-// the NED world frame, m, depths as those of LinkModel.
+// Owns copies of what it needs; immutable, so calls may overlap between threads. Making one takes a
+// millisecond. Positions are in the NED world frame, m, depths as those of LinkModel.
 #pragma once
 
 #include "acoustics/link/band_capacity.h"
@@ -42,10 +44,12 @@ class LinkKernel {
   LinkKernel(const Environment& environment, const Modem& transmitter, const Modem& receiver,
              VectorInstructions instructions = vector_instructions().back());
 
-  // Where the noise over the band lies `above_ambient` over that of the environment, its spectrum is taken to have the same shape.
+  // Where the noise over the band lies `above_ambient` over that of the environment, its spectrum is taken to
+  // have the same shape.
   LinkBudget budget(const Vec3& from_ned_m, const Vec3& to_ned_m, Capacity capacity,
                     Decibels above_ambient = {}) const;
-  // As LinkModel::budget_of_path; the capacity as exactly for losses down to 20 dB below that of the straight line.
+  // As LinkModel::budget_of_path; the capacity as exactly for losses down to 20 dB below that of the straight
+  // line.
   LinkBudget budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned_m, Decibels loss, double path_length_m,
                             Capacity capacity, Decibels above_ambient = {}) const;
 

@@ -105,7 +105,8 @@ double density_at(double xi, const Place& place, const HalfCycle& half) {
   return xi * place.speed_mps / std::max(sine_at(xi, place.speed_mps), kLeastSine) / half.range_m;
 }
 
-// What rays of each angle at the bottom bring, times the range and for a launch angle: slopes turn them on their way.
+// What rays of each angle at the bottom bring, times the range and for a launch angle: slopes turn them on
+// their way.
 std::vector<BottomRay> rays_after_slopes(const MixedSea& sea, const MixedLink& link) {
   const double speed = link.bottom.speed_mps;
   std::vector<BottomRay> rays;

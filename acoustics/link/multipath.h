@@ -5,9 +5,9 @@
 // line to the receiver, and on from there to the receiver. Each whole path loses by the law of the straight
 // link over its total length (leg by leg through c(z) and alpha(z)) and by the beams at both ends; it counts
 // when its level exceeds the receiver's cut-off and terrain blocks neither leg. The bottom reflects all of
-// the energy, in every direction: an upper bound. Pure geometry: the caller gives the points of the bottom and
-// whether terrain blocks their legs. Left out: loss and direction at the bounce, surface echoes, more than one
-// bounce (the ray model's business).
+// the energy, in every direction: an upper bound. Pure geometry: the caller gives the points of the bottom
+// and whether terrain blocks their legs. Left out: loss and direction at the bounce, surface echoes, more
+// than one bounce (the ray model's business).
 #pragma once
 
 #include <vector>
@@ -41,15 +41,16 @@ struct EchoAssessment {
   std::vector<EchoPath> paths;  // as the bottom points were given
 };
 
-// Fractions of the horizontal distance from transmitter to receiver at which the bottom is to be sampled: `count`
-// >= 1 points in the middles of equal parts.
+// Fractions of the horizontal distance from transmitter to receiver at which the bottom is to be sampled:
+// `count` >= 1 points in the middles of equal parts.
 std::vector<double> bottom_point_fractions(int count);
 
 // One path; positions as in LinkKernel::budget.
 EchoPath echo_path(const LinkKernel& model, const Vec3& from_ned_m, const Vec3& to_ned_m,
                    const BottomPoint& point);
 
-// All paths. Without points an echo is unlikely; a caller that could not reach the terrain reports "unknown" itself.
+// All paths. Without points an echo is unlikely; a caller that could not reach the terrain reports "unknown"
+// itself.
 EchoAssessment assess_echoes(const LinkKernel& model, const Vec3& from_ned_m, const Vec3& to_ned_m,
                              const std::vector<BottomPoint>& points);
 

@@ -7,9 +7,9 @@
 // weighs each path by the angle in which it leaves or arrives.
 //
 // Levels are relative to the source level: dB, never positive in practice; transmission loss is their
-// negative. No path is -infinity dB, see PathLack in acoustics/rays/arrivals.h; a floor is the caller's to state.
-// The impulse response is that of the carrier's complex envelope: a tap per path, none of the modem's own
-// filter.
+// negative. No path is -infinity dB, see PathLack in acoustics/rays/arrivals.h; a floor is the caller's to
+// state. The impulse response is that of the carrier's complex envelope: a tap per path, none of the modem's
+// own filter.
 #pragma once
 
 #include <complex>
@@ -32,7 +32,8 @@ double weighted_pressure(const Arrival& path, const Transducers& transducers);
 
 struct FieldOptions {
   Transducers transducers;
-  // Least level reported, where diffraction and scattering are expected to fill shadows. Empty: a shadow is -infinity.
+  // Least level reported, where diffraction and scattering are expected to fill shadows. Empty: a shadow is
+  // -infinity.
   std::optional<Decibels> floor;
 };
 
@@ -47,13 +48,13 @@ struct ReceivedField {
 };
 ReceivedField received_field(const Arrivals& arrivals, const FieldOptions& options = {});
 
-// Level of the phasor sum at `frequency_hz`, and of the power of what is diffuse, dB re the source level; absorption as found
-// at RayOptions::frequency_hz.
+// Level of the phasor sum at `frequency_hz`, and of the power of what is diffuse, dB re the source level;
+// absorption as found at RayOptions::frequency_hz.
 Decibels coherent_level(const Arrivals& arrivals, double frequency_hz, const FieldOptions& options = {});
 
 // Taps of the complex envelope about `carrier_hz`, sampled at `rate_hz` from `from_s` on, `count` of them:
-// each path falls on its nearest sample with the phase of its own delay. Paths outside, and diffuse ones, are left out. rate_hz
-// in (0, 1e7], count 1..1e7.
+// each path falls on its nearest sample with the phase of its own delay. Paths outside, and diffuse ones, are
+// left out. rate_hz in (0, 1e7], count 1..1e7.
 std::vector<std::complex<double>> impulse_response(const Arrivals& arrivals, double carrier_hz,
                                                    double rate_hz, double from_s, std::size_t count,
                                                    const Transducers& transducers = {});

@@ -8,7 +8,8 @@ struct Airy {
   double ai, bi, ai_slope, bi_slope;
 };
 
-// By the series of Maclaurin (Abramowitz and Stegun 1964, 10.4.2), to 1e-11 of the larger function for |z| <= 5.
+// By the series of Maclaurin (Abramowitz and Stegun 1964, 10.4.2), to 1e-11 of the larger function for |z| <=
+// 5.
 Airy airy(double z);
 
 }  // namespace halocline::acoustics

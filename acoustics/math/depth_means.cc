@@ -23,7 +23,8 @@ Terms chebyshev_points() {
   return points;
 }
 
-// The powers of x of the polynomial through `values` at `points`: Newton's divided differences, multiplied out.
+// The powers of x of the polynomial through `values` at `points`: Newton's divided differences, multiplied
+// out.
 Terms powers_through(const Terms& points, Terms values) {
   for (std::size_t order = 1; order < points.size(); ++order) {
     for (std::size_t i = points.size(); i-- > order;) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Means over depth of properties of the water that are smooth within cells of depth, without loss of digits between
-// places however near to each other.
+// Means over depth of properties of the water that are smooth within cells of depth, without loss of digits
+// between places however near to each other.
 //
-// Method: within a cell each property is the polynomial through its values at ten Chebyshev points (degree 9, ends
-// included), kept as the powers of its integral P in x, -1 at the top of the cell and 1 at its bottom. The mean between two
-// places of one cell is the quotient (P(b) - P(a)) / (b - a), which Horner's scheme divides without a difference; between
-// places of two cells
-//   mean = (mean to the bottom of the upper cell + whole cells between + mean from the top of the lower cell, each times its
+// Method: within a cell each property is the polynomial through its values at ten Chebyshev points (degree 9,
+// ends included), kept as the powers of its integral P in x, -1 at the top of the cell and 1 at its bottom.
+// The mean between two places of one cell is the quotient (P(b) - P(a)) / (b - a), which Horner's scheme
+// divides without a difference; between places of two cells
+//   mean = (mean to the bottom of the upper cell + whole cells between + mean from the top of the lower cell,
+//   each times its
 //           height) / (z2 - z1).
 // Relative error: that of the polynomial (1e-12 of an exponential that triples across a cell), and 1e-15.
 //

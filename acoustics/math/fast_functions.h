@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exponential, logarithm, sine and cosine for inner loops, inline and without branches, so that compilers make loops of them
-// vectors: relative error of the first and absolute errors of the others below 1e-9. The same bits on every machine with IEEE
-// 754 arithmetic.
+// Exponential, logarithm, sine and cosine for inner loops, inline and without branches, so that compilers
+// make loops of them vectors: relative error of the first and absolute errors of the others below 1e-9. The
+// same bits on every machine with IEEE 754 arithmetic.
 #pragma once
 
 #include <bit>

@@ -16,8 +16,8 @@ double sinc(double x) { return std::abs(x) < 1e-9 ? 1 : elementary::sin(pi * x) 
 
 double normal_probability(double x) { return elementary::erfc(-x / sqrt2) / 2; }
 
-// Abramowitz and Stegun 1964, 26.2.23, to 4.5e-4, and Newton's steps from there. Boost's inverse is not used: it calls the
-// functions of the C library.
+// Abramowitz and Stegun 1964, 26.2.23, to 4.5e-4, and Newton's steps from there. Boost's inverse is not used:
+// it calls the functions of the C library.
 double normal_quantile(double probability) {
   if (probability > 0.5) return -normal_quantile(1 - probability);
   const double t = std::sqrt(-2 * elementary::log(probability));

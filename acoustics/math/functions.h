@@ -13,8 +13,8 @@ double sinc(double x);
 double normal_probability(double x);
 double normal_quantile(double probability);
 
-// The gamma distribution of shape k > 0 and scale 1: the probability of less than x > 0; and the value that has the
-// probability of a standard normal one of less than z, -5..5.
+// The gamma distribution of shape k > 0 and scale 1: the probability of less than x > 0; and the value that
+// has the probability of a standard normal one of less than z, -5..5.
 double gamma_probability(double k, double x);
 double gamma_quantile_at(double k, double z);
 

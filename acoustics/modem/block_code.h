@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bit error rate after decoding a linear block code on phase-shift keying.
 //
-// Model: union bound of maximum-likelihood soft decoding (Proakis, Digital Communications, 4th edition, section
-// 8.1), P_b <= sum over weights w of (w / n) A_w Q(sqrt(2 w (k / n) Eb/N0)), A_w the number of code words of
-// weight w; white Gaussian noise, coherent detection. Holds where it is small; capped to 1/2. Wrong bits come in
-// clumps of a code word, so a packet of bits that err one by one this often is lost a little more often than a
-// real one (0.4 dB at (14, 9)). Half of the frames of WHOI's rate 5 fail at 5.6 dB, published are 3.9 dB.
+// Model: union bound of maximum-likelihood soft decoding (Proakis, Digital Communications, 4th edition,
+// section 8.1), P_b <= sum over weights w of (w / n) A_w Q(sqrt(2 w (k / n) Eb/N0)), A_w the number of code
+// words of weight w; white Gaussian noise, coherent detection. Holds where it is small; capped to 1/2. Wrong
+// bits come in clumps of a code word, so a packet of bits that err one by one this often is lost a little
+// more often than a real one (0.4 dB at (14, 9)). Half of the frames of WHOI's rate 5 fail at 5.6 dB,
+// published are 3.9 dB.
 #pragma once
 
 #include <vector>
@@ -26,9 +27,9 @@ struct BlockCode {
 
 // Extended BCH code (64, 10), distance 28 (MacWilliams and Sloane 1977): weights 28, 32, 36 and 64.
 const BlockCode& bch_64_10();
-// Extended Hamming code (16, 11), distance 4, shortened by two bits to (14, 9). The code is the Reed-Muller code
-// of order 2, whose places are alike in pairs, so whichever two bits are left out A_w (16 - w)(15 - w) / 240 of
-// its words remain.
+// Extended Hamming code (16, 11), distance 4, shortened by two bits to (14, 9). The code is the Reed-Muller
+// code of order 2, whose places are alike in pairs, so whichever two bits are left out A_w (16 - w)(15 - w) /
+// 240 of its words remain.
 const BlockCode& hamming_14_9();
 
 // 0..0.5, falling as eb_over_n0 (>= 0; of an information bit) rises.

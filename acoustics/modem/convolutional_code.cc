@@ -87,7 +87,8 @@ double soft_in_rayleigh(int d, double p) {
   return elementary::pow(p, d) * sum;
 }
 
-// More than half of d chips wrong, a tie by a coin (section 8.2): P2 = sum_{k>d/2} C(d, k) p^k (1-p)^(d-k) + tie / 2.
+// More than half of d chips wrong, a tie by a coin (section 8.2): P2 = sum_{k>d/2} C(d, k) p^k (1-p)^(d-k) +
+// tie / 2.
 double hard(int d, double p) {
   double sum = d % 2 == 0 ? binomial(d, d / 2) * elementary::pow(p * (1 - p), d / 2) / 2 : 0;
   for (int k = d / 2 + 1; k <= d; ++k)
@@ -111,8 +112,9 @@ std::vector<SpectrumTerm> distance_spectrum(const ConvolutionalCode& code, int m
   for (const unsigned generator : code.generators) {
     require(generator > 0 && generator < 2 * states, "a generator is longer than the constraint length");
   }
-  // Terms of the transfer function T(D, N) of the trellis (Proakis, 4th edition, section 8.2): a_d is the coefficient of
-  // D^d in T(D, 1), B_d that in dT/dN at N = 1, summed bit by bit over all paths that leave state 0 and return once.
+  // Terms of the transfer function T(D, N) of the trellis (Proakis, 4th edition, section 8.2): a_d is the
+  // coefficient of D^d in T(D, 1), B_d that in dT/dN at N = 1, summed bit by bit over all paths that leave
+  // state 0 and return once.
   const auto distances = static_cast<std::size_t>(max_distance) + 1;
   Front front(states, std::vector<Bundle>(distances)), next = front;
   extend(front, edge_of(code, 0, 1), {1, 0}, 0, 1);

@@ -2,8 +2,8 @@
 // Convolutional codes of rate 1/2: distance spectrum, and bit error rate after Viterbi decoding.
 //
 // Distance spectrum: every path of the trellis that leaves the all-zero path once and comes back, counted by
-// its distance d (ones sent) and the ones of information it carries; a_d paths, B_d ones in all. Computed from
-// the generators, exactly.
+// its distance d (ones sent) and the ones of information it carries; a_d paths, B_d ones in all. Computed
+// from the generators, exactly.
 //
 // Bit error after a maximum-likelihood (Viterbi) decoder, by the union bound P_b <= sum over d of B_d P2(d),
 // each coded bit a chip of binary FSK detected without phase, g its Ec/N0 (Proakis, Digital Communications,
@@ -11,12 +11,12 @@
 //   soft, no fading:  P2 = 2^(1-2d) e^(-d g/2) sum_{k<d} (d g/2)^k / k! sum_{n<d-k} C(2d-1, n)
 //                     (square-law sum of d chips)
 //   soft, Rayleigh:   P2 = p^d sum_{k<d} C(d-1+k, k) (1-p)^k with p = 1 / (2 + g), chips fade independently
-//   hard:             P2 = sum_{k>d/2} C(d, k) p^k (1-p)^(d-k), half of the term k = d/2, with p = e^(-g/2) / 2
-//                     or 1 / (2 + g)
-// For JANUS's code the first nine terms, d = 12, 14 .. 28, are summed: from chips of 7 dB on (soft, no fading)
-// the tenth adds less than 1 part in 10^3. Below that the bound is loose, and above 1 at last: as a probability
-// it is capped to 1/2, a guess. Measured codes are better than the bound, never worse. Left out: the end of the
-// packet (a few bits more certain), interleavers too short for the fading.
+//   hard:             P2 = sum_{k>d/2} C(d, k) p^k (1-p)^(d-k), half of the term k = d/2, with p = e^(-g/2) /
+//                     2 or 1 / (2 + g)
+// For JANUS's code the first nine terms, d = 12, 14 .. 28, are summed: from chips of 7 dB on (soft, no
+// fading) the tenth adds less than 1 part in 10^3. Below that the bound is loose, and above 1 at last: as a
+// probability it is capped to 1/2, a guess. Measured codes are better than the bound, never worse. Left out:
+// the end of the packet (a few bits more certain), interleavers too short for the fading.
 #pragma once
 
 #include <array>

@@ -5,8 +5,8 @@
 // one without compare fairly. Each model's formula, source and limits: bit_error.h, convolutional_code.h,
 // block_code.h.
 //
-// Rayleigh: each bit (of JANUS: each chip) fades by itself. That stands for bits interleaved over many fades; with one
-// fade a packet, packets would be lost far more seldom at the same mean ratio.
+// Rayleigh: each bit (of JANUS: each chip) fades by itself. That stands for bits interleaved over many fades;
+// with one fade a packet, packets would be lost far more seldom at the same mean ratio.
 #pragma once
 
 #include <array>

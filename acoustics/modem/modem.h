@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An acoustic modem: source level, band, least receivable level, framing of packets, detection and bit errors.
+// An acoustic modem: source level, band, least receivable level, framing of packets, detection and bit
+// errors.
 //
 // The generic profile takes the four parameters of Sehgal, Cernea and Birk 2010: strength (source level),
 // cut-off (least receivable level), bandwidth and centre frequency. Those of real modems are data:
 // models/modems/*.toml, read by channel_server/modems/modem_config.h.
-// A value; nothing here knows a bus or a clock. The transducer's pattern in elevation weighs the paths of sound
-// at both ends; noise comes from all around and is weighed by the directivity index alone. Left out: patterns in
-// bearing.
+// A value; nothing here knows a bus or a clock. The transducer's pattern in elevation weighs the paths of
+// sound at both ends; noise comes from all around and is weighed by the directivity index alone. Left out:
+// patterns in bearing.
 //
 //   const Modem modem = generic_modem(Decibels{185}, Decibels{70}, 25'000, 5'000);
 //   const SimDuration duration = packet_timing(modem, 16).duration;  // 1.6 s
@@ -68,8 +69,8 @@ struct Modem {
   std::optional<SimDuration> guard_taper;
 
   // Frequency-hopped FSK: duration of a chip, 0..10 s, and pairs of tones to hop between, 0..1024; 0 of both:
-  // no hopping. The packet's own echo that is later than a chip takes nothing until the pattern returns to its
-  // tones, hop_clearing after them (chip..60 s), and 1 / hop_count of its power later.
+  // no hopping. The packet's own echo that is later than a chip takes nothing until the pattern returns to
+  // its tones, hop_clearing after them (chip..60 s), and 1 / hop_count of its power later.
   SimDuration chip;
   std::int32_t hop_count = 0;
   SimDuration hop_clearing;
@@ -107,39 +108,39 @@ struct PacketTiming {
   std::int64_t information_bits;  // that all have to be right: header and whole frames, before coding
 };
 
-// How a packet of `payload_bytes` occupies the water (packet_format.h has those of other kinds). The payload must not exceed
-// max_payload_bytes (InvalidArgument).
+// How a packet of `payload_bytes` occupies the water (packet_format.h has those of other kinds). The payload
+// must not exceed max_payload_bytes (InvalidArgument).
 PacketTiming packet_timing(const Modem& modem, std::size_t payload_bytes);
 
 // Largest payload of one packet, bytes: its frames, or kMaxPayloadBytes without frames.
 std::size_t max_payload_bytes(const Modem& modem);
 
-// The chance that each instant's noise alone looks like a preamble. A band of some kHz is tested some thousand
-// times a second: one false alarm in several hours. Our choice; no modem's own number is public.
+// The chance that each instant's noise alone looks like a preamble. A band of some kHz is tested some
+// thousand times a second: one false alarm in several hours. Our choice; no modem's own number is public.
 inline constexpr double kFalseAlarmProbability = 1e-8;
 
 // The probability that a receiver detects the packet; `sinr` is the ratio of its power to that of noise and
 // interference over the modem's band (>= 0), during the preamble. 1 without a preamble.
 double acquisition_probability(const Modem& modem, PowerRatio sinr);
 
-// Eb/N0 of an information bit, after despreading and decoding: sinr bandwidth / bit rate, noise and interference white over the
-// band.
+// Eb/N0 of an information bit, after despreading and decoding: sinr bandwidth / bit rate, noise and
+// interference white over the band.
 PowerRatio bit_energy(const Modem& modem, PowerRatio sinr);
 
-// Mean square error of the symbols, of power 1, of an equaliser whose output has the ratio `sinr` of signal to noise, interference
-// and what is left of echoes: J = 1 / (1 + sinr) for the linear equaliser of least mean square error (Proakis, 4th
-// edition, section 10.2.2).
+// Mean square error of the symbols, of power 1, of an equaliser whose output has the ratio `sinr` of signal
+// to noise, interference and what is left of echoes: J = 1 / (1 + sinr) for the linear equaliser of least
+// mean square error (Proakis, 4th edition, section 10.2.2).
 PowerRatio least_mean_square_error(PowerRatio sinr);
 
-// The probability that an information bit is wrong after decoding, 0..0.5, never rising with `sinr` (as above,
-// during the bits).
+// The probability that an information bit is wrong after decoding, 0..0.5, never rising with `sinr` (as
+// above, during the bits).
 double bit_error_rate(const Modem& modem, PowerRatio sinr);
 
 // True when `receiver` knows the waveform of `sender`. Another family's sound triggers no detector.
 bool same_family(const Modem& sender, const Modem& receiver);
 
-// What a receiver's signal lacks because part of the sender's band lies outside of its own: -10 log10 of the share that
-// lies within (band_share), dB, 0..300; 300 without any.
+// What a receiver's signal lacks because part of the sender's band lies outside of its own: -10 log10 of the
+// share that lies within (band_share), dB, 0..300; 300 without any.
 Decibels band_loss(const Modem& sender, const Modem& receiver);
 
 }  // namespace halocline::acoustics

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The electric power that a modem takes to transmit.
 //
-// Model: a source of acoustic power P_a in all directions has SL = 170.8 + 10 log10(P_a) dB re 1 uPa at 1 m (Urick 1983, section
-// 4.2, in sea water); one that concentrates it by DI has that much more. So
+// Model: a source of acoustic power P_a in all directions has SL = 170.8 + 10 log10(P_a) dB re 1 uPa at 1 m
+// (Urick 1983, section 4.2, in sea water); one that concentrates it by DI has that much more. So
 //     P = 10^((SL - 170.8 - DI) / 10) / efficiency.
 // The transducer is the same both ways: DI is the modem's directivity index of reception.
 #pragma once

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the information bits of a packet are divided: a header that everything needs, then frames with a CRC each.
+// How the information bits of a packet are divided: a header that everything needs, then frames with a CRC
+// each.
 //
-// A receiver needs the header and keeps each frame whose CRC is right. Bits lie evenly after the preamble, the header first;
-// each block ends with the code's tail (FrameLayout::tail_bits), which takes time and carries nothing.
+// A receiver needs the header and keeps each frame whose CRC is right. Bits lie evenly after the preamble,
+// the header first; each block ends with the code's tail (FrameLayout::tail_bits), which takes time and
+// carries nothing.
 #pragma once
 
 #include <cstddef>
@@ -28,15 +30,15 @@ struct PacketFormat {
   std::vector<std::int64_t> blocks() const;
 };
 
-// A payload as the modem divides it: in whole frames, or in one that holds it all. Throws InvalidArgument where it exceeds
-// max_payload_bytes.
+// A payload as the modem divides it: in whole frames, or in one that holds it all. Throws InvalidArgument
+// where it exceeds max_payload_bytes.
 PacketFormat data_format(const Modem& modem, std::size_t payload_bytes);
 
 // Bytes of the payload in each frame of data_format().
 std::vector<std::int32_t> frame_bytes_of(const Modem& modem, std::size_t payload_bytes);
 
-// Frames with these bytes of the payload; those of a modem with frames are sent whole. None where the modem has no such
-// frames: too many, or too large.
+// Frames with these bytes of the payload; those of a modem with frames are sent whole. None where the modem
+// has no such frames: too many, or too large.
 std::optional<PacketFormat> framed_format(const Modem& modem, std::span<const std::int32_t> frame_bytes);
 
 // A mini-packet: no header, one frame. None where the modem has none.

@@ -9,8 +9,8 @@
 namespace halocline::acoustics {
 namespace {
 
-// False alarm of half the threshold T = `mean` for M = `pieces`: P(chi-square of 2 M degrees > 2 T) = e^-T sum_{n<M}
-// T^n / n! (Kay 1998, section 7.6).
+// False alarm of half the threshold T = `mean` for M = `pieces`: P(chi-square of 2 M degrees > 2 T) = e^-T
+// sum_{n<M} T^n / n! (Kay 1998, section 7.6).
 double noise_above(double mean, int pieces) {
   double sum = 0, term = elementary::exp(-mean);
   for (int n = 0; n < pieces; ++n) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A noise spectrum as a table: spectrum level by frequency, of the sea or of a vehicle.
 //
-// Between two frequencies the level is linear in the logarithm of frequency, dB re 1 uPa^2/Hz; beyond the first and the last it is
-// theirs. A value.
+// Between two frequencies the level is linear in the logarithm of frequency, dB re 1 uPa^2/Hz; beyond the
+// first and the last it is theirs. A value.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@ namespace halocline::acoustics {
 
 class NoiseSpectrum {
  public:
-  // As many of each, at least one; frequencies rise, 1 to 1e6 Hz; levels -200 to 300 dB re 1 uPa^2/Hz (at 1 m of a vehicle).
-  // Throws InvalidArgument otherwise.
+  // As many of each, at least one; frequencies rise, 1 to 1e6 Hz; levels -200 to 300 dB re 1 uPa^2/Hz (at 1 m
+  // of a vehicle). Throws InvalidArgument otherwise.
   NoiseSpectrum(std::vector<double> frequencies_hz, std::vector<double> levels_db);
 
   Decibels level(double frequency_hz) const;

@@ -16,9 +16,9 @@ struct TimedSpectrum {
   std::shared_ptr<const NoiseSpectrum> spectrum;
 };
 
-// A CSV with the columns t_s, frequency_khz and level_db (dB re 1 uPa^2/Hz), its rows by time, then by frequency. At least one
-// spectrum; the first also holds before its time. Throws InvalidArgument, with the file and the line, where it cannot be read or is
-// impossible.
+// A CSV with the columns t_s, frequency_khz and level_db (dB re 1 uPa^2/Hz), its rows by time, then by
+// frequency. At least one spectrum; the first also holds before its time. Throws InvalidArgument, with the
+// file and the line, where it cannot be read or is impossible.
 std::vector<TimedSpectrum> read_noise_table(const std::string& path);
 
 }  // namespace halocline::acoustics

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How the ambient noise varies about its spectrum: slowly, and in bursts.
 //
-// Slowly: the level is its spectrum's plus a Gauss-Markov process in dB (core/gauss_markov.h), one for all frequencies and all
-// places of a run.
+// Slowly: the level is its spectrum's plus a Gauss-Markov process in dB (core/gauss_markov.h), one for all
+// frequencies and all places of a run.
 //
-// In bursts (snapping shrimp, cracking ice): symmetric alpha-stable noise, of exponent alpha, as a sub-Gaussian process: normal
-// noise whose power over each burst is g A, g the stated power and A positive and (alpha / 2)-stable with
+// In bursts (snapping shrimp, cracking ice): symmetric alpha-stable noise, of exponent alpha, as a
+// sub-Gaussian process: normal noise whose power over each burst is g A, g the stated power and A positive
+// and (alpha / 2)-stable with
 //     E exp(-s A) = exp(-s^(alpha / 2))
-// (Samorodnitsky and Taqqu 1994, proposition 1.3.1; of ocean noise: Chitre, Potter and Ong 2006). With U uniform in (0, pi), W
-// exponential and a = alpha / 2 (Kanter 1975),
+// (Samorodnitsky and Taqqu 1994, proposition 1.3.1; of ocean noise: Chitre, Potter and Ong 2006). With U
+// uniform in (0, pi), W exponential and a = alpha / 2 (Kanter 1975),
 //     A = sin(a U) / sin(U)^(1 / a) (sin((1 - a) U) / W)^((1 - a) / a).
-// The mean of A is infinite: only medians and quantiles mean anything. Each receiver has its own bursts, back to back, independent of
-// each other. At alpha = 2, A is 1: Gaussian.
+// The mean of A is infinite: only medians and quantiles mean anything. Each receiver has its own bursts, back
+// to back, independent of each other. At alpha = 2, A is 1: Gaussian.
 //
 // Draws are addressed by seed, receiver and burst.
 #pragma once

@@ -51,8 +51,8 @@ void ArcTracer::move_receiver(double depth_m) {
 }
 
 void ArcTracer::add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const {
-  // The arc is part of a circle of radius 1 / (xi g). With ds/dr = -xi g of the sine, delay = integral of xi dr / cos^2
-  // = atanh(xi g dr / (1 - s1 s2)) / g, and length = 2 R asin(chord / 2 R).
+  // The arc is part of a circle of radius 1 / (xi g). With ds/dr = -xi g of the sine, delay = integral of xi
+  // dr / cos^2 = atanh(xi g dr / (1 - s1 s2)) / g, and length = 2 R asin(chord / 2 R).
   const double g = sea_.water.gradients_per_s()[s.layer], mix = 1 - s.sine * sine;
   const double chord = std::sqrt(dr * dr + (z - s.z) * (z - s.z));
   const double length = chord * asin_over(s.xi * g * chord / 2);
@@ -91,8 +91,8 @@ void ArcTracer::add_to_track(const State& s, double dr, double z, double sine,
 }
 
 void ArcTracer::go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const {
-  // Dynamic ray tracing (Cerveny 2001; Jensen and others 2011, section 3.3): dq/ds = c p, dp/ds = -q c_nn / c^2. Where
-  // c is linear c_nn = 0: p stays and dq = p dr / xi.
+  // Dynamic ray tracing (Cerveny 2001; Jensen and others 2011, section 3.3): dq/ds = c p, dp/ds = -q c_nn /
+  // c^2. Where c is linear c_nn = 0: p stays and dq = p dr / xi.
   const double way = dr * s.per_xi, q = s.q + s.p * way;
   if (q * s.q < 0) ++ray.caustics;
   s.q = q;
@@ -131,7 +131,8 @@ bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) c
 
 bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedDetails* details) const {
   // The direction is mirrored at the reflecting slope (bounce_off), which gives xi' = cos(out) / c. The tube:
-  //   p' = p + q (g (xi + xi') cot G + 2 k / sin G) / c, G the grazing angle, k the bend of the bottom per metre
+  //   p' = p + q (g (xi + xi') cot G + 2 k / sin G) / c, G the grazing angle, k the bend of the bottom per
+  //   metre
   // (Cerveny 2001, reflection at a curved boundary, in the plane of the ray).
   const Facet& facet = sea_.profile.facets()[index];
   const double g = sea_.water.gradients_per_s()[s.layer], ct = s.xi * s.c, st = s.sine;
@@ -167,7 +168,8 @@ void ArcTracer::arrive(const State& s, double bottom_m, TracedRay& ray) {
   ray.xi = s.xi;
   ray.q = s.q;
   ray.p = s.p;
-  // zeta = o z + 2 H k; its slope is the tube's width along the vertical, q / cos, of rays as the facets reflect them.
+  // zeta = o z + 2 H k; its slope is the tube's width along the vertical, q / cos, of rays as the facets
+  // reflect them.
   ray.zeta = s.orientation * s.z + 2 * bottom_m * s.images;
   ray.zeta_slope = s.qx / std::sqrt(std::max(1 - s.sine * s.sine, kMinCosine * kMinCosine));
 }

@@ -47,8 +47,9 @@ class ArcTracer {
   // bounces leave less than a quarter of the least factor are given up. With `details`, all sums are taken,
   // and exactly.
   void trace(double theta, TracedRay& ray, TracedDetails* details = nullptr) const;
-  // Traces the ray past rising ranges, m, the last of them the receiver's at most, in water of depth alone. At each that it reaches calls
-  // at(i, ray, details) with what trace() gives for a receiver there, but for the ray's events.
+  // Traces the ray past rising ranges, m, the last of them the receiver's at most, in water of depth alone.
+  // At each that it reaches calls at(i, ray, details) with what trace() gives for a receiver there, but for
+  // the ray's events.
   using AtRange = std::function<void(std::size_t, const TracedRay&, const TracedDetails&)>;
   void trace_past(double theta, std::span<const double> ranges_m, const AtRange& at) const;
 

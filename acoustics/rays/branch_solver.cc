@@ -17,8 +17,8 @@ constexpr double kCubicTolerance = 0.015;    // of the water depth
 constexpr double kDepthTolerance = 1e-4;     // m before the last step of Newton
 constexpr double kLastStepTolerance = 1e-5;  // m after it, as foreseen
 constexpr double kTurnTolerance = 1e-6;      // m: how far zeta is at most from where it turns
-// A cubic between two rays, whose error was found at one of them, errs between them by no more than this many times that;
-// besides, a share of what it spans.
+// A cubic between two rays, whose error was found at one of them, errs between them by no more than this many
+// times that; besides, a share of what it spans.
 constexpr double kErrorReach = 2, kSpanReach = 0.2;
 constexpr double kFaintDb =
     3;  // beyond what a path may lose: no path lies between two such rays of one history
@@ -106,9 +106,9 @@ void BranchSolver::solve(const FanRay& a, const FanRay& b) {
   solve_monotone(from, b);
 }
 
-// Moves `turn`, a guess between two rays, to where the slope of zeta is 0; leaves it where there is no such place. False
-// position after Anderson and Bjoerck (1973): the value of an end that stays is taken smaller each time, so both ends
-// close in; every third step halves where that does not.
+// Moves `turn`, a guess between two rays, to where the slope of zeta is 0; leaves it where there is no such
+// place. False position after Anderson and Bjoerck (1973): the value of an end that stays is taken smaller
+// each time, so both ends close in; every third step halves where that does not.
 bool BranchSolver::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
   const auto rises = [](const FanRay& ray) { return ray.zeta_slope > 0; };
   const bool before = rises(a) != rises(turn);
@@ -125,7 +125,8 @@ bool BranchSolver::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
     turn = middle;
     const double slope = turn.zeta_slope;
     const bool beside_low = rises(turn) == is_greatest;
-    // What is left of zeta to where it turns, at most: along the slope up to the other end; and by how it bends.
+    // What is left of zeta to where it turns, at most: along the slope up to the other end; and by how it
+    // bends.
     const double bend = std::min(bend_between(low, turn), bend_between(turn, high));
     const double left =
         std::min(std::abs(slope) * (beside_low ? high.theta - turn.theta : turn.theta - low.theta),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the eigenrays between two neighbouring rays of a fan that have the same history.
 //
-// Between them the unfolded depth zeta(theta) at the receiver's range is smooth but for bends of the water's profile. Every
-// image of the receiver, +-z + 2 H k, that lies between the two is a bracket; a turn of zeta (a fold) is sought first
-// and split at. Newton with the ray tube polishes (acoustics/rays/profile_rays.h).
+// Between them the unfolded depth zeta(theta) at the receiver's range is smooth but for bends of the water's
+// profile. Every image of the receiver, +-z + 2 H k, that lies between the two is a bracket; a turn of zeta
+// (a fold) is sought first and split at. Newton with the ray tube polishes (acoustics/rays/profile_rays.h).
 //
 // Keeps the rays' events and what it has found: one for each search, not shared between threads.
 #pragma once
@@ -28,8 +28,8 @@ class BranchSolver {
  public:
   static constexpr double kUnknownError = std::numeric_limits<double>::infinity();
 
-  // Refers to both tracers, which have to outlive this. With `windows`, weak paths go there; with `cache`, rays are shared with
-  // searches for receivers at other depths.
+  // Refers to both tracers, which have to outlive this. With `windows`, weak paths go there; with `cache`,
+  // rays are shared with searches for receivers at other depths.
   BranchSolver(const ArcTracer& tracer, FanTracer& fan);
   void give_weak_paths_to(DiffuseWindows* windows) { windows_ = windows; }
   void share(ColumnCache* cache) { cache_ = cache; }
@@ -48,13 +48,15 @@ class BranchSolver {
   bool shares_event(const FanRay& ray, const FanRay& other, std::size_t event) const;
   bool meets_bottom_at(const FanRay& ray, std::size_t event) const;
 
-  // How far a cubic through two rays is off where one between them arrives; infinite where their histories differ.
+  // How far a cubic through two rays is off where one between them arrives; infinite where their histories
+  // differ.
   double error_at(const FanRay& a, const FanRay& middle, const FanRay& b) const;
   // Whether it is no more than a share of the tolerance.
   bool is_predicted(double error, const FanRay& a, const FanRay& b, double share) const;
   // Beyond what any ray of its history that is a path may lose.
   bool is_faint(const FanRay& ray) const { return ray.loss_db > faint_db_; }
-  // Whether there may be an image between where two rays of one history arrive, or beyond in what sound reaches.
+  // Whether there may be an image between where two rays of one history arrive, or beyond in what sound
+  // reaches.
   bool may_pass_image(const FanRay& a, const FanRay& b, double error) const;
 
   // The same of rays between which zeta is their cubic.

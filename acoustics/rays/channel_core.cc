@@ -22,8 +22,8 @@ struct Swing {
   double height_m = 0;
 };
 
-// Integral of sqrt(1/c^2 - 1/c*^2) dz over a height along which s^2 = 1 - (c/c*)^2 goes evenly from s1^2 to s2^2, as it
-// does where |c* - c| is far below c: (2 h / 3 c) (s1^2 + s1 s2 + s2^2) / (s1 + s2).
+// Integral of sqrt(1/c^2 - 1/c*^2) dz over a height along which s^2 = 1 - (c/c*)^2 goes evenly from s1^2 to
+// s2^2, as it does where |c* - c| is far below c: (2 h / 3 c) (s1^2 + s1 s2 + s2^2) / (s1 + s2).
 double half_loop_s(double height_m, double speed, double s1, double s2) {
   const double sum = s1 + s2;
   return sum > 0 ? 2 * height_m / (3 * speed) * (s1 * s1 + s1 * s2 + s2 * s2) / sum : 0;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rays of profile_rays.h to receivers at several depths of one place.
 //
-// Method: the fan is traced and halved once for all of them; between paths that were traced to receivers above and below, those of
-// the same history are interpolated (PathChains). Over a rough bottom each receiver has a search of its own, by the
-// same rays (ColumnCache); where the core of a channel is left out nothing is shared.
+// Method: the fan is traced and halved once for all of them; between paths that were traced to receivers
+// above and below, those of the same history are interpolated (PathChains). Over a rough bottom each receiver
+// has a search of its own, by the same rays (ColumnCache); where the core of a channel is left out nothing is
+// shared.
 //
-// Error beside profile_rays(): that of PathChains; so results depend on the order of the calls. Not shared between threads.
+// Error beside profile_rays(): that of PathChains; so results depend on the order of the calls. Not shared
+// between threads.
 #pragma once
 
 #include <cstddef>
@@ -29,20 +31,22 @@ struct ReceiverImage {
   double sign, k, target;
 };
 
-// Paths to receivers at several depths of one place: between two that were traced, those of one history follow by interpolation.
+// Paths to receivers at several depths of one place: between two that were traced, those of one history
+// follow by interpolation.
 //
-// Model. As the receiver goes down, the path of one image and one history changes smoothly. Launch angle and delay are the cubics
-// of depth through two traced paths with the slopes of both,
+// Model. As the receiver goes down, the path of one image and one history changes smoothly. Launch angle and
+// delay are the cubics of depth through two traced paths with the slopes of both,
 //   d theta / dz = +-1 / (d zeta / d theta),  d delay / dz = sin / c  at the receiver,
-// the spreading follows from the slope of the former times what is even between them, 1 / (A^2 |d zeta / d theta|); the losses
-// of bounces, absorption and length are linear, and of the arrival angle Snell's xi is.
+// the spreading follows from the slope of the former times what is even between them, 1 / (A^2 |d zeta / d
+// theta|); the losses of bounces, absorption and length are linear, and of the arrival angle Snell's xi is.
 //
-// A path is traced by itself unless the cubic of zeta over theta meets the image within 5 mm and has the same slope within 0.4 %, the
-// slope of delay at the quarters is that of the arrival angle within 0.3 us, and losses and phases of the two differ little. Of a path
-// weaker than the strongest all that may be as much more as its power is less, 100 times at most, of delay 10 times.
+// A path is traced by itself unless the cubic of zeta over theta meets the image within 5 mm and has the same
+// slope within 0.4 %, the slope of delay at the quarters is that of the arrival angle within 0.3 us, and
+// losses and phases of the two differ little. Of a path weaker than the strongest all that may be as much
+// more as its power is less, 100 times at most, of delay 10 times.
 //
-// Error: 0.05 dB of all paths together, 1 us of a strong path (tests/acoustics/rays/ray_column_test.cc). One for each search, not
-// shared between threads.
+// Error: 0.05 dB of all paths together, 1 us of a strong path (tests/acoustics/rays/ray_column_test.cc). One
+// for each search, not shared between threads.
 class PathChains {
  public:
   // Refers to the tracer, whose receiver is that of each call.
@@ -50,7 +54,8 @@ class PathChains {
 
   // The paths that follow are those of the tracer's receiver.
   void begin_receiver() { strongest_.push_back(0); }
-  // The path that passes the image between two rays of the fan; empty where it has to be traced, and then kept.
+  // The path that passes the image between two rays of the fan; empty where it has to be traced, and then
+  // kept.
   std::optional<ProfilePath> between(const FanRay& a, const FanRay& b, const ReceiverImage& image);
   void keep(const ProfilePath& path, const ReceiverImage& image);
 
@@ -68,7 +73,8 @@ class PathChains {
   struct Direction {
     double sine, speed_mps;  // of the angle, where the sound speed is that
   };
-  // In which a path between two arrives at a share of the way from the one to the other; empty where it is horizontal.
+  // In which a path between two arrives at a share of the way from the one to the other; empty where it is
+  // horizontal.
   std::optional<Direction> arrival_between(const Node& a, const Node& b, double sine_a, double sine_b,
                                            double share) const;
   static std::int64_t number_of(const ReceiverImage& image);
@@ -82,10 +88,11 @@ class PathChains {
   std::unordered_map<std::int64_t, std::vector<Chain>> chains_;  // by image
 };
 
-// What the searches of links to receivers at several depths of one place share: rays and paths, whatever found them.
+// What the searches of links to receivers at several depths of one place share: rays and paths, whatever
+// found them.
 //
-// Rays of a fan and those that stand for diffuse sound depend on the launch angle alone, so they are the same to the last bit as without
-// it. Paths are interpolated (PathChains). Not shared between threads.
+// Rays of a fan and those that stand for diffuse sound depend on the launch angle alone, so they are the same
+// to the last bit as without it. Paths are interpolated (PathChains). Not shared between threads.
 class ColumnCache {
  public:
   // Refers to both, which have to outlive this.

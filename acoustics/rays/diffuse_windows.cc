@@ -21,7 +21,8 @@ constexpr double kMostFocused = 4;   // power of all paths of mixed rays over th
 // Of the field of a fold over that of a single ray in its shadow's edge: Ai(-1.02)^2 / Ai(0)^2.
 constexpr double kFoldPeak = 2.3;
 
-// At least: a path is no shorter than the range, and absorbs no less a metre than the water does anywhere above the deepest bottom.
+// At least: a path is no shorter than the range, and absorbs no less a metre than the water does anywhere
+// above the deepest bottom.
 double power_without_absorption(const ArcTracer& tracer, double pressure) {
   if (pressure <= 0) return 0;
   const RayWater& water = tracer.sea().water;
@@ -116,8 +117,8 @@ double DiffuseWindows::mixed_power(const FanRay& a, const FanRay& b) const {
   return 0.5 * (strength(a) + strength(b)) * (b.theta - a.theta) / tracer_.bottom_at_receiver_m();
 }
 
-// Half a cycle is the integral of cot(angle) dz over the water at the receiver that the ray reaches: in a layer
-// dr = h xi (c1 + c2) / (s1 + s2), to where it turns s / (xi |g|).
+// Half a cycle is the integral of cot(angle) dz over the water at the receiver that the ray reaches: in a
+// layer dr = h xi (c1 + c2) / (s1 + s2), to where it turns s / (xi |g|).
 double DiffuseWindows::density(double xi) const {
   const auto square = [xi](double speed) { return 1 - xi * xi * speed * speed; };
   const RayWater& water = tracer_.water_at_receiver();

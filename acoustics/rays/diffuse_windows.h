@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sound of rays that a search over a rough bottom does not seek one by one: windows of launch angles and their energy.
+// The sound of rays that a search over a rough bottom does not seek one by one: windows of launch angles and
+// their energy.
 //
-// Model. A window of launch angles dtheta holds rays of bounce factor f that a rough bottom has mixed: at the receiver's
-// range they lie at depth z with the density of one that goes up and down the water column,
+// Model. A window of launch angles dtheta holds rays of bounce factor f that a rough bottom has mixed: at the
+// receiver's range they lie at depth z with the density of one that goes up and down the water column,
 //   p(z) = cot(angle at z) / (half a cycle), 0 beyond its turning depths,
 // so the mean over small changes of place of the sum of A^2 = f^2 xi_s / (xi_r r |d zeta / d theta|) is
 //   f^2 xi_s / (xi_r r) p(z) dtheta,
-// xi = cos(angle) / c at source and receiver (energy flux: Weston 1971, J. Sound Vib. 18:271; Jensen and others 2011,
-// section 3.3 for A). Between two rays of one history the slope between them takes the place of p dtheta.
+// xi = cos(angle) / c at source and receiver (energy flux: Weston 1971, J. Sound Vib. 18:271; Jensen and
+// others 2011, section 3.3 for A). Between two rays of one history the slope between them takes the place of
+// p dtheta.
 //
-// Windows between two rays of the search's first fan make one arrival, with the power of all of them and the delay, angles
-// and bounces of a ray among them. Error: that of a mean over as many rays as it holds.
+// Windows between two rays of the search's first fan make one arrival, with the power of all of them and the
+// delay, angles and bounces of a ray among them. Error: that of a mean over as many rays as it holds.
 //
 // One for each search, not shared between threads.
 #pragma once
@@ -40,8 +42,8 @@ class DiffuseWindows {
   // Whether RayOptions::diffuse_below_pressure, not the strongest path, says what is weak.
   bool is_by_pressure() const { return least_ > weak_ * strongest_; }
 
-  // Whether all paths between two rays of one history are weak: more than RayOptions::diffuse_below_db below the strongest, or
-  // below its pressure.
+  // Whether all paths between two rays of one history are weak: more than RayOptions::diffuse_below_db below
+  // the strongest, or below its pressure.
   bool is_weak_branch(const FanRay& a, const FanRay& b) const;
   // Whether those beside either ray are so by a margin.
   bool is_weak_beside(const FanRay& a, const FanRay& b) const;

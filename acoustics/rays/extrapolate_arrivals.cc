@@ -14,7 +14,8 @@ struct Displacement {
   double apart, source_down, receiver_down;
 };
 
-// Angle of a straight ray of `angle_rad` and `length_m` once its end has moved: the direction of the moved end.
+// Angle of a straight ray of `angle_rad` and `length_m` once its end has moved: the direction of the moved
+// end.
 double turned(double angle_rad, double length_m, double apart_m, double down_m) {
   return elementary::atan2(length_m * elementary::sin(angle_rad) + down_m,
                            length_m * elementary::cos(angle_rad) + apart_m);

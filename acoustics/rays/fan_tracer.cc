@@ -154,8 +154,8 @@ void FanTracer::stand_at_knot(State& s, std::size_t knot, bool down) const {
   s.facet = profile_.facet_from(s.facet, s.r);
 }
 
-// A ray that rises more steeply than the bottom does anywhere leaves it behind; within a layer its sine lies between
-// those at its ends.
+// A ray that rises more steeply than the bottom does anywhere leaves it behind; within a layer its sine lies
+// between those at its ends.
 bool FanTracer::clears_bottom(double sine, double next_sine) const {
   return std::max(sine, next_sine) < -steepest_rise_;
 }

@@ -2,10 +2,11 @@
 // Traces the fan of rays among which a search brackets its eigenrays: fast, depth and its slope only.
 //
 // Model: that of acoustics/rays/arc_tracer.h, arc by arc, without step error; whole layers between two
-// bounces at the bottom come from a column (acoustics/rays/arcs/ray_column.h), all that lies above the shallowest bottom
-// as one excursion. Its zeta and d zeta/d theta are those of ArcTracer to rounding (1e-7 m and 1e-7 of the slope
-// over links of kilometres; more within a microradian of a ray that grazes). Rays that lose 6 dB more than
-// paths may are given up, by interpolated losses. Where the water changes along the link rays are those of ArcTracer.
+// bounces at the bottom come from a column (acoustics/rays/arcs/ray_column.h), all that lies above the
+// shallowest bottom as one excursion. Its zeta and d zeta/d theta are those of ArcTracer to rounding (1e-7 m
+// and 1e-7 of the slope over links of kilometres; more within a microradian of a ray that grazes). Rays that
+// lose 6 dB more than paths may are given up, by interpolated losses. Where the water changes along the link
+// rays are those of ArcTracer.
 //
 // Keeps a column and the rays' events between calls: one for each search, not shared between threads.
 #pragma once
@@ -65,7 +66,8 @@ class FanTracer {
   explicit FanTracer(const ArcTracer& exact);
 
   static constexpr std::size_t kAllEvents = std::numeric_limits<std::size_t>::max();
-  // Traces the ray of `theta` to the receiver's range, or until it has `enough_events`; then it has not arrived.
+  // Traces the ray of `theta` to the receiver's range, or until it has `enough_events`; then it has not
+  // arrived.
   FanRay trace(double theta, std::size_t enough_events = kAllEvents);
   // The events of a ray of this tracer, in order.
   std::span<const EventCode> events_of(const FanRay& ray) const {

@@ -65,7 +65,8 @@ class ImageSum {
   }
 
  private:
-  // Vertical distance to the image: 2 (n + i) u + (2 n + 1) s + 2 (n + j) d (Jensen and others 2011, section 2.4).
+  // Vertical distance to the image: 2 (n + i) u + (2 n + 1) s + 2 (n + j) d (Jensen and others 2011, section
+  // 2.4).
   Image image(int n, bool up, bool down) const {
     return {n, up, down,
             2.0 * (n + (up ? 1 : 0)) * up_ + (2.0 * n + 1) * between_ + 2.0 * (n + (down ? 1 : 0)) * down_};

@@ -42,8 +42,8 @@ struct Touches {
   BoundaryTouch top, bottom;
 };
 
-// A ray of m turns has touched m - 1 caustics, and one more when dr/dxi > 0: -1 where reflection at grazing acts like a
-// turn.
+// A ray of m turns has touched m - 1 caustics, and one more when dr/dxi > 0: -1 where reflection at grazing
+// acts like a turn.
 int caustics_of(const Bounces& bounces, double range_slope) {
   const int turns = bounces.upper_turns + bounces.lower_turns;
   if (turns + bounces.surface + bounces.bottom == 0) return 0;
@@ -108,7 +108,8 @@ bool set_boundaries(const LayeredLink& link, const LegSums& sums, const Bounces&
 void set_spreading(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
                    const LegSums& sums, const Bounces& bounces, Arrival& path) {
   // Conservation of energy in the ray tube: A^2 = c_s c_r / ((r / xi) |dr/dxi| sin_s sin_r)
-  // (Jensen and others 2011, section 3.3, with dr/dtheta = dr/dxi dxi/dtheta); each caustic turns the phase by pi / 2.
+  // (Jensen and others 2011, section 3.3, with dr/dtheta = dr/dxi dxi/dtheta); each caustic turns the phase
+  // by pi / 2.
   const RangeTerms terms = range_terms(sums, ray.family);
   const double q = terms.bq + ray.cycles * terms.xq, m = terms.bm + ray.cycles * terms.xm;
   const double sines =
@@ -186,7 +187,8 @@ bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldB
     at_high = slope_at(high);
   }
   if (!(at_low * at_high < 0)) return false;
-  // False position after Anderson and Bjoerck (1973): the value of an end that stays is taken smaller each time.
+  // False position after Anderson and Bjoerck (1973): the value of an end that stays is taken smaller each
+  // time.
   const double xi_per_angle = std::abs(bracket.at_high.xi - bracket.at_low.xi) / (bracket.high - bracket.low);
   for (int i = 0; i < kMaxFoldSteps; ++i) {
     const double slope = slope_at(theta);

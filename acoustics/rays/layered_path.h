@@ -57,8 +57,9 @@ struct LayeredRay {
   double fold_slope = 0;  // |dr/dxi| in place of its own, of the path on the dark side of a fold; 0: its own
 };
 
-// Whether Newton's method has come to its ray: `off` what is missing of the range, m, before and now. Delays err
-// by its square. Far away and near grazing, rounding may leave more: then what no longer shrinks is enough.
+// Whether Newton's method has come to its ray: `off` what is missing of the range, m, before and now. Delays
+// err by its square. Far away and near grazing, rounding may leave more: then what no longer shrinks is
+// enough.
 inline constexpr double kNotYet = 1e300;
 inline bool is_settled(double off, double off_before) {
   constexpr double kSettled = 1e-6, kNearlySettled = 1e-4;
@@ -66,17 +67,19 @@ inline bool is_settled(double off, double off_before) {
          (std::abs(off) < kNearlySettled && std::abs(off) > 0.5 * std::abs(off_before));
 }
 
-// Angles at the barrier between which d range/d xi changes its sign, and one about where; sums of the first two.
+// Angles at the barrier between which d range/d xi changes its sign, and one about where; sums of the first
+// two.
 struct FoldBracket {
   double low, high, guess;
   const LegSums &at_low, &at_high;
 };
-// Where the link lies on the dark side of the fold of the rays of so many cycles, and not too far: the ray of the path that
-// it has there (acoustics/math/fold_field.h).
+// Where the link lies on the dark side of the fold of the rays of so many cycles, and not too far: the ray of
+// the path that it has there (acoustics/math/fold_field.h).
 [[nodiscard]] bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldBracket& bracket,
                                  LayeredRay& ray, LegSums& sums);
 
-// Which side of a fold a ray is on, and the phase that it has beside a ray that turns in place of its bounces.
+// Which side of a fold a ray is on, and the phase that it has beside a ray that turns in place of its
+// bounces.
 struct Passed {
   int touched = 0;
   double phase_rad = 0;

@@ -229,8 +229,8 @@ void Search::solve_family(const Node& a, const Node& b, std::size_t family) {
   solve_monotone(from, b, family);
 }
 
-// Moves `turn`, a guess between two nodes, to where the slope of f is 0, by bisection that follows the secant; leaves
-// it where there is no such place.
+// Moves `turn`, a guess between two nodes, to where the slope of f is 0, by bisection that follows the
+// secant; leaves it where there is no such place.
 void Search::seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const {
   const auto rises = [family](const Node& node) { return node.slope[family] > 0; };
   const bool before = rises(a) != rises(turn);
@@ -247,7 +247,8 @@ void Search::seek_turn(const Node& a, const Node& b, std::size_t family, Node& t
 
 double Search::dark_reach(const Node& a, const Node& b, std::size_t family) const {
   if (!(a.slope[family] * b.slope[family] < 0) || !link_.sea.options.airy_folds || direct_only_) return 0;
-  // d range/d xi is about d f/d theta (cos / sin) X / xi. At the edge of a family it is no measure of the bend.
+  // d range/d xi is about d f/d theta (cos / sin) X / xi. At the edge of a family it is no measure of the
+  // bend.
   const auto range_slope = [family](const Node& node) {
     const double tangent = elementary::tan(node.theta);
     return std::abs(node.slope[family]) * range_terms(node.sums, kFamilies[family]).xq / tangent;
@@ -257,7 +258,8 @@ double Search::dark_reach(const Node& a, const Node& b, std::size_t family) cons
   return std::min(kDarkReach * Fold{bend, 1}.length_m(link_.sea.options.frequency_hz) / cycle_m, kNearFold);
 }
 
-// f turns there, at a number of cycles that is not whole; the fold of the rays of so many cycles lies beside it.
+// f turns there, at a number of cycles that is not whole; the fold of the rays of so many cycles lies beside
+// it.
 void Search::add_dark_path(const Node& a, const Node& b, const Node& turn, bool is_greatest,
                            std::size_t family) {
   const double f = turn.f[family];
@@ -311,8 +313,8 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
   members_.push_back(member_of(paths_.back(), family, cycles, passed));
 }
 
-// Rays that leave an end all but horizontally, one upward and one downward, are neighbours where the water turns the one
-// back at once.
+// Rays that leave an end all but horizontally, one upward and one downward, are neighbours where the water
+// turns the one back at once.
 void Search::start_run() {
   const double barrier = legs_.barrier_mps();
   const double upper_mps = link_.source_is_upper ? link_.source_speed_mps : link_.receiver_speed_mps;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every ray between two points of water that depends on depth alone, over a flat bottom.
 //
-// Method: the four families of acoustics/rays/arcs/layered_legs.h each solve b(xi) + n X(xi) = r, X one whole cycle.
-// So f = (r - b)/X is tabulated between consecutive barriers against the grazing angle at the barrier, in
-// which it is smooth; wherever f crosses a whole number n >= 0 there is a ray of n cycles, and a turn of f (a
-// fold, the caustic of two rays) is found first and split at. The table is refined until a cubic through
+// Method: the four families of acoustics/rays/arcs/layered_legs.h each solve b(xi) + n X(xi) = r, X one whole
+// cycle. So f = (r - b)/X is tabulated between consecutive barriers against the grazing angle at the barrier,
+// in which it is smooth; wherever f crosses a whole number n >= 0 there is a ray of n cycles, and a turn of f
+// (a fold, the caustic of two rays) is found first and split at. The table is refined until a cubic through
 // values and slopes predicts it. Newton on f polishes. Delay is xi r + (tau - xi r), which errs by the square
 // of what is left of the range. Amplitude from dr/dxi in closed form,
 //   A^2 = c_s c_r / ((r / xi) |dr/dxi| sin_s sin_r),
@@ -12,8 +12,8 @@
 // more when dr/dxi > 0. At a fold the field is that of acoustics/math/fold_field.h;
 // at barriers that rays pass smoothly, that of acoustics/math/turning_field.h. A family ends at the others.
 //
-// Accuracy: exact for the knots given (delays to 1e-9 s). Left out: diffraction into shadows beyond caustics' own, beam
-// displacement at the bottom, rays within the core of a channel.
+// Accuracy: exact for the knots given (delays to 1e-9 s). Left out: diffraction into shadows beyond caustics'
+// own, beam displacement at the bottom, rays within the core of a channel.
 #pragma once
 
 #include <vector>

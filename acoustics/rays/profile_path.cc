@@ -52,7 +52,8 @@ Detour greatest_detour(const std::vector<RayPoint>& points, std::size_t first, s
   return greatest;
 }
 
-// Straight from bounce to bounce, at angles all alike: the images of a flat sea (acoustics/rays/image_rays.h).
+// Straight from bounce to bounce, at angles all alike: the images of a flat sea
+// (acoustics/rays/image_rays.h).
 std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const Arrival& path) {
   std::vector<double> depths{link.source_depth_m};
   bool up = path.surface_bounces != path.bottom_bounces ? path.surface_bounces > path.bottom_bounces
@@ -71,8 +72,9 @@ std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const A
 }
 
 // That of the ray of the same launch angle that passes the receiver's depth after as many bounces, nearest to
-// where it should: its ranges are those of the link when all are made shorter or longer alike. Rays that graze a boundary
-// or turn beside a knot have another range as waves (acoustics/math/turning_field.h). Empty over a bottom that is not level.
+// where it should: its ranges are those of the link when all are made shorter or longer alike. Rays that
+// graze a boundary or turn beside a knot have another range as waves (acoustics/math/turning_field.h). Empty
+// over a bottom that is not level.
 std::optional<std::vector<RayPoint>> scaled_way(const ProfiledSea& sea, const RayLink& link,
                                                 const Arrival& path) {
   constexpr double kLonger = 1.5;
@@ -212,7 +214,8 @@ void ProfileFolds::note(double theta) {
   }
 }
 
-// Delays and tubes of rays over a bent bottom do not agree closely enough to derive from them where a fold is.
+// Delays and tubes of rays over a bent bottom do not agree closely enough to derive from them where a fold
+// is.
 std::vector<Arrival> ProfileFolds::finished(const std::vector<ProfilePath>& paths) const {
   std::vector<Arrival> arrivals;
   arrivals.reserve(paths.size() + found_.size());

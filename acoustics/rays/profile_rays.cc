@@ -126,8 +126,8 @@ bool ProfileSearch::is_predicted(const FanRay& a, const FanRay& middle, const Fa
          branch_.is_predicted(branch_.error_at(a, middle, b), a, b, kShareBeforehand);
 }
 
-// Between neighbours of one history, by how much of the depth their depths and the mean of their slopes disagree: at most by
-// all of it, as those that part.
+// Between neighbours of one history, by how much of the depth their depths and the mean of their slopes
+// disagree: at most by all of it, as those that part.
 bool ProfileSearch::is_rough(const std::vector<FanRay>& fan) const {
   double apart = 0;
   for (std::size_t i = 1; i < fan.size(); ++i) {
@@ -153,8 +153,8 @@ void ProfileSearch::look_between(const FanRay& a, const FanRay& b, int depth, do
   const auto event = branch_.parting(a, b);
   if (!event && branch_.is_faint(a) && branch_.is_faint(b)) return;
   if (neither) {
-    // Over steep bottoms rays that arrive come through windows between others that turn back. Two rays that were given
-    // up with the same history have none between them, as a rule.
+    // Over steep bottoms rays that arrive come through windows between others that turn back. Two rays that
+    // were given up with the same history have none between them, as a rule.
     const bool alike = !event && a.events == b.events;
     if (alike || depth >= kDeepestWindowHalving) return;
   } else {

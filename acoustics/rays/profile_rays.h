@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every ray between two points of layered water over a bottom that changes with range.
 //
-// Method: a fan of exactly traced rays (acoustics/rays/arc_tracer.h). Between two neighbours of the same history
-// the unfolded depth zeta(theta) at the receiver's range is smooth but for bends of the water's profile; each
-// cell is halved until a cubic through values and slopes predicts its middle. Every image of the receiver,
-// +-z + 2 H k, that lies between two rays is a bracket; a turn of zeta (a fold) is sought first and split at.
-// Histories that part (a ray that grazes the surface or a crest, or meets the other side of a corner) part
-// the cell there, by bisection; between rays that do not arrive it is halved five times where their histories differ.
-// Newton with the ray tube polishes; what is left of the depth is taken off the
+// Method: a fan of exactly traced rays (acoustics/rays/arc_tracer.h). Between two neighbours of the same
+// history the unfolded depth zeta(theta) at the receiver's range is smooth but for bends of the water's
+// profile; each cell is halved until a cubic through values and slopes predicts its middle. Every image of
+// the receiver, +-z + 2 H k, that lies between two rays is a bracket; a turn of zeta (a fold) is sought first
+// and split at. Histories that part (a ray that grazes the surface or a crest, or meets the other side of a
+// corner) part the cell there, by bisection; between rays that do not arrive it is halved five times where
+// their histories differ. Newton with the ray tube polishes; what is left of the depth is taken off the
 // delay to first order, so delays err by its square. Amplitude A^2 = c_r cos_s / (c_s r |q|) times the
 // bounces; at a fold the field is that of acoustics/math/fold_field.h.
 //
@@ -47,8 +47,9 @@ struct Branch {
   double low, high;  // of zeta between them
 };
 
-// Which parts of a fan hold paths: between neighbours the unfolded depth is halved until it is a cubic; such branches are solved by
-// branch_solver.h, for one receiver or collected for many. One for each search, not shared between threads.
+// Which parts of a fan hold paths: between neighbours the unfolded depth is halved until it is a cubic; such
+// branches are solved by branch_solver.h, for one receiver or collected for many. One for each search, not
+// shared between threads.
 class ProfileSearch {
  public:
   // Refers to both, which have to outlive this.
@@ -72,8 +73,8 @@ class ProfileSearch {
   std::vector<FanRay> traced(const std::vector<double>& angles);
   // Of each ray of the fan, whether those on both sides tell where it arrives.
   std::vector<bool> predicted(const std::vector<FanRay>& fan) const;
-  // Of three neighbours in the fan, whether the one in the middle is where a cubic through the others has it; one right beside
-  // another says nothing.
+  // Of three neighbours in the fan, whether the one in the middle is where a cubic through the others has it;
+  // one right beside another says nothing.
   bool is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b) const;
   // Whether rays diverge so much that each search for them would find others between.
   bool is_rough(const std::vector<FanRay>& fan) const;
@@ -85,8 +86,8 @@ class ProfileSearch {
   // The same over a rough bottom: to where a window is narrow, or what lies in it weak.
   void look_into_window(const FanRay& a, const FanRay& b, int depth, double error);
   void part(const FanRay& a, const FanRay& b, std::size_t event, int depth);
-  // From a ray to one at the edge of its family. Rays that all but graze the bottom there change the faster the
-  // less they bounce: they are looked at in steps that shrink towards the edge.
+  // From a ray to one at the edge of its family. Rays that all but graze the bottom there change the faster
+  // the less they bounce: they are looked at in steps that shrink towards the edge.
   void scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, int depth);
   // A branch without a turn, or any: solved, or collected.
   void take_monotone(const FanRay& a, const FanRay& b);

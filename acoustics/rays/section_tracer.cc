@@ -111,8 +111,8 @@ SectionTracer::State SectionTracer::start(double theta, TracedRay& ray) const {
   return s;
 }
 
-// By the cubic through depths and slopes at both ends, a millimetre off at most: on both sides of an edge speed and gradient are the
-// same. To the surface by Newton's method from there.
+// By the cubic through depths and slopes at both ends, a millimetre off at most: on both sides of an edge
+// speed and gradient are the same. To the surface by Newton's method from there.
 SectionTracer::Step SectionTracer::until_depth(const State& s, const Step& step, double depth_m, Edge edge) {
   const HermiteCubic depths(s.ray.z, step.stages[0].slope.z, step.end.z, step.stages[3].slope.z, step.dr);
   Step part = stepped(s, step.dr * depths.crossing(depth_m));
@@ -128,7 +128,8 @@ SectionTracer::Step SectionTracer::until_depth(const State& s, const Step& step,
   return part;
 }
 
-// Along the circle through the step's ends (acoustics/rays/arcs/arc_steps.h), then by Newton's method to the facet's line.
+// Along the circle through the step's ends (acoustics/rays/arcs/arc_steps.h), then by Newton's method to the
+// facet's line.
 SectionTracer::Step SectionTracer::until_bottom(const State& s, const Step& step) const {
   const double sine = step.end.s / step.stages[3].per_c, curvature = (sine - s.sine) / step.dr;
   const ArcPoint at{s.r, s.ray.z, s.sine, s.xi, s.c, 1 / s.xi, 0, s.facet, s.on_facet};
@@ -228,9 +229,9 @@ bool SectionTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, Tra
   const Facet& facet = profile_.facets()[index];
   const FacetBounce bounce = bounce_off(facet, {s.r, s.ray.z, s.sine, s.xi, s.c, 1 / s.xi, 0, index});
   if (bounce.out_cosine < kMinCosine) return false;
-  // As at the bottom of arc_tracer.cc, with u = g . n = b cos - a sin of the ray as it comes and u' as it goes in the place
-  // of g cos: p' = p + q ((u + u') cot G / c + 2 k / sin G) / c. Likewise for rays that meet the facet itself and leave it at
-  // another angle.
+  // As at the bottom of arc_tracer.cc, with u = g . n = b cos - a sin of the ray as it comes and u' as it
+  // goes in the place of g cos: p' = p + q ((u + u') cot G / c + 2 k / sin G) / c. Likewise for rays that
+  // meet the facet itself and leave it at another angle.
   const LocalSpeed g = s.patch.at(s.r, s.ray.z);
   const double in = g.down * s.cosine - g.along * s.sine;
   const double out = g.down * bounce.out_cosine - g.along * bounce.out_sine;
@@ -268,7 +269,8 @@ void SectionTracer::trace(double theta, TracedRay& ray, TracedDetails* details) 
     const bool is_there = s.r + step.dr > ends_.range_m - kOnEdge;
     go(s, step, ray, details);
     if (s.cosine < kMinCosine) return;
-    // A step to the receiver may end at the bottom of the last facet before it: then the ray is reflected first.
+    // A step to the receiver may end at the bottom of the last facet before it: then the ray is reflected
+    // first.
     if (is_there && step.edge != Edge::kBottom && !(step.edge == Edge::kAbove && s.cell.layer == 0))
       return arrive(s, ray);
     if (!cross(s, step, ray, details)) return;

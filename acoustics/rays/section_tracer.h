@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Traces one ray through water that changes smoothly along the link, over a bottom that does.
 //
-// Model: within a rectangle of acoustics/sea/ray_section.h sound speed is a polynomial. With s = sin / c the vertical slowness and
-// xi = sqrt(1 / c^2 - s^2) that along the link, Hamilton's equations in range (Jensen and others 2011, section 3.2) are
+// Model: within a rectangle of acoustics/sea/ray_section.h sound speed is a polynomial. With s = sin / c the
+// vertical slowness and xi = sqrt(1 / c^2 - s^2) that along the link, Hamilton's equations in range (Jensen
+// and others 2011, section 3.2) are
 //   dz/dr = s / xi,  ds/dr = -c_z / (c^3 xi),  d tau/dr = 1 / (c^2 xi),
 // and dynamic ray tracing (Cerveny 2001; section 3.3 there), c_nn the second derivative across the ray,
 //   dq/dr = p / xi,  dp/dr = -q c_nn / (c^3 xi),  c_nn = c_rr sin^2 - 2 c_rz sin cos + c_zz cos^2.
 // Runge and Kutta's scheme of fourth order takes them along in steps of at most 15 m that end at edges
-// of rectangles, at turns and at boundaries, so that within a step all is analytic; the bottom is sought along the circle through a
-// step's ends, a millimetre off at most, and met by Newton's method. Speed and gradient are the same on both
-// sides of an edge: nothing happens to the tube there. The tube at boundaries is that of acoustics/rays/arc_tracer.h.
+// of rectangles, at turns and at boundaries, so that within a step all is analytic; the bottom is sought
+// along the circle through a step's ends, a millimetre off at most, and met by Newton's method. Speed and
+// gradient are the same on both sides of an edge: nothing happens to the tube there. The tube at boundaries
+// is that of acoustics/rays/arc_tracer.h.
 //
-// Error: 1e-8 s and 1e-3 dB over 6 km, for the section given. Immutable: calls may overlap between threads. Left out: rays
-// that turn back; gradients across the link, which turn rays out of its plane.
+// Error: 1e-8 s and 1e-3 dB over 6 km, for the section given. Immutable: calls may overlap between threads.
+// Left out: rays that turn back; gradients across the link, which turn rays out of its plane.
 #pragma once
 
 #include <array>
@@ -39,7 +41,8 @@ class SectionTracer {
   void trace(double theta, TracedRay& ray, TracedDetails* details) const;
 
  private:
-  // What the equations carry along; qx and px are the tube of rays as they are reflected, facet by facet: the slope of zeta.
+  // What the equations carry along; qx and px are the tube of rays as they are reflected, facet by facet: the
+  // slope of zeta.
   struct Carried {
     double z, s, q, p, qx, px;
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One ray that was traced, the sea it goes through, and what bounces do to it beside its direction and its tube: what the tracers
-// and the searches share.
+// One ray that was traced, the sea it goes through, and what bounces do to it beside its direction and its
+// tube: what the tracers and the searches share.
 //
 // Values: calls may overlap between threads.
 #pragma once
@@ -25,7 +25,8 @@ struct ProfiledSea {
   RaySurface surface;
   RayOptions options;
   double core_speed_mps = 0;  // rays that nowhere go faster are left out: acoustics/rays/channel_core.h
-  // Water that changes along the link, whose first column is `water`; it has to outlive the call. Null: water of depth alone.
+  // Water that changes along the link, whose first column is `water`; it has to outlive the call. Null: water
+  // of depth alone.
   const RaySection* section = nullptr;
 };
 
@@ -49,7 +50,8 @@ struct TracedRay {
   std::uint64_t family = 0;  // rays of the same events that turned in the same layers share it: arrivals.h
   std::vector<EventCode> events;
 
-  // Launched at `launch_theta`, with nothing behind it; what lies at the receiver's range stays until it is there.
+  // Launched at `launch_theta`, with nothing behind it; what lies at the receiver's range stays until it is
+  // there.
   void begin(double launch_theta);
 };
 
@@ -63,18 +65,20 @@ struct TracedDetails {
   double delay_s = 0, length_m = 0, absorption_db = 0, bottom_phase_rad = 0, bottom_loss_db = 0,
          surface_loss_db = 0, surface_sine_squares = 0, bottom_sine_squares = 0;
   double slowness_over_range = 0;  // sum of xi dr, s
-  // Where not null, takes the ray's way from behind the source to the receiver's range: the ends of all arcs, and points
-  // on them between which the straight line stays within kTrackErrorM of the arc (32 pieces of an arc at most).
+  // Where not null, takes the ray's way from behind the source to the receiver's range: the ends of all arcs,
+  // and points on them between which the straight line stays within kTrackErrorM of the arc (32 pieces of an
+  // arc at most).
   std::vector<RayPoint>* track = nullptr;
   static constexpr double kTrackErrorM = 0.1;
 };
 
-// Rays that links from one end share, in the place of a search for each. One for each line of links; not shared between threads.
+// Rays that links from one end share, in the place of a search for each. One for each line of links; not
+// shared between threads.
 class SharedRays {
  public:
   virtual ~SharedRays() = default;
-  // The paths of a link, as profile_rays(). From call to call only the receiver and the options change; what the sea of the first refers
-  // to outlives this.
+  // The paths of a link, as profile_rays(). From call to call only the receiver and the options change; what
+  // the sea of the first refers to outlives this.
   virtual std::vector<Arrival> at(const ProfiledSea& sea, const RayLink& link) = 0;
 };
 
@@ -84,8 +88,8 @@ class BounceLosses {
   // `deepest_speed_mps`: of the water at the deepest bottom.
   BounceLosses(const ProfiledSea& sea, double deepest_speed_mps);
 
-  // Notes a bounce; false where the ray is given up: it has bounced too often, or its bounces leave less than a quarter of the
-  // least factor. With `details` losses are exact. Sines of the grazing angle.
+  // Notes a bounce; false where the ray is given up: it has bounced too often, or its bounces leave less than
+  // a quarter of the least factor. With `details` losses are exact. Sines of the grazing angle.
   [[nodiscard]] bool at_surface(double sine, TracedRay& ray, TracedDetails* details) const;
   [[nodiscard]] bool at_bottom(const Facet& facet, double sine, double speed_mps, TracedRay& ray,
                                TracedDetails* details) const;

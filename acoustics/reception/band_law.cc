@@ -60,7 +60,8 @@ Values probabilities(const Values& scores) {
   return made;
 }
 
-// ln of the parts of a packet that fall independently below what is fallen below with the score, `crossings` a stretch.
+// ln of the parts of a packet that fall independently below what is fallen below with the score, `crossings`
+// a stretch.
 HALOCLINE_VECTOR_CLONES
 Values log_parts(const Values& scores, const Values& crossings, const Values& turns, double stretches) {
   const Values below = probabilities(scores);

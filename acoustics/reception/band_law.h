@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How signal over noise and interference fades in phase-shift keying, and how long its fades last.
 //
-// Q = S - t (I - mean I), t a threshold: Q is below t (N + mean I) exactly when S / (N + I) is below t. Both are sums over what
-// paths scatter (acoustics/reception/collected_sound.h), so that with c = signal - t interference of each
+// Q = S - t (I - mean I), t a threshold: Q is below t (N + mean I) exactly when S / (N + I) is below t. Both
+// are sums over what paths scatter (acoustics/reception/collected_sound.h), so that with c = signal - t
+// interference of each
 //   K(s) = ln E exp(s Q) = sum of -n ln(1 - c s) + r s / (1 - c s),
-// r the slow power that beats with it. Paths that fade together have c of all of them and n < 1; terms of alike c count as one.
-// Where Q is y = K'(s), its normal score is z = r + ln(u / r) / r, r = sign(s) sqrt(2 (s y - K)), u = s sqrt(K'') (saddle
-// point: Lugannani and Rice 1980, Barndorff-Nielsen 1986), accurate to some per cent of probability in the deepest tails, too.
-// It falls below y as often a second as the density of Q there, exp(K - s y) / sqrt(2 pi K''), times sqrt(V / (2 pi)), V the
-// variance of its slope: 2 c (2 pi B)^2 of what each term is there (Rice 1944).
+// r the slow power that beats with it. Paths that fade together have c of all of them and n < 1; terms of
+// alike c count as one. Where Q is y = K'(s), its normal score is z = r + ln(u / r) / r, r = sign(s) sqrt(2
+// (s y - K)), u = s sqrt(K'') (saddle point: Lugannani and Rice 1980, Barndorff-Nielsen 1986), accurate to
+// some per cent of probability in the deepest tails, too. It falls below y as often a second as the density
+// of Q there, exp(K - s y) / sqrt(2 pi K''), times sqrt(V / (2 pi)), V the variance of its slope: 2 c (2 pi
+// B)^2 of what each term is there (Rice 1944).
 // It stays above y at instants `step` apart, `count` of them, with the probability
 //   (1 - p) (1 - q / (1 - p))^((count - 1) (1 + e)),  q = p (1 - p) (1 - exp(-nu / (p (1 - p))))
-// p its probability below y, nu the crossings a step; e = 0.27 exp(-(B step / 0.12)^2) because the crossings of so smooth a
-// process keep apart: our fit.
+// p its probability below y, nu the crossings a step; e = 0.27 exp(-(B step / 0.12)^2) because the crossings
+// of so smooth a process keep apart: our fit.
 #pragma once
 
 #include <array>
@@ -37,8 +39,8 @@ class BandTerms {
   BandTerms(const CollectedSound& sound, double threshold);
 
   double threshold() const { return threshold_; }
-  // How much of the variance of Q interference makes or takes away, while the power that does not fade within a packet is
-  // `slow_power`; at most, at any such power.
+  // How much of the variance of Q interference makes or takes away, while the power that does not fade within
+  // a packet is `slow_power`; at most, at any such power.
   double interference_share(double slow_power) const { return share(louder(slow_power)); }
   double most_interference_share() const;
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a packet is detected and decoded, from its ratio of signal to noise and interference over time and band.
+// Whether a packet is detected and decoded, from its ratio of signal to noise and interference over time and
+// band.
 //
 // Model. A packet's information bits lie evenly after its preamble, in blocks: the header and each frame
 // (acoustics/modem/packet_format.h).
-// - Bits that fade together (PSK, uncoded FSK, and everything without fading): errors do not depend on each other,
+// - Bits that fade together (PSK, uncoded FSK, and everything without fading): errors do not depend on each
+//   other,
 //     ln P = sum over cells of bits in the cell * ln(1 - BER(SINR))
-// - Coded frequency-shift keying, whose interleaver spreads a block over its time and whose hops spread it over the band,
-//   while it fades: the exponential effective ratio of a block's cells, of chips,
+// - Coded frequency-shift keying, whose interleaver spreads a block over its time and whose hops spread it
+//   over the band, while it fades: the exponential effective ratio of a block's cells, of chips,
 //     gamma = -beta ln mean exp(-gamma_i / beta),  P = (1 - BER(gamma))^bits
 //   beta = 2.95 lands the JANUS code on its own curve for chips that fade by themselves (Rayleigh) to 0.1 dB
 //   (convolutional_code.h).

@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kFrequencies = kSignalFrequencies;
 constexpr double kDbPerNeper = 10 / std::numbers::ln10;
 constexpr double kMaxExponent = 300;  // of a ratio of variances: no packet of it is lost
-// Our fit to judged packets (tests/channel_server/packets/link_prediction_test.cc): of the beats of coherent paths, what counts
-// for single errors.
+// Our fit to judged packets (tests/channel_server/packets/link_prediction_test.cc): of the beats of coherent
+// paths, what counts for single errors.
 constexpr double kBeatShare = 1;
 
 using Frequencies = std::array<double, kFrequencies>;
@@ -32,8 +32,8 @@ double mean_of(const std::array<double, kFrequencies>& values) {
   return sum / kFrequencies;
 }
 
-// Of Rician powers: E exp(-x) = exp(-c / (1 + d)) / (1 + d), c the steady power, d the fading one, in units of 1 / scale.
-// Loops over the frequencies without sums, which compilers make vectors.
+// Of Rician powers: E exp(-x) = exp(-c / (1 + d)) / (1 + d), c the steady power, d the fading one, in units
+// of 1 / scale. Loops over the frequencies without sums, which compilers make vectors.
 HALOCLINE_VECTOR_CLONES
 Exponentials of_rician(const SlowSound& slow, double scale, double fast) {
   Exponentials made;
@@ -56,9 +56,9 @@ Exponentials of_rician(const SlowSound& slow, double scale, double fast) {
   return made;
 }
 
-// The same of single errors: the mean of exp(-scale power) of a power that varies within the frequency's part of the band as
-// S + sqrt(V) and S - sqrt(V), S^2 - V = constant^2, of which single errors feel a part (our fit): the signal is met at one
-// place of each part of the band.
+// The same of single errors: the mean of exp(-scale power) of a power that varies within the frequency's part
+// of the band as S + sqrt(V) and S - sqrt(V), S^2 - V = constant^2, of which single errors feel a part (our
+// fit): the signal is met at one place of each part of the band.
 HALOCLINE_VECTOR_CLONES
 void take_beats(const SlowSound& slow, double scale, double fast, Exponentials& made) {
   const double d = scale * fast, slower = scale / (1 + d);
@@ -73,8 +73,9 @@ void take_beats(const SlowSound& slow, double scale, double fast, Exponentials& 
   }
 }
 
-// From the means and variances of single times to those of the mean over a packet's, `own` and `beats` being the variance of
-// its power. Deep fades, which count most, are shorter than the power's coherence, in time and in frequency.
+// From the means and variances of single times to those of the mean over a packet's, `own` and `beats` being
+// the variance of its power. Deep fades, which count most, are shorter than the power's coherence, in time
+// and in frequency.
 HALOCLINE_VECTOR_CLONES
 void finish_cells(const ExponentialMeans::Fast& fast, ExponentialMeans::Cells& cells) {
   const std::size_t count = cells.count;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Means over a packet's time and band of exp(-scale power) while its slow fading holds: what decides of frequency-shift keying
-// (acoustics/reception/link_prediction.h). Many states are computed together, as vectors.
+// Means over a packet's time and band of exp(-scale power) while its slow fading holds: what decides of
+// frequency-shift keying (acoustics/reception/link_prediction.h). Many states are computed together, as
+// vectors.
 #pragma once
 
 #include <array>
@@ -15,8 +16,9 @@ class ExponentialMeans {
   static constexpr std::size_t kMax = kMediumStates;
   using Values = std::array<double, kMax>;
 
-  // What fades within a packet: its mean power; the variance of its mean over the bits, by itself and by its beats over the
-  // slow power. Single errors, which are met at one place of each part of the band, feel how coherent paths beat within it.
+  // What fades within a packet: its mean power; the variance of its mean over the bits, by itself and by its
+  // beats over the slow power. Single errors, which are met at one place of each part of the band, feel how
+  // coherent paths beat within it.
   struct Fast {
     double power = 0, own = 0, beats = 0;
     bool beats_within_parts = false;

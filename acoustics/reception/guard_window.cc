@@ -57,8 +57,8 @@ void replace_by_powers(std::span<double> levels_db) {
   for (double& value : levels_db) value = fast_power(value);
 }
 
-// Sum of w^2 P of the window that begins at each path; 0 of those whose paths of full weight are together weaker than the best
-// by more than what likely_windows() looks at.
+// Sum of w^2 P of the window that begins at each path; 0 of those whose paths of full weight are together
+// weaker than the best by more than what likely_windows() looks at.
 std::vector<double> window_powers(const std::vector<SoundPath>& paths, const std::vector<double>& powers,
                                   const Guard& guard) {
   const double counts = fast_power(-1.01 * kEqualDb);

@@ -36,8 +36,8 @@ struct SlowStates {
   SlowStates() {
     for (std::size_t c = 0; c < 2 * kSignalFrequencies; ++c) add_coordinate(c);
   }
-  // Coordinate `c` of the patterns' normals: each stratum once, in the one of many random orders that is correlated least
-  // with those before, by itself and by squares.
+  // Coordinate `c` of the patterns' normals: each stratum once, in the one of many random orders that is
+  // correlated least with those before, by itself and by squares.
   void add_coordinate(std::size_t c) {
     constexpr std::uint64_t kTrials = 300;
     const auto coordinate = [&](std::size_t k) -> std::array<double, kPatterns>& {
@@ -90,8 +90,9 @@ std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
   return patterns;
 }
 
-// Phase-shift keying: levels by the slow power, which rises; computed at the least, the median and the most. Between them the
-// ratios to the mean power lie on the parabola through those. Where the loudest are lost or the quietest decoded, all are.
+// Phase-shift keying: levels by the slow power, which rises; computed at the least, the median and the most.
+// Between them the ratios to the mean power lie on the parabola through those. Where the loudest are lost or
+// the quietest decoded, all are.
 std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, const StrataMean& mean,
                                                   const std::array<double, kPowers>& powers, double median,
                                                   double fast) {
@@ -197,8 +198,8 @@ class StateLevels {
   const std::array<SlowSound, kPatterns>& states_;
 };
 
-// The middle level of each state; those on both sides of it as far from it as in the states nearest in power of those of which
-// all are computed. Where those are certain, each state by itself.
+// The middle level of each state; those on both sides of it as far from it as in the states nearest in power
+// of those of which all are computed. Where those are certain, each state by itself.
 std::array<StrataMean::Levels, kPatterns> levels_of(const PacketLevels& packet, const StrataMean& mean,
                                                     const std::array<SlowSound, kPatterns>& patterns) {
   constexpr std::size_t kMiddle = StrataMean::kLevels / 2, kLast = StrataMean::kLevels - 1, kApart = 5;

@@ -28,8 +28,8 @@ void SlowSound::scale(double factor) {
 
 namespace {
 
-// Cholesky's root, lower triangular. Few paths leave the correlation without full rank: pivots of rounding's size count as
-// none.
+// Cholesky's root, lower triangular. Few paths leave the correlation without full rank: pivots of rounding's
+// size count as none.
 using Root = std::array<BandPressures, kFrequencies>;
 Root root_of(const BandCorrelation& correlation) {
   Root rows{};

@@ -19,7 +19,8 @@ struct SlowSound {
   void scale(double factor);
 };
 
-// States of the medium: pressures that have its correlation, from complex normals of variance 1, by frequency.
+// States of the medium: pressures that have its correlation, from complex normals of variance 1, by
+// frequency.
 inline constexpr std::size_t kMediumStates = 16;
 struct MediumNormals {
   using States = std::array<double, kMediumStates>;

@@ -24,7 +24,8 @@ constexpr int kRounds = 3, kRoundsOfGuess = 2;
 constexpr double kSettled = 0.03;  // change of the parts by a round that needs no other
 constexpr double kNarrow =
     0.15;  // deviation over mean, 0.65 dB: below, fading is less than the steps of the curve
-// Our fit to judged packets (tests/channel_server/packets/link_prediction_test.cc): of the variance of errors, what counts.
+// Our fit to judged packets (tests/channel_server/packets/link_prediction_test.cc): of the variance of
+// errors, what counts.
 constexpr double kErrorShare = 0.15;
 
 double halvings(double parts) {
@@ -157,7 +158,8 @@ FadingSignal PacketLevels::fading_signal(double slow_power) const {
   return {*high_, low_, slow_power, {stretches_, bits_s_ / stretches_}};
 }
 
-// -ln of the chance of all bits where fading is less than the steps of ReceptionCurves::Parts: by Hermite's five points.
+// -ln of the chance of all bits where fading is less than the steps of ReceptionCurves::Parts: by Hermite's
+// five points.
 double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance) const {
   constexpr std::array<double, 5> kScores{-2.8569700138728056, -1.3556261799742659, 0, 1.3556261799742659,
                                           2.8569700138728056};
@@ -176,7 +178,8 @@ double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance)
   return -parts * fast_log(std::max(success, 1e-30));
 }
 
-// -ln of the chance of all bits, of the parts of a packet that fade independently, each with its share of the bits.
+// -ln of the chance of all bits, of the parts of a packet that fade independently, each with its share of the
+// bits.
 double PacketLevels::loss(const FadingSignal& signal, double disturbance, double& parts) const {
   // From the one way to the other without a step.
   const double narrow = std::clamp(2 - signal.deviation() / (kNarrow * signal.mean()), 0.0, 1.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a packet comes to while the slow fading of its link holds: constant levels that decide of its preamble and of its
-// bits as the fast fading does (acoustics/reception/link_prediction.h has the model).
+// What a packet comes to while the slow fading of its link holds: constant levels that decide of its preamble
+// and of its bits as the fast fading does (acoustics/reception/link_prediction.h has the model).
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ struct Level {
   double at(double z) const { return median_db + z * (deviation_db + z * curvature_db); }
 };
 
-// How phase-shift keying fades within a packet, against two thresholds of the ratio between which it changes evenly, the higher
-// and the lower.
+// How phase-shift keying fades within a packet, against two thresholds of the ratio between which it changes
+// evenly, the higher and the lower.
 class FadingSignal {
  public:
   FadingSignal() = default;
@@ -81,9 +81,9 @@ class PacketLevels {
 
   // The mean signal over the preamble while the power without fast fading is `slow_power`, uPa^2 in dB.
   Level preamble(double slow_power) const;
-  // The ratios to noise and interference, dB, that decide of the bits. Of phase-shift keying: `disturbance` is noise and
-  // mean interference, uPa^2 over the band, `parts` a guess of how many fade independently, 0 of none, in which what comes out
-  // is left; of frequency-shift keying, noise alone.
+  // The ratios to noise and interference, dB, that decide of the bits. Of phase-shift keying: `disturbance`
+  // is noise and mean interference, uPa^2 over the band, `parts` a guess of how many fade independently, 0 of
+  // none, in which what comes out is left; of frequency-shift keying, noise alone.
   FadingSignal fading_signal(double slow_power) const;
   Level bits(const FadingSignal& signal, double disturbance, double& parts) const;
   // Whether the bits of packets of these are lost rather than right.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The curves of one modem for packets of one payload, tabulated so that a prediction costs microseconds.
 //
-// Detection of the preamble and the chance of a right bit over the ratio of signal to noise and interference in the band,
-// -40 to 60 dB in steps of 0.1 dB, linear between (error below 1e-3 of probability); beyond, the ends.
+// Detection of the preamble and the chance of a right bit over the ratio of signal to noise and interference
+// in the band, -40 to 60 dB in steps of 0.1 dB, linear between (error below 1e-3 of probability); beyond, the
+// ends.
 #pragma once
 
 #include <array>
@@ -31,8 +32,8 @@ class ReceptionCurves {
   // ln(1 - BER), at most 0.
   double log_bit_success(double sinr) const { return log_bit_success_at(decibels(sinr)); }
   double log_bit_success_at(double sinr_db) const { return interpolated(log_bit_success_, sinr_db); }
-  // Ratios, dB, between which a chance changes: below `low_db` it is less than kCertain, above `high_db` more than 1 -
-  // kCertain. Infinite where that is nowhere so.
+  // Ratios, dB, between which a chance changes: below `low_db` it is less than kCertain, above `high_db` more
+  // than 1 - kCertain. Infinite where that is nowhere so.
   static constexpr double kCertain = 1e-4;
   struct Flank {
     double low_db = 0, high_db = 0;
@@ -41,8 +42,8 @@ class ReceptionCurves {
   const Flank& bits_flank() const { return bits_flank_; }  // of all information bits
   // The ratio, dB, of that ln(1 - BER).
   double ratio_db_of(double log_bit_success) const;
-  // Parts of a packet's bits, each of 1 / 2^halvings of them: the ratio, nepers, below which they turn wrong, as a distribution
-  // of few values that fall, each with its share.
+  // Parts of a packet's bits, each of 1 / 2^halvings of them: the ratio, nepers, below which they turn wrong,
+  // as a distribution of few values that fall, each with its share.
   struct Thresholds {
     std::array<double, kThresholds> logs{};
   };

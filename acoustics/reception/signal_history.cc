@@ -53,9 +53,9 @@ void add_edges(double from_s, double to_s, int count, std::vector<double>& edges
 // Cycles of `frequency_hz` in a delay, but for whole ones.
 double cycles_in(double frequency_hz, double delay_s) { return std::fmod(frequency_hz * delay_s, 1.0); }
 
-// Pressures of the signal in one stretch, at each frequency: paths turn by a constant factor from one to the next. Coded
-// frequency-shift keying hops: each stretch meets it at another of kFrequencies places of each part of the band, in an order
-// that soon comes close to all. Uncoded stays in the middle.
+// Pressures of the signal in one stretch, at each frequency: paths turn by a constant factor from one to the
+// next. Coded frequency-shift keying hops: each stretch meets it at another of kFrequencies places of each
+// part of the band, in an order that soon comes close to all. Uncoded stays in the middle.
 class BandSum {
  public:
   BandSum(const std::vector<SoundPath>& paths, const Lock& lock, const Band& band)

@@ -2,18 +2,21 @@
 // A packet as one receiver gets it: signal and own interference over its time and band.
 //
 // Model, with the paths' responses h_p(t) (acoustics/fading/path_responses.h), the window's weights w_p
-// (acoustics/reception/guard_window.h), excess delays tau_p and Doppler factors D_p relative to the window's strongest path:
+// (acoustics/reception/guard_window.h), excess delays tau_p and Doppler factors D_p relative to the window's
+// strongest path:
 //   S(t, f) = |sum_p w_p sqrt(rho_p) h_p(t) exp(-j 2 pi (f tau_p - f_c (D_p - D) t))|^2
 //   I(t)    = sum_p i_p |h_p(t)|^2 while path p of the packet sounds
-// at 8 frequencies, evenly over the band, in 8 to 64 stretches of the bits, each a quarter of the coherence time and an
-// eighth of the bits at most, and 1 to 8 of the preamble. Phase-shift keying follows a fading path for T = 0.05 s (our
-// choice): of what it scatters, rho = exp(-(2 pi B T)^2 / 2) is signal, the rest interferes; its equaliser collects the
-// band, so S is the mean over all of it. Elsewhere rho = 1. Coded frequency-shift keying hops: its 8 frequencies move by
-// eighths of their spacing from stretch to stretch, so that no delay below 64 periods of the band is in step at all of them.
-// A Doppler shift beyond what the receiver corrects leaves e = (|D - 1| - correction) f_c: frequency-shift keying loses
-// 1 - sinc^2(e T_chip) of the signal to the next tone, phase-shift keying 1 - exp(-(2 pi e 0.01 s)^2 / 2) (our choice).
+// at 8 frequencies, evenly over the band, in 8 to 64 stretches of the bits, each a quarter of the coherence
+// time and an eighth of the bits at most, and 1 to 8 of the preamble. Phase-shift keying follows a fading
+// path for T = 0.05 s (our choice): of what it scatters, rho = exp(-(2 pi B T)^2 / 2) is signal, the rest
+// interferes; its equaliser collects the band, so S is the mean over all of it. Elsewhere rho = 1. Coded
+// frequency-shift keying hops: its 8 frequencies move by eighths of their spacing from stretch to stretch, so
+// that no delay below 64 periods of the band is in step at all of them. A Doppler shift beyond what the
+// receiver corrects leaves e = (|D - 1| - correction) f_c: frequency-shift keying loses 1 - sinc^2(e T_chip)
+// of the signal to the next tone, phase-shift keying 1 - exp(-(2 pi e 0.01 s)^2 / 2) (our choice).
 // signal_history() is as if all were corrected; shifted_history() has the loss.
-// Without fading nothing varies but which echoes sound: powers of paths add, S = sum w^2 P, at no frequency in particular.
+// Without fading nothing varies but which echoes sound: powers of paths add, S = sum w^2 P, at no frequency
+// in particular.
 #pragma once
 
 #include <cstddef>

@@ -66,7 +66,8 @@ struct PairRule {
 };
 
 // What a path's pairs with those before it add: I = 2 a_p a_q sinc(cycles),
-//   change = -I cos(phase) (1 - g), variance = I^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2, cos(2 phase) = 2 cos(phase)^2 - 1.
+//   change = -I cos(phase) (1 - g), variance = I^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2, cos(2 phase) = 2
+//   cos(phase)^2 - 1.
 void add_pairs(const SteadyBand::Member& p, std::span<const SteadyBand::Member> before, const PairRule& rule,
                SteadyBand::Sway& sway) {
   for (const SteadyBand::Member& q : before) {
@@ -161,8 +162,8 @@ std::array<SteadyBand::Part, kSignalFrequencies> SteadyBand::parts(const Sway& s
   return parts;
 }
 
-// By pairs that interfere few enough times over the band: a product of 2 a_p a_q, kept to g, its phase at the middle of the
-// band.
+// By pairs that interfere few enough times over the band: a product of 2 a_p a_q, kept to g, its phase at the
+// middle of the band.
 SteadyBand::Sway SteadyBand::sway() const {
   const double wave_number = 2 * pi * band_.centre_hz() / kSoundSpeedMps;
   PairRule rule{.exponent = -squared(wave_number * kSwayM) / 2, .least = 0};
@@ -176,8 +177,8 @@ SteadyBand::Sway SteadyBand::sway() const {
   return sway;
 }
 
-// What sway takes of the interference over the whole band: where it comes and goes over the band, sway moves it only from part
-// to part.
+// What sway takes of the interference over the whole band: where it comes and goes over the band, sway moves
+// it only from part to part.
 void SteadyBand::add(const Sway& sway, std::array<Part, kSignalFrequencies>& parts) {
   for (Part& part : parts) {
     const double power = part.constant + part.varying;

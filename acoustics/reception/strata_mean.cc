@@ -14,7 +14,8 @@ double loudness(double deviation, double z) { return fast_exp(deviation * z - de
 
 using Strata = std::array<double, 32>;
 
-// To `power`, what a gamma distribution of the mean `mean` has beyond `less` of it at normal scores (Wilson and Hilferty 1931).
+// To `power`, what a gamma distribution of the mean `mean` has beyond `less` of it at normal scores (Wilson
+// and Hilferty 1931).
 HALOCLINE_VECTOR_CLONES
 void add_gamma(double mean, double variance, double less, const Strata& scores, Strata& power) {
   const double median = 1 - variance / 9, deviation = std::sqrt(variance) / 3;

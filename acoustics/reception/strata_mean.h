@@ -2,9 +2,9 @@
 // Means over large-scale fading of what becomes of packets while the rest of their link's slow fading holds
 // (acoustics/reception/link_prediction.h has the model).
 //
-// Levels of the bits are computed at few of kLevels of large-scale fading: the ratio to the mean noise and interference changes
-// slowly with it, along a parabola where three levels tell no other. Where even the least is decoded, or the greatest lost, all
-// are: ReceptionCurves::kCertain.
+// Levels of the bits are computed at few of kLevels of large-scale fading: the ratio to the mean noise and
+// interference changes slowly with it, along a parabola where three levels tell no other. Where even the
+// least is decoded, or the greatest lost, all are: ReceptionCurves::kCertain.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,8 @@ class StrataMean {
   // `deviation` of large-scale fading, nepers of power; `curves` outlive it.
   StrataMean(double deviation, const ReceptionCurves& curves, const MeanSound& sound, double noise);
 
-  // Noise at a level of large-scale fading, in units of the sound's loudness there; of phase-shift keying, all that disturbs.
+  // Noise at a level of large-scale fading, in units of the sound's loudness there; of phase-shift keying,
+  // all that disturbs.
   double noise(std::size_t level) const { return noise_[level]; }
   // Preambles are surely found, bits surely right or surely not, whatever else fades.
   bool finds(const Level& preamble) const;
@@ -80,13 +81,15 @@ class StrataMean {
     fill_between(kMiddle, kLevels - 1, bits, at);
     return bits;
   }
-  // Parts of levels(): `begin`..`end` as that of `from`, by noise and interference; by those at 0, 3 and 6; by 1 and 5, too.
+  // Parts of levels(): `begin`..`end` as that of `from`, by noise and interference; by those at 0, 3 and 6;
+  // by 1 and 5, too.
   Levels& spread(Levels& bits, std::size_t from, std::size_t begin, std::size_t end) const;
   bool lie_on_parabola(const Levels& bits) const;
   Levels& fill_parabola(Levels& bits) const;
   Levels& fill_quartic(Levels& bits) const;
-  // Adds what becomes of packets in a slow state that has this `share` of the probability; of phase-shift keying the mean over
-  // the even strata of even states, the odd ones of odd. Normals of fast fading come in another order in each state.
+  // Adds what becomes of packets in a slow state that has this `share` of the probability; of phase-shift
+  // keying the mean over the even strata of even states, the odd ones of odd. Normals of fast fading come in
+  // another order in each state.
   void add(const Level& preamble, const Levels& bits, std::size_t state, double share);
 
   double acquisition_probability() const { return std::min(acquired_, 1.0); }  // sums of rounded parts

@@ -28,7 +28,8 @@ constexpr NamedModel kNames[] = {
     {AbsorptionModel::kThorpJensen, "thorp-jensen"},
 };
 
-// Fisher and Simmons 1977, equations as in table II of the 2010 IEEE SMC paper; f in Hz, P in atm, T in degC, Np/m:
+// Fisher and Simmons 1977, equations as in table II of the 2010 IEEE SMC paper; f in Hz, P in atm, T in degC,
+// Np/m:
 //   alpha = A1 f1 f^2 / (f1^2 + f^2) + A2 P2 f2 f^2 / (f2^2 + f^2) + A3 P3 f^2 (boric acid, MgSO4, water).
 AbsorptionSpectrum fisher_simmons(const AbsorbingWater& water) {
   const double t = water.temperature_degc, p = water.pressure_atm, kelvin = t + 273.1;
@@ -91,7 +92,8 @@ AbsorptionSpectrum ainslie_mccolm(const AbsorbingWater& water) {
           .low_below_400_hz = false};
 }
 
-// Thorp 1967: alpha = a + b f^2 / (1 + f^2) + c f^2 / (4100 + f^2) + d f^2, f in kHz, in the constants of each author.
+// Thorp 1967: alpha = a + b f^2 / (1 + f^2) + c f^2 / (4100 + f^2) + d f^2, f in kHz, in the constants of
+// each author.
 constexpr AbsorptionSpectrum thorp(double constant, double first, double second, double quadratic) {
   return {constant, first, 1, second, 4100, quadratic, false};
 }

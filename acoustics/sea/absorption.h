@@ -6,7 +6,8 @@
 // so water at a point is described once (AbsorptionSpectrum) and evaluated at many frequencies.
 //
 //   const double a = absorption_spectrum(AbsorptionModel::kFisherSimmons1977, {.temperature_degc = 4,
-//       .salinity_psu = 35, .depth_m = 0, .pressure_atm = 1, .ph = 8}).components_at(10e3).total_db_per_km;  // 0.83
+//       .salinity_psu = 35, .depth_m = 0, .pressure_atm = 1, .ph = 8}).components_at(10e3).total_db_per_km;
+//       // 0.83
 //
 // Frequencies come in Hz; formulas in kHz convert inside. Levels are true decibels (10 log10).
 // Left out: scattering, bubbles, turbid water, fresh water with dissolved minerals.

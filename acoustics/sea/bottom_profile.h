@@ -28,8 +28,8 @@ struct ProfiledDepth {
   bool operator==(const ProfiledDepth&) const = default;
 };
 
-// Above it two facets by themselves meet in a corner, below in a bend: 5 degrees separates crests from samples of
-// a curve.
+// Above it two facets by themselves meet in a corner, below in a bend: 5 degrees separates crests from
+// samples of a curve.
 inline const double kDefaultCreaseAngle = to_radians(5);
 
 // One straight piece, z = z0 + slope (r - r0) for r in r0..r1.

@@ -97,8 +97,8 @@ Quotient rayleigh(const FluidBottom& bottom, double sine, double water_speed_mps
   return {above - below.re, -below.im, above + below.re, below.im};
 }
 
-// APL-UW TR 9407 (1994), part II: SBL = 1.26e-3 w^1.57 f^0.85 / sin G dB for w >= 6 m/s; below, the value at 6 m/s
-// times e^(1.2 (w - 6)). f in kHz.
+// APL-UW TR 9407 (1994), part II: SBL = 1.26e-3 w^1.57 f^0.85 / sin G dB for w >= 6 m/s; below, the value at
+// 6 m/s times e^(1.2 (w - 6)). f in kHz.
 double apl_bubble_loss_db(double wind_mps, double grazing_rad, double khz) {
   constexpr double kJoin = 6;  // m/s
   const double steady = 1.26e-3 / elementary::sin(grazing_rad) *

@@ -99,8 +99,8 @@ struct RaySurface {
 // Loss of one bounce, dB >= 0, at `grazing_rad` in (0, pi/2] and `frequency_hz` > 0.
 double surface_loss_db(const RaySurface& surface, double grazing_rad, double frequency_hz);
 
-// The same for many bounces at one frequency, from the sine of the grazing angle, (0, 1]: what all have in common is
-// computed once. At most 400 dB.
+// The same for many bounces at one frequency, from the sine of the grazing angle, (0, 1]: what all have in
+// common is computed once. At most 400 dB.
 class SurfaceLoss {
  public:
   SurfaceLoss(const RaySurface& surface, double frequency_hz);

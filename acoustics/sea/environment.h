@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sea of a link as one value: everything that the acoustic models depend on.
 //
-// Immutable by convention: build one, `validate` it, share it by const reference between threads. One sea state holds for the
-// whole scenario; so does one profile, unless there is a field.
+// Immutable by convention: build one, `validate` it, share it by const reference between threads. One sea
+// state holds for the whole scenario; so does one profile, unless there is a field.
 #pragma once
 
 #include <memory>
@@ -33,14 +33,16 @@ struct Environment {
   double ph = 8.0;                       // 7 to 9, NBS scale
   double latitude_rad = to_radians(45);  // depth to pressure; -pi/2..pi/2
   double sea_surface_z_m = 0;            // NED z of the surface, -100..100
-  // By place, where there is one; the profile is then that of the world's origin, and gives the formula of sound speed.
+  // By place, where there is one; the profile is then that of the world's origin, and gives the formula of
+  // sound speed.
   WaterField field = {};
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
 void validate(const Environment& environment);
 
-// The same sea with the field's profile at a place, m north and east, for everywhere; where there is no field, the same.
+// The same sea with the field's profile at a place, m north and east, for everywhere; where there is no
+// field, the same.
 Environment environment_at(const Environment& environment, double north_m, double east_m);
 // m/s, at a place of the world; above the surface and below the deepest water, that of these.
 double sound_speed_at(const Environment& environment, const Vec3& position_ned_m);

@@ -8,9 +8,10 @@
 // dB re 1 uPa^2/Hz. The total is the sum of the linear powers, never of decibels. 10 Hz to about 1 MHz; the
 // spread of measurements about it is 5 to 10 dB. Depth does not enter. Rain of R mm/h adds
 //   rain 42.4 + 15.4 log R - 10 log(1 + (f / 15)^2):
-// the level at 5 kHz of Ma and Nystuen 2005 (J. Atmos. Ocean. Technol. 22, 1225; 2 to 200 mm/h), white up to some 15 kHz and
-// falling beyond, as the impact of drops (Nystuen 1986); that shape is our choice. A table of levels takes the place of
-// all of these (noise_spectrum.h). Left out: ice, animals; vehicles: channel_server/vehicles/vehicle_noise.h.
+// the level at 5 kHz of Ma and Nystuen 2005 (J. Atmos. Ocean. Technol. 22, 1225; 2 to 200 mm/h), white up to
+// some 15 kHz and falling beyond, as the impact of drops (Nystuen 1986); that shape is our choice. A table of
+// levels takes the place of all of these (noise_spectrum.h). Left out: ice, animals; vehicles:
+// channel_server/vehicles/vehicle_noise.h.
 #pragma once
 
 #include <memory>

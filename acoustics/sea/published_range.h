@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ranges of input for which formulas of the sea were published. Outside of them a formula is evaluated all the same:
-// whoever shows results to a person says so.
+// The ranges of input for which formulas of the sea were published. Outside of them a formula is evaluated
+// all the same: whoever shows results to a person says so.
 //
-// Sources: the headers of the formulas (sound_speed.h, absorption.h, noise.h, boundary_reflection.h). An end that its
-// author does not state is infinite. Values: calls may overlap between threads.
+// Sources: the headers of the formulas (sound_speed.h, absorption.h, noise.h, boundary_reflection.h). An end
+// that its author does not state is infinite. Values: calls may overlap between threads.
 #pragma once
 
 #include <limits>
@@ -39,8 +39,8 @@ inline constexpr PublishedRange kPublishedNoiseHz{10, 1e6};
 inline constexpr PublishedRange kPublishedMunkDepthM{0, 5000};
 PublishedRange published_surface_loss_hz(SurfaceModel model);
 
-// One sentence for each formula that an environment takes beyond its range, for sound in `band` between the surface and
-// `deepest_m`; none where all are within.
+// One sentence for each formula that an environment takes beyond its range, for sound in `band` between the
+// surface and `deepest_m`; none where all are within.
 std::vector<std::string> beyond_published_ranges(const Environment& environment, const Band& band,
                                                  double deepest_m);
 

@@ -11,7 +11,8 @@
 namespace halocline::acoustics {
 namespace {
 
-// The slope at point i of the parabola through it and its neighbours, at an end through the first three; of the line through two.
+// The slope at point i of the parabola through it and its neighbours, at an end through the first three; of
+// the line through two.
 template <class Value>
 double parabola_slope(const std::vector<double>& x, std::size_t i, const Value& f) {
   const auto difference = [&](std::size_t k) { return (f(k + 1) - f(k)) / (x[k + 1] - x[k]); };
@@ -25,8 +26,8 @@ double parabola_slope(const std::vector<double>& x, std::size_t i, const Value& 
 
 double minmod(double a, double b) { return a * b <= 0 ? 0 : std::abs(a) < std::abs(b) ? a : b; }
 
-// That slope within what Huynh 1993, equation (2.17), allows (M3-A): no overshoot beside a sharp bend or in water of steady speed, and the
-// parabola's slope where the water is smooth, at its extremes too.
+// That slope within what Huynh 1993, equation (2.17), allows (M3-A): no overshoot beside a sharp bend or in
+// water of steady speed, and the parabola's slope where the water is smooth, at its extremes too.
 template <class Value>
 double limited_slope(const std::vector<double>& x, std::size_t i, const Value& f) {
   const std::size_t last = x.size() - 1;

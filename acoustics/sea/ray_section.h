@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Water whose sound speed changes along a link as well as with depth, as rays see it: smooth, by bicubic patches.
+// Water whose sound speed changes along a link as well as with depth, as rays see it: smooth, by bicubic
+// patches.
 //
-// Model: columns of water (acoustics/sea/ray_water.h) at rising ranges, all with the same knots, make rectangles. In each of them the speed
-// is the bicubic Hermite polynomial (Press and others 2007, section 3.6) of its values at the four corners and of c_r, c_z and
-// c_rz there, the slopes of parabolas through a point and its two neighbours. So the speed and its gradient are continuous, and
-// there is no kink by which a ray tube would depend on which side of it a ray turns. Slopes along depth are limited after Huynh
-// (1993, SIAM J. Numer. Anal. 30, 57): water of steady speed stays so, a sharp bend has no overshoot, an extreme stays smooth. Behind the
-// last column the water is that of the column. Absorption is that of the two columns beside, mixed by range.
+// Model: columns of water (acoustics/sea/ray_water.h) at rising ranges, all with the same knots, make
+// rectangles. In each of them the speed is the bicubic Hermite polynomial (Press and others 2007, section
+// 3.6) of its values at the four corners and of c_r, c_z and c_rz there, the slopes of parabolas through a
+// point and its two neighbours. So the speed and its gradient are continuous, and there is no kink by which a
+// ray tube would depend on which side of it a ray turns. Slopes along depth are limited after Huynh (1993,
+// SIAM J. Numer. Anal. 30, 57): water of steady speed stays so, a sharp bend has no overshoot, an extreme
+// stays smooth. Behind the last column the water is that of the column. Absorption is that of the two columns
+// beside, mixed by range.
 //
-// Error against a function with derivatives: of fourth order in the spacing for the speed, of second for its curvature; no
-// more than first beside the first and the last knot.
+// Error against a function with derivatives: of fourth order in the spacing for the speed, of second for its
+// curvature; no more than first beside the first and the last knot.
 //
 // Immutable: calls may overlap between threads. Ranges are from the source, m.
 #pragma once
@@ -45,7 +48,8 @@ class SpeedPatch {
 
 class RaySection {
  public:
-  // At least one column, the first at range 0. Throws InvalidArgument when ranges do not rise or knots differ.
+  // At least one column, the first at range 0. Throws InvalidArgument when ranges do not rise or knots
+  // differ.
   RaySection(std::vector<double> ranges_m, std::vector<RayWater> columns);
 
   const std::vector<RayWater>& columns() const { return columns_; }

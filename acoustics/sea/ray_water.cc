@@ -45,8 +45,8 @@ std::vector<SpeedRow> sampled_knots(const SoundSpeedProfile& profile, double tol
   return knots_of_column(sampled(corners, 1, speed, tolerance));
 }
 
-// Adds knots in place of `knot` if it is the axis of a channel whose kink is mild enough; false otherwise. With x = z -
-// z_knot, g1 and g2 the gradients above and below:
+// Adds knots in place of `knot` if it is the axis of a channel whose kink is mild enough; false otherwise.
+// With x = z - z_knot, g1 and g2 the gradients above and below:
 //   c = c_knot + (g1 + g2) x / 2 + (g2 - g1) (x^2 / d + d) / 4  within |x| <= d.
 bool round_off(const SpeedRow& above, const SpeedRow& knot, const SpeedRow& below, double tolerance,
                std::vector<SpeedRow>& rounded) {

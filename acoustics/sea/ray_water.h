@@ -4,11 +4,11 @@
 // Model: between two knots a ray is an arc of a circle, so travel time, range and length are closed forms. A
 // table of depth and speed is taken as it is (exact); temperature-salinity tables and Munk's formula are
 // sampled where the straight line between knots would be further than `speed_tolerance_mps` from the profile.
-// A kink where the speed is least makes a channel that the water has not: there, and there alone, a parabola takes its
-// place (rounded_channels), by no more than the tolerance. Below the last knot and above the first the speed is constant.
-// Absorption in a layer is the parabola through its value at the top, the middle and the bottom. Delay error of sampling and of
-// thinning: below tolerance / speed of the delay, mostly far less, as errors of both signs cancel (0.01 m/s: below 7e-6 of
-// the delay).
+// A kink where the speed is least makes a channel that the water has not: there, and there alone, a parabola
+// takes its place (rounded_channels), by no more than the tolerance. Below the last knot and above the first
+// the speed is constant. Absorption in a layer is the parabola through its value at the top, the middle and
+// the bottom. Delay error of sampling and of thinning: below tolerance / speed of the delay, mostly far less,
+// as errors of both signs cancel (0.01 m/s: below 7e-6 of the delay).
 //
 // Immutable: calls may overlap between threads. Left out: change of the water with range.
 #pragma once
@@ -83,12 +83,13 @@ class RayWater {
 };
 
 // The fewest of the given knots, first and last among them, between which linear interpolation stays within
-// `tolerance_mps` of all of them: a deep profile of 101 knots needs 20 for 0.1 m/s. Throws when tolerance_mps < 0.
+// `tolerance_mps` of all of them: a deep profile of 101 knots needs 20 for 0.1 m/s. Throws when tolerance_mps
+// < 0.
 std::vector<SpeedRow> thinned(const std::vector<SpeedRow>& knots, double tolerance_mps);
 // The same knots with the kink at each minimum of the speed replaced by knots on the parabola that meets both
-// neighbouring pieces with their gradients, as far as the middle of the shorter of them. Of the kink by Delta g per
-// second it takes half-height d to where the speed changes by Delta g d / 4 <= tolerance_mps; kinks for which d is below
-// 1 m stay. Throws when tolerance_mps < 0.
+// neighbouring pieces with their gradients, as far as the middle of the shorter of them. Of the kink by Delta
+// g per second it takes half-height d to where the speed changes by Delta g d / 4 <= tolerance_mps; kinks for
+// which d is below 1 m stay. Throws when tolerance_mps < 0.
 std::vector<SpeedRow> rounded_channels(const std::vector<SpeedRow>& knots, double tolerance_mps);
 // The rows of a table of speeds, or samples of another profile between which it stays within the tolerance.
 std::vector<SpeedRow> knots_of(const SoundSpeedProfile& profile, double speed_tolerance_mps);

@@ -81,7 +81,8 @@ double chen_millero(const ChenMilleroCoefficients& k, double t, double s, double
 }  // namespace
 
 double mackenzie_1981(double temperature_degc, double salinity_psu, double depth_m) {
-  // Mackenzie 1981, nine terms: c = 1448.96 + 4.591 T - 5.304e-2 T^2 + 2.374e-4 T^3 + 1.340 (S - 35) + 1.630e-2 D
+  // Mackenzie 1981, nine terms: c = 1448.96 + 4.591 T - 5.304e-2 T^2 + 2.374e-4 T^3 + 1.340 (S - 35) +
+  // 1.630e-2 D
   //   + 1.675e-7 D^2 - 1.025e-2 T (S - 35) - 7.139e-13 T D^3.
   const double t = temperature_degc, s = salinity_psu - 35, d = depth_m;
   return 1448.96 + ((2.374e-4 * t - 5.304e-2) * t + 4.591) * t + 1.340 * s + (1.630e-2 + 1.675e-7 * d) * d -

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kTallestCell = 100;       // m, within the table
 constexpr double kTallestCellBelow = 500;  // m, below it, where only pressure changes
-// degC: relaxation frequencies follow exp(-3052 / T), so absorption a f2 f^2 / (f2^2 + f^2) has poles 41 degC off the real axis,
-// and Gauss's 5 nodes over 5 degC err by (2 * 41 / 2.5)^-10.
+// degC: relaxation frequencies follow exp(-3052 / T), so absorption a f2 f^2 / (f2^2 + f^2) has poles 41 degC
+// off the real axis, and Gauss's 5 nodes over 5 degC err by (2 * 41 / 2.5)^-10.
 constexpr double kWarmestCell = 5;
 
 std::string row_name(std::size_t index, const char* what) {

@@ -102,8 +102,9 @@ class SoundSpeedProfile {
   std::vector<double> slowness_to_boundary_;  // integral of dz / c from 0 to each boundary, s
 };
 
-// A profile that ships, by name: "global-mean", "global-mean-s35", "harris-zorzi", "munk". Empty for any other name.
-// `model` overrides the formula that a profile prefers; `assumed` is the water of those that hold speeds alone.
+// A profile that ships, by name: "global-mean", "global-mean-s35", "harris-zorzi", "munk". Empty for any
+// other name. `model` overrides the formula that a profile prefers; `assumed` is the water of those that hold
+// speeds alone.
 std::optional<SoundSpeedProfile> built_in_profile(std::string_view name, std::optional<SoundSpeedModel> model,
                                                   WaterSample assumed);
 

@@ -62,7 +62,8 @@ struct Powers {
 
 double teos10_75_term(double absolute_salinity_g_per_kg, double conservative_temperature_degc,
                       double pressure_dbar) {
-  // c^2 = -v^2 / (dv/dp), v = sum of v_ijk x^i y^j z^k, x = sqrt((S + 24) / S_u), y = T / 40, z = p / 10^4 dbar.
+  // c^2 = -v^2 / (dv/dp), v = sum of v_ijk x^i y^j z^k, x = sqrt((S + 24) / S_u), y = T / 40, z = p / 10^4
+  // dbar.
   const Powers x(std::sqrt((absolute_salinity_g_per_kg + kSalinityOffset) / kSalinityScale));
   const Powers y(conservative_temperature_degc / kTemperatureScale);
   const Powers z(pressure_dbar / kPressureScale);

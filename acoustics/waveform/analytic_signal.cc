@@ -54,7 +54,8 @@ const std::vector<SincRow>& sinc_rows() {
   return rows;
 }
 
-// Four numbers that a processor adds and multiplies side by side, the same operations on each whatever it has for that.
+// Four numbers that a processor adds and multiplies side by side, the same operations on each whatever it has
+// for that.
 using Four = double __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
 
 // The sum over taps between two rows times samples, real and turned.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sampled signal without its negative frequencies, at any instant: what a path turns in phase and delays by any time.
+// A sampled signal without its negative frequencies, at any instant: what a path turns in phase and delays by
+// any time.
 //   x_a(t) = x(t) + j (h * x)(t),  h the Hilbert transformer, taps 2 / (pi k) at odd k
-// Between samples by a sinc of 32 taps; both filters are cut by a Kaiser window. From 0.01 to 0.4 of the sampling rate the errors
-// of amplitude are below 1e-4. The signal is 0 before its first and after its last sample.
+// Between samples by a sinc of 32 taps; both filters are cut by a Kaiser window. From 0.01 to 0.4 of the
+// sampling rate the errors of amplitude are below 1e-4. The signal is 0 before its first and after its last
+// sample.
 #pragma once
 
 #include <complex>

@@ -70,8 +70,8 @@ Layout layout_of(const NetcdfFile& file, const std::string& variable) {
   return layout;
 }
 
-// The variable asked for, or the only one on latitudes and longitudes, or the only one of two dimensions that is
-// no position: none where there are several.
+// The variable asked for, or the only one on latitudes and longitudes, or the only one of two dimensions that
+// is no position: none where there are several.
 std::optional<Layout> find_layout(const NetcdfFile& file, const std::string& wanted) {
   if (!wanted.empty()) return file.has(wanted) ? std::optional(layout_of(file, wanted)) : std::nullopt;
   std::vector<Layout> planes, placed;

@@ -46,7 +46,8 @@ struct LoadedRaster {
   RasterReport report;
 };
 
-// Throws InvalidArgument when the file cannot be read, does not state where it lies, or covers no post at all.
+// Throws InvalidArgument when the file cannot be read, does not state where it lies, or covers no post at
+// all.
 LoadedRaster load_raster(const RasterOptions& options, const LocalFrame& frame, const GridGeometry& geometry);
 
 // A raster whose coordinates already are local metres (coordinate_system "local"), post by post, without

@@ -48,9 +48,9 @@ struct PostCounts {
 
 class RasterSource {
  public:
-  // Opens a raster with GDAL, which the first call loads (0.1 s). origin_latitude_deg, origin_longitude_deg: of the
-  // scenario, around which longitudes are unwrapped. Throws InvalidArgument with GDAL's words when the file cannot be
-  // read, when it lacks what options must state, and when GDAL cannot be loaded.
+  // Opens a raster with GDAL, which the first call loads (0.1 s). origin_latitude_deg, origin_longitude_deg:
+  // of the scenario, around which longitudes are unwrapped. Throws InvalidArgument with GDAL's words when the
+  // file cannot be read, when it lacks what options must state, and when GDAL cannot be loaded.
   static std::unique_ptr<RasterSource> open(const RasterOptions& options, double origin_latitude_deg,
                                             double origin_longitude_deg);
   virtual ~RasterSource() = default;
@@ -59,7 +59,8 @@ class RasterSource {
   virtual int rows() const = 0;
   virtual bool is_local() const = 0;  // its coordinates are metres east and north of the scenario's origin
 
-  // Of a place on the earth (degrees, WGS84); NaN where the raster's projection has none. Not for local rasters.
+  // Of a place on the earth (degrees, WGS84); NaN where the raster's projection has none. Not for local
+  // rasters.
   virtual PixelPosition pixel_at(double latitude_deg, double longitude_deg) const = 0;
   // Of metres east and north of the origin; only for local rasters.
   virtual PixelPosition pixel_at_local(double north_m, double east_m) const = 0;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a scenario's terrain is made: a base grid from a shape or a raster, relief on top, finer grids nested in it.
+// How a scenario's terrain is made: a base grid from a shape or a raster, relief on top, finer grids nested
+// in it.
 //
-// Order: the base is made (shape sampled, or raster resampled once into the local frame), relief is added, nested
-// grids are read and blended in, each with relief of its own. Relief is synthetic and labelled so in the summary.
-// A nested grid's relief is that of the base where both hold the same octaves: relief belongs to the place. A
-// shape and its relief go on beyond the grid without end, at the grid's spacing; a raster ends where its grid
-// does.
+// Order: the base is made (shape sampled, or raster resampled once into the local frame), relief is added,
+// nested grids are read and blended in, each with relief of its own. Relief is synthetic and labelled so in
+// the summary. A nested grid's relief is that of the base where both hold the same octaves: relief belongs to
+// the place. A shape and its relief go on beyond the grid without end, at the grid's spacing; a raster ends
+// where its grid does.
 //
 //   const PreparedTerrain prepared = prepare_terrain(recipe, {29.9167, -28.4167});
 #pragma once

@@ -118,9 +118,9 @@ void append_piece(std::vector<ProfilePoint>& points, const Piece& piece) {
   append_point(points, piece.end_m, piece.depth(length), piece.status);
 }
 
-// The samples of a line over one grid, finite: what HeightGrid::locate and Terrain::depth_at compute, in passes over a block of
-// samples without a branch, so that compilers make vectors of the first, and all posts of a block are on their way to the cache
-// before one is read.
+// The samples of a line over one grid, finite: what HeightGrid::locate and Terrain::depth_at compute, in
+// passes over a block of samples without a branch, so that compilers make vectors of the first, and all posts
+// of a block are on their way to the cache before one is read.
 class GridSampler {
  public:
   explicit GridSampler(const HeightGrid& grid) : grid_(grid) {}

@@ -48,8 +48,8 @@ double first_root(double a, double b, double c, double length) {
   return s <= length ? s : kNone;
 }
 
-// True when a + b s + c s^2 stays above the slack for s in [0, length]: a parabola sags by c length^2 / 4 at most below
-// the chord between its ends. Spares most cells the root.
+// True when a + b s + c s^2 stays above the slack for s in [0, length]: a parabola sags by c length^2 / 4 at
+// most below the chord between its ends. Spares most cells the root.
 bool stays_above(double a, double b, double c, double length) {
   const double end = a + (b + c * length) * length;
   return std::min(a, end) - std::max(c, 0.0) * (0.25 * length * length) > kSlackM;

@@ -8,9 +8,9 @@
 // interval: no point of the ray belongs to no cell, whatever the rounding. In a cell bottom minus ray is a
 // quadratic in the parameter; a value at or below zero on entry is a hit, which closes the seams that
 // rounding leaves between cells. Blocks whose shallowest post lies below the ray's deepest point there are
-// leapt over. Accuracy: 3e-10 m against long double on rays of 20 km (tests/bathymetry/terrain/ray_reference_test.cc
-// holds 1e-6). Left out: rays from below the bottom (the caller tests the start). `trace_grid` takes one ray;
-// wide_trace.h follows many by the same steps.
+// leapt over. Accuracy: 3e-10 m against long double on rays of 20 km
+// (tests/bathymetry/terrain/ray_reference_test.cc holds 1e-6). Left out: rays from below the bottom (the
+// caller tests the start). `trace_grid` takes one ray; wide_trace.h follows many by the same steps.
 #pragma once
 
 #include "bathymetry/terrain/height_grid.h"

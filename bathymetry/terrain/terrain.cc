@@ -40,8 +40,8 @@ std::uint32_t spread(std::uint32_t n) {
   return (n | n << 1) & 0x0555;
 }
 
-// The numbers of the rays, ordered along a Morton curve over 64 x 64 tiles of the grid where they begin: neighbours read the
-// same posts. Rays outside, or not finite, belong to a tile at the edge.
+// The numbers of the rays, ordered along a Morton curve over 64 x 64 tiles of the grid where they begin:
+// neighbours read the same posts. Rays outside, or not finite, belong to a tile at the edge.
 std::vector<std::uint32_t> in_morton_order(const GridGeometry& grid, std::span<const Ray> rays) {
   constexpr std::size_t kTiles = 64;
   const auto tile = [](double from_m, double length_m) {
@@ -191,7 +191,8 @@ RayHit Terrain::finish(const Departure& departure, const TraceResult& result, co
           upward_normal(cell.slope_u(result.at.v) / spacing, cell.slope_v(result.at.u) / spacing)};
 }
 
-// The bound on the bottom's depth where a ray starts: it spares most rays the two cache misses of looking up the bottom.
+// The bound on the bottom's depth where a ray starts: it spares most rays the two cache misses of looking up
+// the bottom.
 const float* Terrain::shallowest_around(const Vec3& point_ned_m) const {
   const Patch& base = patches_.front();
   const auto at = base.grid.locate(point_ned_m.x(), point_ned_m.y());

@@ -112,8 +112,9 @@ class Terrain {
   // Where the ray first meets the bottom. A ray that begins exactly on the bottom hits at range 0.
   RayHit closest_hit(const Ray& ray) const;
 
-  // The same of many rays, in their order: each answer is that of closest_hit, bit by bit. They are followed in Morton order
-  // (Morton 1966) of where they begin, several at a time (wide_trace.h): 1.5 to 2 times as fast from some hundred rays on.
+  // The same of many rays, in their order: each answer is that of closest_hit, bit by bit. They are followed
+  // in Morton order (Morton 1966) of where they begin, several at a time (wide_trace.h): 1.5 to 2 times as
+  // fast from some hundred rays on.
   std::vector<RayHit> closest_hits(std::span<const Ray> rays, VectorUnit unit = widest_vector_unit()) const;
 
   // Whether the bottom stands between two points: `hit` blocked (range from `from`), `miss` free, else as

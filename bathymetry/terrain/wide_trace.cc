@@ -10,7 +10,8 @@
 namespace halocline::bathymetry {
 namespace {
 
-// So many rays are under way at a time. While the lanes of one group compute, what others read next comes into the cache.
+// So many rays are under way at a time. While the lanes of one group compute, what others read next comes
+// into the cache.
 constexpr int kRaysUnderWay = 64;
 
 // N numbers at once. Comparisons give -1 in the lanes that they hold in.
@@ -80,8 +81,8 @@ class WideWalk {
   using Reals = typename Vectors<N>::Reals;
   using Integers = typename Vectors<N>::Integers;
 
-  // Of integers from 0 to 2^31: 2^52 + n has n as its last bits. No instruction before AVX-512 converts 64 bits.
-  // (By reference: how vectors are returned depends on the instructions that a function may use.)
+  // Of integers from 0 to 2^31: 2^52 + n has n as its last bits. No instruction before AVX-512 converts 64
+  // bits. (By reference: how vectors are returned depends on the instructions that a function may use.)
   [[gnu::always_inline]] static inline void to_reals(const Integers& n, Reals& out) {
     constexpr double kTwoTo52 = 0x1p52;
     out = reinterpret_cast<Reals>(n | std::bit_cast<long long>(kTwoTo52)) - kTwoTo52;

@@ -31,8 +31,8 @@ Vec3 moving_node(int i, double depth_m) {
   return {1000.0 + i % 997, 0.5 * (i % 89), depth_m + 0.1 * (i % 101)};
 }
 
-// Links of one node at 100 m with others at depths spread about `depth_m`. Arguments: that depth, and the vector
-// instructions (-1: capacity left out).
+// Links of one node at 100 m with others at depths spread about `depth_m`. Arguments: that depth, and the
+// vector instructions (-1: capacity left out).
 void straight_link(benchmark::State& state) {
   const bool with_capacity = state.range(1) >= 0;
   const auto instructions = static_cast<VectorInstructions>(std::max<std::int64_t>(state.range(1), 0));

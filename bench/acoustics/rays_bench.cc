@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the eigenrays of one link cost on one core: searched for, and extrapolated from a search near by.
 //
-// Claims (microseconds, searched for): isovelocity 3, layered of 3 and 7 knots 20, deep water thinned from 101 knots
-// 80, a slope 170, a bottom of many facets 1500.
+// Claims (microseconds, searched for): isovelocity 3, layered of 3 and 7 knots 20, deep water thinned from
+// 101 knots 80, a slope 170, a bottom of many facets 1500.
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -86,8 +86,8 @@ std::vector<Situation> over_rough_bottoms(double range_m) {
   return all;
 }
 
-// Over these, the range in metres; what is weak as power (0), every ray one by one (1), as power also what is weaker than 1e-4 of
-// the pressure at 1 m, 80 dB (2).
+// Over these, the range in metres; what is weak as power (0), every ray one by one (1), as power also what is
+// weaker than 1e-4 of the pressure at 1 m, 80 dB (2).
 void rough_bottoms(benchmark::State& state) {
   std::vector<Situation> all = over_rough_bottoms(static_cast<double>(state.range(0)));
   for (Situation& at : all) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Profiles, pyramid and loading on 4096 x 4096 posts of rugged bottom, 10 m apart, about 300 m deep (rays: terrain_rays_bench).
-// Targets: a profile sample 12 ns, a 4096 x 4096 GeoTIFF with its pyramid 0.2 s.
+// Profiles, pyramid and loading on 4096 x 4096 posts of rugged bottom, 10 m apart, about 300 m deep (rays:
+// terrain_rays_bench). Targets: a profile sample 12 ns, a 4096 x 4096 GeoTIFF with its pyramid 0.2 s.
 #include <cmath>
 #include <cstdint>
 #include <mutex>
@@ -60,7 +60,8 @@ void build_pyramid(benchmark::State& state) {
 }
 BENCHMARK(build_pyramid)->Unit(benchmark::kMillisecond);
 
-// An uncompressed GeoTIFF in local metres, as files are, read from memory: decoding, checks, pyramid, version.
+// An uncompressed GeoTIFF in local metres, as files are, read from memory: decoding, checks, pyramid,
+// version.
 void load_geotiff(benchmark::State& state) {
   GDALAllRegister();
   const char* path = "/vsimem/bench.tif";

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Round trips to the bathymetry service: a batch of rays out, its reply back, over memq and over udpm on loopback.
+// Round trips to the bathymetry service: a batch of rays out, its reply back, over memq and over udpm on
+// loopback.
 //
-// The service runs in a thread of its own with its own lcm::LCM, as in a process of its own; memq has one queue, so
-// there client and service take turns in one thread. Rays are those of the mix of bathymetry_bench.cc. Run it on a
-// private bus (scripts/isolated). Targets over udpm: 99 % of round trips within 150 us for 1 ray, 350 us for 512.
+// The service runs in a thread of its own with its own lcm::LCM, as in a process of its own; memq has one
+// queue, so there client and service take turns in one thread. Rays are those of the mix of
+// bathymetry_bench.cc. Run it on a private bus (scripts/isolated). Targets over udpm: 99 % of round trips
+// within 150 us for 1 ray, 350 us for 512.
 #include <algorithm>
 #include <atomic>
 #include <chrono>

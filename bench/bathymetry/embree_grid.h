@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The bottom as a grid of Embree (Wald et al. 2014), to compare the speed of rays with.
 //
-// Model: two triangles a cell in single precision, robust mode, built at high quality. Its surface differs from ours by a
-// quarter of a cell's twist, so ranges agree to metres, not to the bit. One thread a query.
+// Model: two triangles a cell in single precision, robust mode, built at high quality. Its surface differs
+// from ours by a quarter of a cell's twist, so ranges agree to metres, not to the bit. One thread a query.
 #pragma once
 
 #include <limits>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays on 4096 x 4096 posts of rugged bottom, 10 m apart, about 300 m deep: one by one, in batches, and by Embree's robust grid
-// (where CMake finds Embree: ./scripts/setup peers).
+// Rays on 4096 x 4096 posts of rugged bottom, 10 m apart, about 300 m deep: one by one, in batches, and by
+// Embree's robust grid (where CMake finds Embree: ./scripts/setup peers).
 //
-// Rays start 5 to 250 m above the bottom at random places: V near-vertical to 500 m, S slanted 45 degrees to 10 km,
-// G grazing (within 2 degrees of level) to 1..20 km, mix a third each. Targets a core: batches of the mix three times as fast
-// as Embree; two threads 1.9 times one.
+// Rays start 5 to 250 m above the bottom at random places: V near-vertical to 500 m, S slanted 45 degrees to
+// 10 km, G grazing (within 2 degrees of level) to 1..20 km, mix a third each. Targets a core: batches of the
+// mix three times as fast as Embree; two threads 1.9 times one.
 #include <cmath>
 #include <cstdint>
 #include <mutex>

@@ -102,8 +102,8 @@ void survey_tables(RayPropagation& propagation, SeabedMap& seabed, const std::ve
   while (!propagation.are_ready(now, table_rows(vehicles).links)) answer_requests(seabed);
 }
 
-// The same along rays over a seamount, in the global mean profile. Everybody moves between two ticks, so every
-// pair's paths are searched. Items are links (both ways of a pair share a search).
+// The same along rays over a seamount, in the global mean profile. Everybody moves between two ticks, so
+// every pair's paths are searched. Items are links (both ways of a pair share a search).
 void ray_link_table(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
   const auto seabed = std::make_shared<SeabedMap>(SeabedRule{});
@@ -140,8 +140,8 @@ class AmbientNoise : public ReceiverNoise {
   bool is_ready(const EndPair&, SimTime, VehicleId) override { return true; }
 };
 
-// A best-place answer of 1600 links: 40 depths, 40 listeners within 5 km, along rays in layered water over level ground; each
-// question is of another place, so every link is searched.
+// A best-place answer of 1600 links: 40 depths, 40 listeners within 5 km, along rays in layered water over
+// level ground; each question is of another place, so every link is searched.
 void best_place(benchmark::State& state) {
   constexpr int kListeners = 40, kDepths = 40;
   const auto seabed = std::make_shared<SeabedMap>(SeabedRule{});
@@ -239,7 +239,8 @@ void packet(benchmark::State& state) {
 }
 BENCHMARK(packet)->Arg(3)->Arg(20)->Arg(100);
 
-// The same along rays over the seamount, of vehicles at rest: after the first packet every link's rays are known.
+// The same along rays over the seamount, of vehicles at rest: after the first packet every link's rays are
+// known.
 void packet_along_kept_rays(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
   const auto seabed = std::make_shared<SeabedMap>(SeabedRule{});

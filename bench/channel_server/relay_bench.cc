@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far from its instant a packet is delivered in real time: a channel server in a process of its own, over udpm.
+// How far from its instant a packet is delivered in real time: a channel server in a process of its own, over
+// udpm.
 //
 // This program is the conductor and both vehicles; so simulation time is its own steady clock, and the error
 // of a delivery is the instant at which RECEIVE is handled here less the utime that RECEIVE states. Run it on

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What hosts feel of the modem gateway: how long a command waits for its echo while a mission runs, and what idle doors cost. To be run
-// on a private bus (scripts/isolated). Aims on an idle machine: 5 ms at the median, 20 % of a core.
+// What hosts feel of the modem gateway: how long a command waits for its echo while a mission runs, and what
+// idle doors cost. To be run on a private bus (scripts/isolated). Aims on an idle machine: 5 ms at the
+// median, 20 % of a core.
 #include <algorithm>
 #include <chrono>
 #include <fstream>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many outcomes a second of CPU ns-3's underwater acoustic network (UAN) decides: NODES nodes within 2 km, 32 bytes of
-// Aloha from each once a minute for SECONDS, Thorp's absorption, ambient noise. What is decided: a packet at each other node.
+// How many outcomes a second of CPU ns-3's underwater acoustic network (UAN) decides: NODES nodes within 2
+// km, 32 bytes of Aloha from each once a minute for SECONDS, Thorp's absorption, ambient noise. What is
+// decided: a packet at each other node.
 //
 //   ns3_uan NODES SECONDS: prints outcomes, of them received, and seconds of CPU.
 #include <cstdint>

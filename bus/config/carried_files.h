@@ -9,8 +9,9 @@
 //   xxh3 = "a9ca6625fbec8fdf"
 //   lines = ["source_level_db = 181.0", ""]
 //
-// Keys name the file by `name`. A text is carried by its lines, other bytes as `base64`. What is above kMaxCarriedBytes, or made of several
-// files, is not carried: its table has `place` and `bytes`, and the file is read there.
+// Keys name the file by `name`. A text is carried by its lines, other bytes as `base64`. What is above
+// kMaxCarriedBytes, or made of several files, is not carried: its table has `place` and `bytes`, and the file
+// is read there.
 #pragma once
 
 #include <cstddef>

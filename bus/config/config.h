@@ -3,11 +3,13 @@
 //
 // Each `*_config.h` declares a plain struct with defaults and a function
 //
-//   void visit(ConfigVisitor& v, MyConfig& c) { v.number("wind_mps", c.wind_mps, {0, 60, "m/s", "10 m above the sea"}); }
+//   void visit(ConfigVisitor& v, MyConfig& c) { v.number("wind_mps", c.wind_mps, {0, 60, "m/s", "10 m above
+//   the sea"}); }
 //
-// A reader fills the struct and collects every error (wrong type, impossible value, unknown key) with file, line, key and
-// what is allowed; a writer prints the effective configuration, or an example with comments. Configuration holds degrees,
-// hours and kilohertz only where its key says so; the struct is SI: convert in visit.
+// A reader fills the struct and collects every error (wrong type, impossible value, unknown key) with file,
+// line, key and what is allowed; a writer prints the effective configuration, or an example with comments.
+// Configuration holds degrees, hours and kilohertz only where its key says so; the struct is SI: convert in
+// visit.
 #pragma once
 
 #include <algorithm>
@@ -176,9 +178,9 @@ class ConfigFile {
   // no read() visited. Without it, only unknown keys of sections that were read and not shared are errors.
   void check(bool whole_file);
 
-  // What shows only once several sections, or what they name, are known. `key` is the whole path of a key, given or not:
-  // "vehicle.0.mission.speed_mps"; `value` is what holds, shown where the file does not give the key. An error is thrown
-  // by the next check_findings, beside all others; warnings are kept.
+  // What shows only once several sections, or what they name, are known. `key` is the whole path of a key,
+  // given or not: "vehicle.0.mission.speed_mps"; `value` is what holds, shown where the file does not give
+  // the key. An error is thrown by the next check_findings, beside all others; warnings are kept.
   void refuse(const std::string& key, const std::string& value, const std::string& what_is_allowed);
   void warn(const std::string& key, const std::string& value, const std::string& what_to_know);
   // Throws ConfigErrors with all that was refused so far.
@@ -187,8 +189,9 @@ class ConfigFile {
   const std::vector<std::string>& warnings() const;
 
   const std::string& path() const;
-  // The document with its overrides as TOML: keys in alphabetical order, no comments, without the keys `left_out`
-  // ("section.key"); and with the files that it names (carried_files.h), so that it reads the same anywhere.
+  // The document with its overrides as TOML: keys in alphabetical order, no comments, without the keys
+  // `left_out` ("section.key"); and with the files that it names (carried_files.h), so that it reads the same
+  // anywhere.
   std::string to_toml(const std::vector<std::string>& left_out = {}) const;
 
  private:

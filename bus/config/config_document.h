@@ -76,8 +76,8 @@ std::string value_text(const toml::node& node);
 // A name as in errors without the numbers of list items: "vehicle[0].modem." is "vehicle.modem.".
 std::string without_indices(const std::string& name);
 
-// "; did you mean KEY?" for a key that no program reads, `prefix` naming its table as in errors; empty when no known key
-// is near (known_keys.cc).
+// "; did you mean KEY?" for a key that no program reads, `prefix` naming its table as in errors; empty when
+// no known key is near (known_keys.cc).
 std::string suggestion_for(const ConfigDocument& document, const std::string& prefix, std::string_view key);
 
 // Fills structs from one table of the document; `prefix` names the table in errors ("environment.").

@@ -27,8 +27,8 @@ std::string parse_error_text(const std::string& where, const toml::parse_error& 
   return text.str();
 }
 
-// The parts of a dotted key that are read. toml++ nests a table for each and frees them by recursion; with its 256
-// values within values this bounds the stack. The keys of a scenario have at most five.
+// The parts of a dotted key that are read. toml++ nests a table for each and frees them by recursion; with
+// its 256 values within values this bounds the stack. The keys of a scenario have at most five.
 constexpr int kMaxKeyParts = 32;
 
 // Behind the string that opens at `at`: a quote, or three for one of many lines.
@@ -183,8 +183,8 @@ std::string with_brackets(const std::string& key) {
   return name;
 }
 
-// "file:line: key is value; remark". The place is that of the innermost table that the file has on the way to a key
-// that it does not give.
+// "file:line: key is value; remark". The place is that of the innermost table that the file has on the way to
+// a key that it does not give.
 std::string finding(ConfigDocument& document, const std::string& key, const std::string& value,
                     const std::string& remark) {
   toml::node* node = &document.root;

@@ -130,8 +130,8 @@ class DocumentPrinter {
 
 // ---- structs that are written
 
-// A table as it will be written. Several bodies may visit one table (each program its keys of [[vehicle]]): the
-// first visit of a key, a section or an item makes it, later ones add what they know.
+// A table as it will be written. Several bodies may visit one table (each program its keys of [[vehicle]]):
+// the first visit of a key, a section or an item makes it, later ones add what they know.
 struct Table {
   std::string header;  // comment and [path] line; empty for the document itself
   std::vector<std::pair<std::string, std::string>> lines;  // key, and its whole line

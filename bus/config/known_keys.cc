@@ -10,7 +10,8 @@
 namespace halocline::bus {
 namespace {
 
-// Letters inserted, left out, replaced, or swapped with their neighbour (optimal string alignment; Damerau 1964).
+// Letters inserted, left out, replaced, or swapped with their neighbour (optimal string alignment; Damerau
+// 1964).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, above(b.size() + 1), row(b.size() + 1);
   std::iota(above.begin(), above.end(), std::size_t{0});

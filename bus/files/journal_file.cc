@@ -44,7 +44,8 @@ std::optional<View> whole_record(View bytes) {
   return bytes.first(kHead + length);
 }
 
-// The records that begin in `bytes`, one after the other up to where none is whole; returns the bytes that they take.
+// The records that begin in `bytes`, one after the other up to where none is whole; returns the bytes that
+// they take.
 std::size_t take_whole(View bytes, std::vector<JournalFile::Record>& records) {
   std::size_t at = 0;
   while (const auto record = whole_record(bytes.subspan(at))) {
@@ -61,8 +62,8 @@ std::size_t next_whole(View bytes) {
   return at;
 }
 
-// Whether the first `size` bytes are a whole record once one of their bits is flipped, which is done then. That another bit than the
-// flipped one fits the check sum of 64 bits has the chance of 8 size / 2^64.
+// Whether the first `size` bytes are a whole record once one of their bits is flipped, which is done then.
+// That another bit than the flipped one fits the check sum of 64 bits has the chance of 8 size / 2^64.
 bool mend(std::span<std::uint8_t> bytes, std::size_t size) {
   constexpr std::size_t kLargest = 65'536;  // 2^19 check sums of it take seconds
   if (size > kLargest) return false;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all participants of a lockstep run must agree upon, as words "scenario=... version=... messages=... arithmetic=...": the same scenario,
-// the same program, the same layouts of messages, and the same results of the same formulas (bus/lockstep/arithmetic_digest.h). It is no digest of
-// the binary: builds by several compilers take part in one run.
+// What all participants of a lockstep run must agree upon, as words "scenario=... version=... messages=...
+// arithmetic=...": the same scenario, the same program, the same layouts of messages, and the same results of
+// the same formulas (bus/lockstep/arithmetic_digest.h). It is no digest of the binary: builds by several
+// compilers take part in one run.
 #pragma once
 
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sends grants to participants, and retransmits those that are not answered.
 //
-// Turns that are alike travel in one grant to all addressed, else in one each; bodies longer than a datagram travel in
-// slices. A retransmission goes to those alone whose answer is missing.
+// Turns that are alike travel in one grant to all addressed, else in one each; bodies longer than a datagram
+// travel in slices. A retransmission goes to those alone whose answer is missing.
 #pragma once
 
 #include <cstdint>

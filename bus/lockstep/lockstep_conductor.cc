@@ -21,7 +21,8 @@ lockstep_result_t dropped(const std::string& name) {
   return result;
 }
 
-// Whether a result can come of a turn: steps and messages in the order of time, from the turn's instant to before its horizon.
+// Whether a result can come of a turn: steps and messages in the order of time, from the turn's instant to
+// before its horizon.
 bool is_possible(const lockstep_result_t& result, SimTime instant, SimTime horizon) {
   const std::int64_t end = std::max(horizon, instant + SimDuration::from_nanoseconds(1)).nanoseconds();
   std::int64_t before = instant.nanoseconds();

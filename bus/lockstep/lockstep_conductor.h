@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The conductor's side of the lockstep protocol (docs/architecture.md): runs the rounds of the sequencer by granting turns and
-// collecting their results, in one or several incarnations of this process. A state machine: messages and steady time
-// in, messages and journal entries out; no socket, no file, no clock.
+// The conductor's side of the lockstep protocol (docs/architecture.md): runs the rounds of the sequencer by
+// granting turns and collecting their results, in one or several incarnations of this process. A state
+// machine: messages and steady time in, messages and journal entries out; no socket, no file, no clock.
 //
-// Cost: a round is one grant (one datagram to all whose turns are alike, else one each) and one answer of each
-// participant of the round.
+// Cost: a round is one grant (one datagram to all whose turns are alike, else one each) and one answer of
+// each participant of the round.
 #pragma once
 
 #include <cstdint>

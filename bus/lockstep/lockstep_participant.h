@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The participant's side of the lockstep protocol (docs/architecture.md): joins, takes the turns it is granted, once and in
-// their order, and answers. A state machine: messages and steady time in, messages out; no socket, no clock.
+// The participant's side of the lockstep protocol (docs/architecture.md): joins, takes the turns it is
+// granted, once and in their order, and answers. A state machine: messages and steady time in, messages out;
+// no socket, no clock.
 //
-// Every grant carries the participant's incarnation and the number of its turn. The next turn is taken; the last one
-// taken is answered again with the answer that was kept; any other is ignored. So grants may be lost, duplicated and
-// reordered, and each turn is taken exactly once. Repetitions that came while a turn was being taken ask for an answer that is
-// on its way, and are ignored.
+// Every grant carries the participant's incarnation and the number of its turn. The next turn is taken; the
+// last one taken is answered again with the answer that was kept; any other is ignored. So grants may be
+// lost, duplicated and reordered, and each turn is taken exactly once. Repetitions that came while a turn was
+// being taken ask for an answer that is on its way, and are ignored.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@ class LockstepParticipant {
   // Between JOINs until one is answered, and afterwards while no grant is received.
   static constexpr SimDuration kJoinPeriod = SimDuration::from_milliseconds(100);
   static constexpr SimDuration kKeepAlivePeriod = SimDuration::from_milliseconds(250);
-  // After its last turn a participant still answers until the conductor notifies it that the run is over, or is silent
-  // for this long.
+  // After its last turn a participant still answers until the conductor notifies it that the run is over, or
+  // is silent for this long.
   static constexpr SimDuration kLinger = SimDuration::from_milliseconds(60'000);
 
   struct Outputs {
@@ -39,8 +40,8 @@ class LockstepParticipant {
 
   void on_grant(const lockstep_grant_t& grant, SimTime steady);
   void on_notice(const lockstep_notice_t& notice, SimTime steady);
-  // Between two batches of messages: those given since the last call had come before the first of them was handled. Sends the
-  // JOIN that is due.
+  // Between two batches of messages: those given since the last call had come before the first of them was
+  // handled. Sends the JOIN that is due.
   void on_timer(SimTime steady);
   SimTime next_timer() const { return next_join_; }
   // Requests its last turn: with the next answer, and with each JOIN.

@@ -2,8 +2,8 @@
 // Lockstep's messages on the wire: fragmentation into datagrams and reassembly, and digests of
 // published messages.
 //
-// A body (the turns of a grant, the result of an answer) may be longer than a datagram; it travels in slices. The same
-// body is always cut the same way, so slices of retransmissions fit together.
+// A body (the turns of a grant, the result of an answer) may be longer than a datagram; it travels in slices.
+// The same body is always cut the same way, so slices of retransmissions fit together.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ class SliceCollector {
   std::vector<std::optional<Bytes>> slices_;
 };
 
-// Digest of all messages published so far (XXH3 over instants, channels and bytes), continued from `before`: shows
-// whether an incarnation that replays the history publishes the same.
+// Digest of all messages published so far (XXH3 over instants, channels and bytes), continued from `before`:
+// shows whether an incarnation that replays the history publishes the same.
 std::int64_t digest_of(std::int64_t before, std::span<const lockstep_message_t> published);
 
 }  // namespace halocline::bus

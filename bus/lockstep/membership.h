@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Membership of a lockstep run: admits participants and returning incarnations, replays to them the turns that they
-// lack, and expels what cannot take part.
+// Membership of a lockstep run: admits participants and returning incarnations, replays to them the turns
+// that they lack, and expels what cannot take part.
 //
-// A participant that was killed returns as a new incarnation with a greater number. It takes the turns of the run's
-// history again, and the digest of what it publishes meanwhile must be that of its predecessor.
+// A participant that was killed returns as a new incarnation with a greater number. It takes the turns of the
+// run's history again, and the digest of what it publishes meanwhile must be that of its predecessor.
 #pragma once
 
 #include <cstdint>

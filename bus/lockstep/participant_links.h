@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The conductor's connections to the participants of a run: by name, and by the incarnation connected at present.
+// The conductor's connections to the participants of a run: by name, and by the incarnation connected at
+// present.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Retransmission timeout of a request from the round-trip times of earlier ones: Jacobson, "Congestion avoidance and
-// control" (1988): timeout = mean + 4 mean deviations, both smoothed. Karn's rule: the answer to a request that was
-// sent more than once yields no sample.
+// Retransmission timeout of a request from the round-trip times of earlier ones: Jacobson, "Congestion
+// avoidance and control" (1988): timeout = mean + 4 mean deviations, both smoothed. Karn's rule: the answer
+// to a request that was sent more than once yields no sample.
 //
-// The timeout doubles from the third retransmission on, up to kMax: before that a lost datagram is likelier than a slow
-// or absent peer. The time a participant computes is part of the round trip.
+// The timeout doubles from the third retransmission on, up to kMax: before that a lost datagram is likelier
+// than a slow or absent peer. The time a participant computes is part of the round trip.
 #pragma once
 
 #include <algorithm>

@@ -18,7 +18,8 @@ auto order_of(const Member& member) {
 
 constexpr int kServices = static_cast<int>(bus::Stage::kTerrain);
 
-// All channels of the family of an expression: subscriptions to each vehicle's make one. What is no channel and no prefix stays.
+// All channels of the family of an expression: subscriptions to each vehicle's make one. What is no channel
+// and no prefix stays.
 std::string family_of(const std::string& expression) {
   const bus::ChannelPattern pattern(expression);
   const bool is_text = !pattern.only_channel().empty() || !pattern.only_prefix().empty();
@@ -152,7 +153,8 @@ void Sequencer::leave_out_those_ahead(std::vector<std::size_t>& round) {
   if (others != round.begin()) round.erase(others, round.end());
 }
 
-// While something is held one that steps alone keeps to what is shared, too: the others may be waiting for a service.
+// While something is held one that steps alone keeps to what is shared, too: the others may be waiting for a
+// service.
 SimTime Sequencer::look_ahead(const std::vector<bus::ScheduleEntry>& all,
                               std::vector<std::size_t>& round) const {
   const int stage = all[round.front()].stage;
@@ -192,7 +194,8 @@ lockstep_turn_t Sequencer::turn_of(const std::string& name) const {
   return turn;
 }
 
-// What may wake one of the others, and whatever those of its stage receive; by family, for each turn has the list.
+// What may wake one of the others, and whatever those of its stage receive; by family, for each turn has the
+// list.
 std::map<std::string, bool> Sequencer::stopping_channels(const Member& of) const {
   std::map<std::string, bool> families;
   for (const auto& member : members_) {
@@ -238,8 +241,8 @@ void Sequencer::complete(std::vector<lockstep_result_t> results) {
   for (const auto& [member, result] : in_order) member->was_ahead = member->reached > now();
 }
 
-// In the order of the run: instant by instant, as far as nobody can publish anything before it, and as nobody has been woken,
-// who would.
+// In the order of the run: instant by instant, as far as nobody can publish anything before it, and as nobody
+// has been woken, who would.
 void Sequencer::release() {
   const SimTime safe_until = safe();
   auto next = held_.begin();

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Deterministic state machine of a lockstep run: membership, step order, and the total order of all messages.
 //
-// Conservative synchronisation of a distributed discrete-event simulation (Chandy and Misra 1979): a participant steps
-// only when no message can reach it any more that precedes the step; one that steps alone has lookahead to the
-// earliest instant of the others, and those of one stage share lookahead (lockstep_schedule.h). Some are then ahead of now(): what
-// they publish is held until nobody can publish anything that comes before it. The state is a function of the inputs in their
-// order (members admitted, results of rounds, ...) and of nothing else. So replaying a journal of the inputs restores it, and the
+// Conservative synchronisation of a distributed discrete-event simulation (Chandy and Misra 1979): a
+// participant steps only when no message can reach it any more that precedes the step; one that steps alone
+// has lookahead to the earliest instant of the others, and those of one stage share lookahead
+// (lockstep_schedule.h). Some are then ahead of now(): what they publish is held until nobody can publish
+// anything that comes before it. The state is a function of the inputs in their order (members admitted,
+// results of rounds, ...) and of nothing else. So replaying a journal of the inputs restores it, and the
 // turns of a participant can be replayed to a new incarnation of it.
 //
 //   sequencer.admit(join);
@@ -39,7 +40,8 @@ namespace halocline::conductor {
 
 class Sequencer {
  public:
-  // A result with this many steps: the participant was dropped. It takes no further part unless admitted again.
+  // A result with this many steps: the participant was dropped. It takes no further part unless admitted
+  // again.
   static constexpr std::int32_t kDropped = -1;
 
   // `publish` gets every message of the run, in order.
@@ -51,10 +53,11 @@ class Sequencer {
   bool is_level() const;
   // Admits a participant: at the start, late, or again after it was dropped or has left.
   void admit(const lockstep_join_t& join);
-  // The next round is this participant's last turn; then it takes no further part. False when it takes none, or was
-  // dismissed already.
+  // The next round is this participant's last turn; then it takes no further part. False when it takes none,
+  // or was dismissed already.
   bool dismiss(const std::string& name);
-  // A message of a publisher outside the run: delivered, in the order given, at the beginning of the next instant.
+  // A message of a publisher outside the run: delivered, in the order given, at the beginning of the next
+  // instant.
   void inject(lockstep_message_t message);
   // From here on every round is a last turn, at `instant`, in the order of stages.
   void end_run(SimTime instant);
@@ -77,8 +80,8 @@ class Sequencer {
   // Of a turn of the round: its instant, and before what its steps are.
   SimTime instant_of(const std::string& name) const { return instant_of(*find(name)); }
   SimTime horizon() const { return horizon_; }
-  // One result for each of the round, in whatever order. Throws std::runtime_error when one of the stage published before the
-  // instant until which it promised to be quiet, and another is beyond that.
+  // One result for each of the round, in whatever order. Throws std::runtime_error when one of the stage
+  // published before the instant until which it promised to be quiet, and another is beyond that.
   void complete(std::vector<lockstep_result_t> results);
 
   // ---- history
@@ -136,7 +139,8 @@ class Sequencer {
   void note_members_changed();
   // The instant of its next turn.
   SimTime instant_of(const Member& member) const { return std::max(now(), member.reached); }
-  // Those of them that are due again at an instant where they have stepped ahead of the others wait for these.
+  // Those of them that are due again at an instant where they have stepped ahead of the others wait for
+  // these.
   void leave_out_those_ahead(std::vector<std::size_t>& round);
   // Adds to the round those that share its lookahead; returns the horizon.
   SimTime look_ahead(const std::vector<bus::ScheduleEntry>& all, std::vector<std::size_t>& round) const;

@@ -24,8 +24,8 @@ inline std::string_view without_repair(std::string_view channel) {
   return channel;
 }
 
-// Calls `f.template operator()<Message>()` with the type of `channel` (of the channel repaired, for REPAIR); returns
-// false for any other channel.
+// Calls `f.template operator()<Message>()` with the type of `channel` (of the channel repaired, for REPAIR);
+// returns false for any other channel.
 template <class Function>
 bool with_type_of(std::string_view channel, Function&& f) {
   return bus::any_channel([&]<class Message>(const auto& ours) {

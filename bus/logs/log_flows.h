@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a log lacks, by the (session, sequence) of its messages: each publisher numbers its messages on a channel 0, 1, 2, ...
+// What a log lacks, by the (session, sequence) of its messages: each publisher numbers its messages on a
+// channel 0, 1, 2, ...
 //
-// A number between two that are there, and not there itself, is missing. What a publisher sent before the first and after the last is not
-// known. A flow whose numbers and stamps go back begins anew: the log holds two runs of the same sessions.
+// A number between two that are there, and not there itself, is missing. What a publisher sent before the
+// first and after the last is not known. A flow whose numbers and stamps go back begins anew: the log holds
+// two runs of the same sessions.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +26,8 @@ namespace halocline::clients {
 
 class LogFlows {
  public:
-  // An event of the log, in its order; on REPAIR.<channel> it fills a gap. What is no message of a flow is ignored.
+  // An event of the log, in its order; on REPAIR.<channel> it fills a gap. What is no message of a flow is
+  // ignored.
   void count(std::string_view channel, std::span<const std::uint8_t> data);
 
   struct OfChannel {
@@ -57,7 +60,8 @@ class LogFlows {
   bool begins_anew_ = false;
 };
 
-// A line about what is missing, and one about the channels with several sessions; none for a whole log of one run.
+// A line about what is missing, and one about the channels with several sessions; none for a whole log of one
+// run.
 void report_flows(std::ostream& out, const LogFlows& flows);
 
 }  // namespace halocline::clients

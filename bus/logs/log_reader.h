@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads LCM logs event by event, whatever state they are in: sound events are read, the rest is reported with its place.
+// Reads LCM logs event by event, whatever state they are in: sound events are read, the rest is reported with
+// its place.
 //
-// What is an event and what is damage: log_scan.h. A log that a recorder rotated (bus/logs/log_recorder.h) is a series of
-// files: run.lcm, run.0001.lcm, run.0002.lcm, ...; opening run.lcm reads all of it that is there, also when the
-// oldest were deleted. Any other logs may be read as one by giving several paths. Files are mapped one at a time, so
-// memory does not grow with the log; one that shrinks while it is read ends the program.
+// What is an event and what is damage: log_scan.h. A log that a recorder rotated (bus/logs/log_recorder.h) is
+// a series of files: run.lcm, run.0001.lcm, run.0002.lcm, ...; opening run.lcm reads all of it that is there,
+// also when the oldest were deleted. Any other logs may be read as one by giving several paths. Files are
+// mapped one at a time, so memory does not grow with the log; one that shrinks while it is read ends the
+// program.
 #pragma once
 
 #include <cstdint>

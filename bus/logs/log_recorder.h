@@ -48,7 +48,8 @@ class LogRecorder {
   std::int64_t events_refused() const { return events_refused_; }
   // Begun when close() has returned.
   int parts() const { return parts_.parts(); }
-  // Writes out what is buffered; nothing more is recorded. Throws std::runtime_error when the disk refused any of it.
+  // Writes out what is buffered; nothing more is recorded. Throws std::runtime_error when the disk refused
+  // any of it.
   void close();
 
  private:

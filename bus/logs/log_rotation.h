@@ -9,8 +9,8 @@
 
 namespace halocline::clients {
 
-// Each text is a size (kB, MB, GB: powers of 1000) or a simulated time (s, min, h). Throws InvalidArgument with what
-// is allowed; also when parts are to be deleted of a log that is never cut.
+// Each text is a size (kB, MB, GB: powers of 1000) or a simulated time (s, min, h). Throws InvalidArgument
+// with what is allowed; also when parts are to be deleted of a log that is never cut.
 bus::LogRotation rotation_of(const std::vector<std::string>& texts, int parts_kept);
 
 }  // namespace halocline::clients

@@ -6,14 +6,15 @@
 // changed within the data of an event do not show here. What shows is where events begin, and the lengths in
 // their headers. Rules:
 //
-// - A header is plausible when the number is not negative, the stamp lies within a century of 0, the channel has 1 to 63 bytes, no
-//   control characters, and the event ends within the log.
-// - An event that is followed by another word, or by the end of the log, is sound; but when other events with the
-//   numbers that follow fill its data exactly to the end, its length is corrupt and it is damage.
-// - One that is followed by anything else is sound, too, unless a plausible header begins within its data: then its
-//   length is corrupt, and the search continues behind its own word. Else what follows it is the damage.
-// - What lies between sound events is damage. At the end of a log it is an event that was cut short when it begins
-//   with (the beginning of) a word and no whole event follows.
+// - A header is plausible when the number is not negative, the stamp lies within a century of 0, the channel
+//   has 1 to 63 bytes, no control characters, and the event ends within the log.
+// - An event that is followed by another word, or by the end of the log, is sound; but when other events with
+//   the numbers that follow fill its data exactly to the end, its length is corrupt and it is damage.
+// - One that is followed by anything else is sound, too, unless a plausible header begins within its data:
+//   then its length is corrupt, and the search continues behind its own word. Else what follows it is the
+//   damage.
+// - What lies between sound events is damage. At the end of a log it is an event that was cut short when it
+//   begins with (the beginning of) a word and no whole event follows.
 //
 // So every event that does not overlap damaged bytes is found. Left out: a message that itself carries whole
 // LCM events is taken for damage when the event after it is damaged, or when it carries the numbers that
@@ -51,7 +52,8 @@ struct LogStep {
 };
 LogStep next_event(LogBytes log, std::size_t from);
 
-// False for bytes that hold no event and do not begin like one: some other file. Nothing at all is an empty log.
+// False for bytes that hold no event and do not begin like one: some other file. Nothing at all is an empty
+// log.
 bool looks_like_a_log(LogBytes log);
 // In words, of bytes that do not.
 std::string why_no_log(LogBytes bytes);

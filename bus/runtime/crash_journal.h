@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets a node that was killed go on where it was: replays its recent inputs, and publishes each output once in all its
-// incarnations together. For a node whose state follows from recent inputs; one whose state does not, and can be
-// written whole, has a StateJournal (state_journal.h).
+// Lets a node that was killed go on where it was: replays its recent inputs, and publishes each output once
+// in all its incarnations together. For a node whose state follows from recent inputs; one whose state does
+// not, and can be written whole, has a StateJournal (state_journal.h).
 //
-// The inputs of a state machine, and the steps that took them, give the same outputs again (Schneider 1990), of which
-// those that the journal holds are not published again.
-// Inputs and outputs are written before anything that follows from them is published (message_journal.h). For a bus
-// that repairs losses, not for lockstep, where the conductor replays.
+// The inputs of a state machine, and the steps that took them, give the same outputs again (Schneider 1990),
+// of which those that the journal holds are not published again.
+// Inputs and outputs are written before anything that follows from them is published (message_journal.h). For
+// a bus that repairs losses, not for lockstep, where the conductor replays.
 //
 //   CrashJournal journal(bus(), publisher);  // does nothing until it is open: publish_once() publishes
 //   journal.open(rule);                      // when the node is made, before anything is dispatched
 //   journal.replay_inputs([&](SimTime at) { history.push_back({at, take_inbox()}); });
 //
-// In the first step whose simulation time is known, and nothing more until kRepairTime has passed (inputs published
-// meanwhile come by repair):
+// In the first step whose simulation time is known, and nothing more until kRepairTime has passed (inputs
+// published meanwhile come by repair):
 //
 //   if (!history.empty() && !journal.resume(now.sim)) forget_all();  // it belongs to another run
 //   for (const auto& [at, inbox] : history) {
@@ -58,13 +58,15 @@ class CrashJournal {
     // How far back inputs and outputs reach; above 0. After a longer absence nothing is resumed.
     SimDuration kept;
     std::function<bool(std::string_view channel)> is_input;  // selects what is kept of what is received
-    // Inputs of which the last of each flow is kept for ever: what begins while the node is away is then known to be missing.
+    // Inputs of which the last of each flow is kept for ever: what begins while the node is away is then
+    // known to be missing.
     std::vector<Family> keep_last;
     std::vector<std::string> keep_all;  // channels whose inputs are all kept (the latest 1000)
     std::uint64_t digest = 0;           // of all that the steps depend on, beside their inputs
   };
   // Steady time, from the first step, within which repair brings what was published while the node was away:
-  // heartbeats come four times a second, the second tells of flows that began meanwhile, the messages come within two requests.
+  // heartbeats come four times a second, the second tells of flows that began meanwhile, the messages come
+  // within two requests.
   static constexpr SimDuration kRepairTime = SimDuration::from_milliseconds(600);
 
   CrashJournal(Bus& bus, NumberedPublisher& publisher) : bus_(bus), publisher_(publisher) {}
@@ -76,8 +78,9 @@ class CrashJournal {
   // ---- recovery
   // The earlier incarnation's last step; empty without one.
   std::optional<SimTime> last_step() const { return last_step_; }
-  // Hands the inputs to the node's own handlers, oldest first, and calls `end_step` after those of each step, some of which took none. Once, before
-  // anything else is dispatched: what follows an input in its flow is then known to be missing, and is repaired.
+  // Hands the inputs to the node's own handlers, oldest first, and calls `end_step` after those of each step,
+  // some of which took none. Once, before anything else is dispatched: what follows an input in its flow is
+  // then known to be missing, and is repaired.
   void replay_inputs(const std::function<void(SimTime at)>& end_step);
   // Takes up the outputs: they are not published again, their channels' numbers go on, and they are kept for
   // repair. False when the journal belongs to another run, or is too old, and is empty now.
@@ -94,9 +97,9 @@ class CrashJournal {
   bool was_published(const std::string& channel, const std::string& identity) const {
     return published_.contains({channel, identity});
   }
-  // Publishes with the channel's next number, unless an earlier incarnation has published it, or this one between
-  // resume() and end_recovery(). `identity` tells the output from all others on its channel, whichever incarnation
-  // computes it. Returns whether it was published.
+  // Publishes with the channel's next number, unless an earlier incarnation has published it, or this one
+  // between resume() and end_recovery(). `identity` tells the output from all others on its channel,
+  // whichever incarnation computes it. Returns whether it was published.
   template <class Message>
   bool publish_once(const std::string& channel, Message message, const std::string& identity) {
     if (!claim(channel, identity)) return false;

@@ -26,7 +26,8 @@ namespace {
 // For the last turn after a stop was requested.
 constexpr SimDuration kLastTurnTimeout = SimDuration::from_milliseconds(800);
 
-// The participant's side of the synchronisation channel: receives grants and notices, publishes joins and answers.
+// The participant's side of the synchronisation channel: receives grants and notices, publishes joins and
+// answers.
 class SyncPlane {
  public:
   SyncPlane(const std::string& url, const std::string& name, const std::string& accept)

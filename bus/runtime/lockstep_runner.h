@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs many nodes in one process, all at one simulation time, as fast as they compute.
 //
-// The step order is that of lockstep_schedule.h. Nodes that step together, those of one stage that are due at one instant, may
-// do so on several threads: what each publishes is kept until all have stepped, then delivered in the order of their
-// names. Messages go from node to node within the process, through no LCM. Nothing depends on a clock or a thread, so
-// two runs publish the same messages in the same order.
+// The step order is that of lockstep_schedule.h. Nodes that step together, those of one stage that are due at
+// one instant, may do so on several threads: what each publishes is kept until all have stepped, then
+// delivered in the order of their names. Messages go from node to node within the process, through no LCM.
+// Nothing depends on a clock or a thread, so two runs publish the same messages in the same order.
 #pragma once
 
 #include <cstdint>
@@ -30,15 +30,15 @@ class LockstepRunner {
   using Listener =
       std::function<void(SimTime at, std::string_view channel, std::span<const std::uint8_t> message)>;
 
-  // The nodes step by stage, and within a stage by name, whatever their order here. They must outlive the runner, and are
-  // nobody else's meanwhile. `for_each` shares those that step together among threads.
+  // The nodes step by stage, and within a stage by name, whatever their order here. They must outlive the
+  // runner, and are nobody else's meanwhile. `for_each` shares those that step together among threads.
   explicit LockstepRunner(std::vector<Node*> nodes, ForEach for_each = one_after_the_other);
   ~LockstepRunner();
   LockstepRunner(const LockstepRunner&) = delete;
   LockstepRunner& operator=(const LockstepRunner&) = delete;
 
-  // Called with each instant before its nodes step: pacing, progress. It may return false to stop the run before that
-  // instant.
+  // Called with each instant before its nodes step: pacing, progress. It may return false to stop the run
+  // before that instant.
   void set_before_instant(std::function<bool(SimTime)> callback) { before_instant_ = std::move(callback); }
   void set_listener(Listener listener) { listener_ = std::move(listener); }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Executes the turns of a lockstep run for one node: delivers the turn's messages, steps the node if it is due, and
-// returns what it published and when it is next due.
+// Executes the turns of a lockstep run for one node: delivers the turn's messages, steps the node if it is
+// due, and returns what it published and when it is next due.
 //
-// Its inputs are delivered as LCM would, and its outputs go to the result alone. With lookahead (a turn whose horizon lies
-// beyond its instant) it steps at its own instants until the horizon, until it publishes a message that may advance the due
-// instant of a participant, or until it is due again at the instant of a step.
+// Its inputs are delivered as LCM would, and its outputs go to the result alone. With lookahead (a turn whose
+// horizon lies beyond its instant) it steps at its own instants until the horizon, until it publishes a
+// message that may advance the due instant of a participant, or until it is due again at the instant of a
+// step.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long a node that is woken by a message lets more of them gather: where many come, a wake-up for each costs more than the messages.
+// How long a node that is woken by a message lets more of them gather: where many come, a wake-up for each
+// costs more than the messages.
 //
-// Rule: interrupt moderation (Mogul and Ramakrishnan 1997, "Eliminating receive livelock in an interrupt-driven kernel"). Where the
-// last whole window of kWindow had kBusy messages or more, a batch of kBatch is taken; otherwise every message at once. So a
-// message of a busy bus is handled up to kBatch later, far less than the lag of positions (docs/architecture.md).
+// Rule: interrupt moderation (Mogul and Ramakrishnan 1997, "Eliminating receive livelock in an
+// interrupt-driven kernel"). Where the last whole window of kWindow had kBusy messages or more, a batch of
+// kBatch is taken; otherwise every message at once. So a message of a busy bus is handled up to kBatch later,
+// far less than the lag of positions (docs/architecture.md).
 #pragma once
 
 #include <optional>
@@ -35,7 +37,8 @@ class Halt {
  public:
   // `used`: processor time of the process so far.
   Halt(SimTime steady, SimDuration used) : looked_(steady), used_(used) {}
-  // To be called in each turn of the loop. `waits`: the node waits for repair; `misses`: messages are missing.
+  // To be called in each turn of the loop. `waits`: the node waits for repair; `misses`: messages are
+  // missing.
   void look(SimTime steady, SimDuration used, bool waits, bool misses);
   bool holds() const { return since_.has_value(); }
 

@@ -23,7 +23,8 @@ constexpr std::size_t kMaxKept = 1000;                  // of keep_all
 constexpr std::size_t kMaxKeptLast = 4 * kMaxVehicles;  // channels of keep_last
 constexpr std::size_t kMaxSessions = 8;                 // of each
 constexpr std::size_t kHeadBytes = 9;                   // of a body: stamp, length of the channel
-// A step's time is less than this, before or after the start (146 years), so that sums and differences of times fit.
+// A step's time is less than this, before or after the start (146 years), so that sums and differences of
+// times fit.
 constexpr std::int64_t kStepNs = std::numeric_limits<std::int64_t>::max() / 2;
 
 // Body: stamp, length of the channel, channel, message.

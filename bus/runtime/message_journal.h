@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Write-ahead journal of a node's recent steps, their inputs and outputs: a file from which the next incarnation of a node that was
-// killed restores what was under way (crash_journal.h). A node whose state can be written whole keeps that instead
-// (state_journal.h).
+// Write-ahead journal of a node's recent steps, their inputs and outputs: a file from which the next
+// incarnation of a node that was killed restores what was under way (crash_journal.h). A node whose state can
+// be written whole keeps that instead (state_journal.h).
 //
-// A file of records (bus/files/journal_file.h). What is written is handed to the kernel before anything that follows from it is published, so
-// a killed process loses nothing that anybody acted upon; a machine that loses power may (nothing is forced to the disk). What a kill
-// cut off at the end is no entry, nor is one of which a bit changed. When the disk refuses an entry, or others deleted or truncated the file, the journal is
-// given up and removed, and the node goes on without one.
+// A file of records (bus/files/journal_file.h). What is written is handed to the kernel before anything that
+// follows from it is published, so a killed process loses nothing that anybody acted upon; a machine that
+// loses power may (nothing is forced to the disk). What a kill cut off at the end is no entry, nor is one of
+// which a bit changed. When the disk refuses an entry, or others deleted or truncated the file, the journal
+// is given up and removed, and the node goes on without one.
 //
 // Bounded: once a file spans `kept` of simulation time, it becomes `path`.1 (in the place of the one before)
 // and another begins with what is carried over: the last input of each flow of `keep_last` (of the latest
-// eight sessions of a channel, and of four channels for each of kMaxVehicles), and the inputs on `keep_all` (the latest 1000). So at least
-// `kept` is there, and twice that at most.
+// eight sessions of a channel, and of four channels for each of kMaxVehicles), and the inputs on `keep_all`
+// (the latest 1000). So at least `kept` is there, and twice that at most.
 #pragma once
 
 #include <cstddef>
@@ -54,8 +55,8 @@ class MessageJournal {
     // Of all that the steps depend on: what was written with another one is not inherited.
     std::uint64_t digest = 0;
   };
-  // Reads what an earlier incarnation left at `rule.path`. Throws InvalidArgument when it cannot be written, is another file, or another
-  // process has it.
+  // Reads what an earlier incarnation left at `rule.path`. Throws InvalidArgument when it cannot be written,
+  // is another file, or another process has it.
   explicit MessageJournal(Rule rule);
   MessageJournal(const MessageJournal&) = delete;
   MessageJournal& operator=(const MessageJournal&) = delete;
@@ -67,7 +68,8 @@ class MessageJournal {
   bool is_of_another_run() const { return is_of_another_run_; }
   // Whether the last input of each flow of the channel is kept.
   bool keeps_last(std::string_view channel) const;
-  // Bytes of the earlier incarnation's files that were no whole entry; flipped bits that were set right (journal_file.h).
+  // Bytes of the earlier incarnation's files that were no whole entry; flipped bits that were set right
+  // (journal_file.h).
   std::size_t bytes_damaged() const { return bytes_damaged_; }
   std::size_t bits_mended() const { return bits_mended_; }
   // The disk refused an entry; nothing more is written.
@@ -75,8 +77,8 @@ class MessageJournal {
 
   // Keeps a received message in memory until the step that takes it.
   void add_input(std::string_view channel, const void* data, std::size_t size);
-  // Writes the inputs added since, as taken at `now`; before them the latest step without any, if it came after what was
-  // written last: what it did, it did before it knew them.
+  // Writes the inputs added since, as taken at `now`; before them the latest step without any, if it came
+  // after what was written last: what it did, it did before it knew them.
   void write_inputs(SimTime now);
   void write_output(SimTime now, std::string_view channel, std::vector<std::uint8_t> bytes);
   // Another run: forgets everything but the inputs added since the last step.

@@ -122,7 +122,8 @@ void Node::publish_after_journal(const Now& now, const std::function<void()>& pu
   for (const auto& [channel, bytes] : outputs) bus_.publish_bytes(channel, bytes.data(), bytes.size());
 }
 
-// The last message of each flow stays available for repair: the journal keeps those of all flows that it was told of.
+// The last message of each flow stays available for repair: the journal keeps those of all flows that it was
+// told of.
 void Node::write_journal(SimTime now) {
   const bool is_whole = journal_->wants_whole();
   Archive published;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A node: the thin adapter between the bus and a pure core. Handlers store; a step computes and publishes.
 //
-// A node never reads a clock. Its runner (run_node, LockstepRunner, a test) dispatches LCM, queries when the node is
-// due, and calls step with the time. Results depend on simulation time; steady time is for the process alone: time-outs
-// of requests, STATUS. Under lockstep the two are the same.
+// A node never reads a clock. Its runner (run_node, LockstepRunner, a test) dispatches LCM, queries when the
+// node is due, and calls step with the time. Results depend on simulation time; steady time is for the
+// process alone: time-outs of requests, STATUS. Under lockstep the two are the same.
 #pragma once
 
 #include <algorithm>
@@ -39,9 +39,9 @@ struct Now {
   SimTime latest() const { return std::max(sim, clock); }
 };
 
-// When a node is next to be stepped: at the earlier of the two. SimTime::at_once() while work is waiting that does not
-// depend on simulation time (answering a query). A node that is due at a steady time is stepped then also before
-// simulation time is known (Now::sim_known).
+// When a node is next to be stepped: at the earlier of the two. SimTime::at_once() while work is waiting that
+// does not depend on simulation time (answering a query). A node that is due at a steady time is stepped then
+// also before simulation time is known (Now::sim_known).
 struct Due {
   SimTime sim = SimTime::never();
   SimTime steady = SimTime::never();
@@ -63,17 +63,18 @@ class Node {
   // For a node on a bus that loses datagrams, once, before its first step (Bus::enable_repair).
   void enable_repair() { bus_.enable_repair(); }
   bool has_repair() const { return bus_.flow_repair() != nullptr; }
-  // Keeps its state in `journal` from now on, and first takes up what an earlier incarnation left there: it goes on from
-  // that state, with its numbers. Once, after enable_repair(), before anything is received; of a node that was made
-  // with the session in the journal. Throws InvalidArgument when the state is another node's.
+  // Keeps its state in `journal` from now on, and first takes up what an earlier incarnation left there: it
+  // goes on from that state, with its numbers. Once, after enable_repair(), before anything is received; of a
+  // node that was made with the session in the journal. Throws InvalidArgument when the state is another
+  // node's.
   //
-  // What a step publishes goes out once the state that follows from it is on disk (output commit: Elnozahy, Alvisi,
-  // Wang and Johnson 2002, "A survey of rollback-recovery protocols in message-passing systems", section 2.4). So the
-  // next incarnation contradicts nothing that was received of this one; what this one received since its last step is
-  // lost, as if it had been killed before.
+  // What a step publishes goes out once the state that follows from it is on disk (output commit: Elnozahy,
+  // Alvisi, Wang and Johnson 2002, "A survey of rollback-recovery protocols in message-passing systems",
+  // section 2.4). So the next incarnation contradicts nothing that was received of this one; what this one
+  // received since its last step is lost, as if it had been killed before.
   void keep_state_in(std::unique_ptr<StateJournal> journal);
-  // Messages handled from now on were received at this steady time. `is_behind`: more are waiting than were handled, so that it
-  // requests no repairs, which would come on top.
+  // Messages handled from now on were received at this steady time. `is_behind`: more are waiting than were
+  // handled, so that it requests no repairs, which would come on top.
   void set_steady(SimTime steady, bool is_behind = false) {
     bus_.set_steady(steady);
     is_behind_ = is_behind;
@@ -84,14 +85,15 @@ class Node {
   }
   // Test for messages that are missing and may still be repaired.
   bool misses_messages() const { return bus_.num_missing() > 0; }
-  // True of a node whose results depend on all that others have published up to their instant: after a halt of
-  // its process it goes on once what it missed has been repaired.
+  // True of a node whose results depend on all that others have published up to their instant: after a halt
+  // of its process it goes on once what it missed has been repaired.
   virtual bool waits_for_repair() const { return false; }
-  // So many CLOCKs of a second conductor, and leaps of the first without a witness, were refused since the last call.
+  // So many CLOCKs of a second conductor, and leaps of the first without a witness, were refused since the
+  // last call.
   void count_refused_clocks(std::int64_t count);
   Stage stage() const { return bus_.identity().stage; }
-  // Its subscriptions, what it receives by them, and the destination of its messages, for a runner that delivers in LCM's
-  // place (bus.h).
+  // Its subscriptions, what it receives by them, and the destination of its messages, for a runner that
+  // delivers in LCM's place (bus.h).
   const std::vector<Subscribed>& subscribed() const { return bus_.subscribed(); }
   std::vector<std::size_t> subscribed_to(std::string_view channel) const {
     return bus_.subscribed_to(channel);
@@ -106,14 +108,15 @@ class Node {
   Due due() const;
   // When it is due in lockstep, where steady time is simulation time.
   SimTime lockstep_due() const;
-  // In lockstep: it publishes nothing before this on channels for which `matters`, unless it receives something of others
-  // than services (lockstep_schedule.h); later than when it is due where it steps without publishing on them.
+  // In lockstep: it publishes nothing before this on channels for which `matters`, unless it receives
+  // something of others than services (lockstep_schedule.h); later than when it is due where it steps without
+  // publishing on them.
   SimTime quiet_until(const ChannelTest& matters) const;
-  // due() keeps what it was until a message that may advance it, or a call of the runner; this says that something else has
-  // changed it.
+  // due() keeps what it was until a message that may advance it, or a call of the runner; this says that
+  // something else has changed it.
   void note_due_changed() { known_due_.reset(); }
-  // A file descriptor that is readable when the node has something to do besides messages and its due time; -1: none. A runner in real
-  // time watches it and calls note_due_changed().
+  // A file descriptor that is readable when the node has something to do besides messages and its due time;
+  // -1: none. A runner in real time watches it and calls note_due_changed().
   virtual int ready_file() const { return -1; }
   // Rethrows what a handler threw; computes and publishes all that is due; then STATUS when a second has
   // passed.
@@ -131,14 +134,15 @@ class Node {
 
  protected:
   virtual Due on_due() const = 0;
-  // As quiet_until(), but for STATUS; a channel of a family is tested by any of its names. at_once(): when it is due.
+  // As quiet_until(), but for STATUS; a channel of a family is tested by any of its names. at_once(): when it
+  // is due.
   virtual SimTime on_quiet_until(const ChannelTest& /*matters*/) const { return SimTime::at_once(); }
   virtual void on_step(const Now& now) = 0;
   virtual void on_stop(const Now& /*now*/) {}
   // Simulation time jumped back: another run has begun. Discard what was received of the old one.
   virtual void on_restart(const Now& /*now*/) {}
-  // What the next incarnation needs in order to go on from here, saved and loaded. After loading the first step may be
-  // any time later.
+  // What the next incarnation needs in order to go on from here, saved and loaded. After loading the first
+  // step may be any time later.
   virtual void on_archive(Archive& /*a*/) {}
   // True where a step that published nothing has changed what the journal is to hold before on_committed().
   virtual bool on_wants_commit() { return false; }

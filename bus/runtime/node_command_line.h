@@ -30,12 +30,14 @@ struct NodeRun {
   std::uint64_t config_digest = 0;  // of the version and the effective configuration
 };
 
-// Empty when the command line only requested output (--help, --example, --interface, --version, --print-config), which
-// was printed. Throws InvalidArgument for a wrong command line and ConfigErrors for a wrong file.
+// Empty when the command line only requested output (--help, --example, --interface, --version,
+// --print-config), which was printed. Throws InvalidArgument for a wrong command line and ConfigErrors for a
+// wrong file.
 [[nodiscard]] std::optional<NodeRun> parse_node_command_line(int argc, char** argv,
                                                              const NodeProgram& program);
 
-// "i/n" of an option, part i of n, as settings of two keys of the scenario. Throws InvalidArgument that names what is allowed.
+// "i/n" of an option, part i of n, as settings of two keys of the scenario. Throws InvalidArgument that names
+// what is allowed.
 std::vector<std::string> part_settings(const std::string& option, const std::string& value,
                                        const std::string& index_key, const std::string& count_key);
 

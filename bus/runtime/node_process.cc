@@ -69,8 +69,9 @@ constexpr SimDuration kMemoryPeriod = SimDuration::from_milliseconds(60'000);
 // Messages dispatched between two steps at most, so that a flood cannot keep a node from its steps.
 constexpr int kMaxMessagesPerTurn = 2000;
 
-// Handles what the bus has delivered when a stop is requested: until it is silent for a moment, since LCM's own thread
-// hands over the messages of the socket one by one. Other nodes may never be silent: for 0.3 s at most.
+// Handles what the bus has delivered when a stop is requested: until it is silent for a moment, since LCM's
+// own thread hands over the messages of the socket one by one. Other nodes may never be silent: for 0.3 s at
+// most.
 void dispatch_until_silent(lcm::LCM& lcm) {
   const SimTime end = steady_now() + SimDuration::from_milliseconds(300);
   while (steady_now() < end && lcm.handleTimeout(100) > 0) {
@@ -114,7 +115,8 @@ SimTime wake_time(const Node& node, const TimeSource& time) {
 // Processor time of the process, all threads; POSIX counts microseconds.
 SimDuration processor_time() { return SimDuration::from_microseconds(std::clock()); }
 
-// The time of a node's steps. It catches up with its source by slices, between which the node handles messages and the process signals.
+// The time of a node's steps. It catches up with its source by slices, between which the node handles
+// messages and the process signals.
 class NodeTime {
  public:
   NodeTime(Node& node, TimeSource& source) : node_(node), source_(source) {}

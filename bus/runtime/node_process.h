@@ -2,10 +2,10 @@
 // A node in a process of its own: command line, transport, time source, loop, and an orderly end.
 // Each program's main describes itself in a NodeProgram and calls run_node_program. SIGINT, SIGTERM and
 // SIGHUP end the loop: messages that the bus has delivered are handled, the node takes its last step and
-// publishes a final STATUS, and others get what they missed of it, in 0.6 s at most; exit code 0. A node in the
-// middle of a step that takes longer ends there, 0.9 s after the signal: what it holds on disk serves as after
-// SIGKILL. An error of the user (configuration, command line) prints one line per problem; exit code 2. A
-// network that cannot be used, or on which another conductor runs: 69. Any other error: 1.
+// publishes a final STATUS, and others get what they missed of it, in 0.6 s at most; exit code 0. A node in
+// the middle of a step that takes longer ends there, 0.9 s after the signal: what it holds on disk serves as
+// after SIGKILL. An error of the user (configuration, command line) prints one line per problem; exit code 2.
+// A network that cannot be used, or on which another conductor runs: 69. Any other error: 1.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ struct ProgramOption {
   std::string help;
   std::string* value = nullptr;
   bool* flag = nullptr;
-  // Of a text that stands for keys of the scenario: its settings ("section.key=value"). Throws InvalidArgument that
-  // names what is allowed.
+  // Of a text that stands for keys of the scenario: its settings ("section.key=value"). Throws
+  // InvalidArgument that names what is allowed.
   std::function<std::vector<std::string>(const std::string& value)> settings = nullptr;
   std::vector<std::string>* values = nullptr;  // of a text that may be given repeatedly
 };
@@ -49,7 +49,8 @@ struct NodeProgram {
   Stage stage = Stage::kClients;  // its place in lockstep
   std::vector<ProgramOption> options = {};
   bool keeps_state = false;  // takes --journal: its node describes its state (Node::on_archive)
-  // The name of the node when the command line gives none, called once the configuration is read; default: node_name.
+  // The name of the node when the command line gives none, called once the configuration is read; default:
+  // node_name.
   std::function<std::string()> default_name = nullptr;
 
   // Describes the program's own sections of the scenario file: read from it, printed by --example and
@@ -83,8 +84,9 @@ inline constexpr int kExitConfiguration = 2, kExitNetwork = 69;
 // Parses the command line, runs the node until a signal, and returns the exit code. Never throws.
 [[nodiscard]] int run_node_program(int argc, char** argv, const NodeProgram& program);
 
-// The loop alone. A node that is far behind the time steps by slices of simulation time, of which each takes about a tenth of a second. `should_stop` is called at least every 0.1 s. The conductor brings its own TimeSource. `filter`: of `lcm`, on
-// which nothing else is received then; null for none.
+// The loop alone. A node that is far behind the time steps by slices of simulation time, of which each takes
+// about a tenth of a second. `should_stop` is called at least every 0.1 s. The conductor brings its own
+// TimeSource. `filter`: of `lcm`, on which nothing else is received then; null for none.
 void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop,
               ReceiveFilter* filter = nullptr);
 
@@ -93,14 +95,15 @@ void catch_stop_signals();
 bool stop_requested();       // either came
 bool interrupt_requested();  // SIGINT came: Ctrl-C
 
-// Sleeps until the bus has something or `other_file` is readable (-1: none), `wake` (steady) has come, a stop signal, or a tenth of a
-// second has passed. Returns what is readable.
+// Sleeps until the bus has something or `other_file` is readable (-1: none), `wake` (steady) has come, a stop
+// signal, or a tenth of a second has passed. Returns what is readable.
 struct Readable {
   bool bus = false;
   bool other = false;
 };
 Readable wait_for_bus(lcm::LCM& lcm, SimTime wake, int other_file = -1);
-// Dispatches what the bus has delivered, up to a bound, so that a flood cannot keep a process from its work. Returns how many messages.
+// Dispatches what the bus has delivered, up to a bound, so that a flood cannot keep a process from its work.
+// Returns how many messages.
 int dispatch_waiting(lcm::LCM& lcm);
 
 // Both, one after the other, in fewer system calls.

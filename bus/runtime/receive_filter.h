@@ -8,9 +8,9 @@
 // fragments, pass whatever their channel. The kernel counts what is left out in InErrors of /proc/net/snmp
 // and in the drops of /proc/net/udp; what a full buffer loses is in RcvbufErrors.
 //
-// LCM binds every interface of a host, so its port takes datagrams of any host that can reach it, whatever the ttl. The filter also leaves out those of
-// hosts that are not accepted. Source addresses can be forged on a network that lets them; this host is known by how a datagram came in, not
-// by its address.
+// LCM binds every interface of a host, so its port takes datagrams of any host that can reach it, whatever
+// the ttl. The filter also leaves out those of hosts that are not accepted. Source addresses can be forged on
+// a network that lets them; this host is known by how a datagram came in, not by its address.
 #pragma once
 
 #include <array>
@@ -34,8 +34,9 @@ struct AcceptedHosts {
   bool any = true;
   std::vector<Range> ranges;  // where not any
 };
-// `text`: "any", or addresses and ranges of IPv4 with commas between them ("10.0.3.7, 10.0.4.0/24"); empty: none with ttl=0 in `url`, where other
-// hosts cannot belong to the run, and any otherwise. Throws InvalidArgument that says what is allowed.
+// `text`: "any", or addresses and ranges of IPv4 with commas between them ("10.0.3.7, 10.0.4.0/24"); empty:
+// none with ttl=0 in `url`, where other hosts cannot belong to the run, and any otherwise. Throws
+// InvalidArgument that says what is allowed.
 AcceptedHosts accepted_hosts(const std::string& text, const std::string& url);
 
 // The filter for a socket of LCM's udpm: passes datagrams of accepted hosts that are sound, and of the
@@ -44,7 +45,8 @@ AcceptedHosts accepted_hosts(const std::string& text, const std::string& url);
 // channel passes.
 FilterProgram receive_program(const std::multiset<std::string>& expressions, const AcceptedHosts& hosts = {});
 
-// The socket by which `lcm`, opened with `url`, receives; -1 where it is not found, not udpm or one of several on its port.
+// The socket by which `lcm`, opened with `url`, receives; -1 where it is not found, not udpm or one of
+// several on its port.
 int receive_socket(lcm::LCM& lcm, const std::string& url);
 
 class ReceiveFilter {

@@ -5,9 +5,9 @@
 // reads all, so that it finds every error at once. Sections and their owners:
 //   [scenario] [time] [bus] [ocean] [[vehicle]] [vehicle.battery]    this file
 //   [terrain]                          bathymetry/bathymetry_config.h
-//   [environment] [modem] [channel_server], [vehicle.modem] [vehicle.clock] [vehicle.noise]    channel_server/channel_server_config.h
-//   [vehicle_sim] [sensors] [vehicle.sensors] [[tether]] [[fault]]    vehicle_sim/vehicle_sim_config.h
-//   [vehicle.mission] [vehicle.traffic] [vehicle.localiser]    clients/
+//   [environment] [modem] [channel_server], [vehicle.modem] [vehicle.clock] [vehicle.noise]
+//   channel_server/channel_server_config.h [vehicle_sim] [sensors] [vehicle.sensors] [[tether]] [[fault]]
+//   vehicle_sim/vehicle_sim_config.h [vehicle.mission] [vehicle.traffic] [vehicle.localiser]    clients/
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,8 @@
 
 namespace halocline::bus {
 
-// What a vehicle lives on: the vehicle simulator keeps the account, the channel server says what packets take.
+// What a vehicle lives on: the vehicle simulator keeps the account, the channel server says what packets
+// take.
 struct VehicleBattery {
   double capacity_j = 3.6e6;  // when full; 1 kWh is that of a REMUS 100
   double hotel_w = 20;        // of all that is always on, but the modem; our choice
@@ -39,8 +40,8 @@ struct VehicleBattery {
 struct VehicleEntry {
   std::string name;     // channel suffix, is_valid_name; unique
   std::int32_t id = 0;  // 1 and up; unique
-  // What moves it: a model of the vehicle simulator by name or as a file (docs/vehicles.md), "fixed" (the vehicle
-  // simulator publishes a pose that never changes), or "external" (a process that is not ours).
+  // What moves it: a model of the vehicle simulator by name or as a file (docs/vehicles.md), "fixed" (the
+  // vehicle simulator publishes a pose that never changes), or "external" (a process that is not ours).
   FilePath model = "torpedo";
   Vec3 start_ned_m = Vec3::Zero();             // world NED, metres
   double heading_rad = 0;                      // at the start, clockwise from north

@@ -172,8 +172,8 @@ bool StateJournal::write(std::int64_t session, SimTime at, const Archive& state,
   return true;
 }
 
-// What follows from the state that could not be written is published: no earlier one may be taken up. The files are opened anew, as
-// others may have deleted them.
+// What follows from the state that could not be written is published: no earlier one may be taken up. The
+// files are opened anew, as others may have deleted them.
 void StateJournal::forget() {
   for (int& file : files_) {
     if (file < 0) continue;

@@ -4,8 +4,8 @@
 //   ThreadPool pool(2);
 //   pool.for_each(links.size(), [&](std::size_t i) { rows[i] = row_of(links[i]); });
 //
-// The caller is one of the threads; a pool of one starts none. Bodies share no mutable state, so results do not depend on
-// the number of threads. One caller at a time.
+// The caller is one of the threads; a pool of one starts none. Bodies share no mutable state, so results do
+// not depend on the number of threads. One caller at a time.
 #pragma once
 
 #include <cstddef>
@@ -24,8 +24,8 @@ class ThreadPool {
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  // A ForEach (core/for_each.h). When bodies throw, the rest is still done, and the exception of the lowest index is
-  // thrown.
+  // A ForEach (core/for_each.h). When bodies throw, the rest is still done, and the exception of the lowest
+  // index is thrown.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& body);
   // The same as a value; the pool must outlive it.
   ForEach sharing_out() {

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Multicast groups of tiles of the sea: what only the programs of one vehicle receive reaches only the hosts that run them.
+// Multicast groups of tiles of the sea: what only the programs of one vehicle receive reaches only the hosts
+// that run them.
 //
-// With tile_m of [bus], the families of kFamiliesInTiles are published on the group of the tile that the vehicle starts in. Tile (i, j)
-// is that of floor(start / tile_m), north and east; its group is number 1 + 8 (i mod 8) + (j mod 8), on the port of the bus, and has the
-// address of the bus' group plus that number: tiles that lie eight apart share one. All else is published on the group of the bus, number 0,
-// and so is what belongs to vehicles that the scenario does not name. A channel never changes its group, so sessions, gaps and repairs are as on one group.
+// With tile_m of [bus], the families of kFamiliesInTiles are published on the group of the tile that the
+// vehicle starts in. Tile (i, j) is that of floor(start / tile_m), north and east; its group is number 1 + 8
+// (i mod 8) + (j mod 8), on the port of the bus, and has the address of the bus' group plus that number:
+// tiles that lie eight apart share one. All else is published on the group of the bus, number 0, and so is
+// what belongs to vehicles that the scenario does not name. A channel never changes its group, so sessions,
+// gaps and repairs are as on one group.
 //
-// Every program receives the group of the bus, and those of the channels that it subscribes to; whoever subscribes to a whole family receives
-// all. Groups are joined for the host: LCM 1.3.1 gives each of its programs every group of its port that any program has joined
-// (receive_filter.h leaves out what it does not subscribe to). LCM 1.5 receives one group alone, and is refused.
+// Every program receives the group of the bus, and those of the channels that it subscribes to; whoever
+// subscribes to a whole family receives all. Groups are joined for the host: LCM 1.3.1 gives each of its
+// programs every group of its port that any program has joined (receive_filter.h leaves out what it does not
+// subscribe to). LCM 1.5 receives one group alone, and is refused.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +49,8 @@ class TileGroups {
  public:
   static constexpr int kSide = 8, kCount = kSide * kSide;
 
-  // For a bus on `url`. Throws InvalidArgument unless it is udpm://GROUP:PORT and has kCount groups after its own.
+  // For a bus on `url`. Throws InvalidArgument unless it is udpm://GROUP:PORT and has kCount groups after its
+  // own.
   TileGroups(std::string url, const Scenario& scenario);
 
   // Of a channel; a repair is of the group of what is repaired.
@@ -58,7 +63,8 @@ class TileGroups {
   lcm::LCM& carrier_of(std::string_view channel, lcm::LCM& bus);
   // The host receives these from now on. Throws NetworkError.
   void join(const std::set<int>& groups);
-  // All, whatever the scenario: for a program that shows every message of any run. Of a URL without a group it joins none.
+  // All, whatever the scenario: for a program that shows every message of any run. Of a URL without a group
+  // it joins none.
   static void join_all(const std::string& url, GroupMemberships& memberships);
 
  private:

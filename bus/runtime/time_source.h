@@ -112,7 +112,8 @@ class ConductorTime : public TimeSource {
   bool is_witnessed(const sim_clock_t& clock, SimTime received);
   void refuse_unexpected();
   void take(const sim_clock_t& clock, SimTime received);
-  // When the message being handled was received (steady); bounded, as the wall clock may have been set meanwhile.
+  // When the message being handled was received (steady); bounded, as the wall clock may have been set
+  // meanwhile.
   SimTime received() const;
 
   Bus bus_;
@@ -127,8 +128,9 @@ class ConductorTime : public TimeSource {
   bool restarted_ = false;
 };
 
-// The greatest utime received in a STATE or SEND: for a lone channel server beside a replayed log. Stands still between
-// messages. A utime more than ten seconds before the greatest one means that a log was started anew.
+// The greatest utime received in a STATE or SEND: for a lone channel server beside a replayed log. Stands
+// still between messages. A utime more than ten seconds before the greatest one means that a log was started
+// anew.
 class MessageTime : public TimeSource {
  public:
   MessageTime(lcm::LCM& lcm, const std::string& process_name);
@@ -165,7 +167,8 @@ class WallTime : public TimeSource {
 enum class TimeSourceKind { kConductor, kMessages, kWall, kLockstep };
 // "conductor", "messages", "wall" or "lockstep"; throws InvalidArgument that lists them otherwise.
 TimeSourceKind time_source_from_name(std::string_view name);
-// For process `name` on a bus that loses datagrams; `wall_at_start`: Unix time at steady time 0. kLockstep: as kWall.
+// For process `name` on a bus that loses datagrams; `wall_at_start`: Unix time at steady time 0. kLockstep:
+// as kWall.
 std::unique_ptr<TimeSource> make_time_source(TimeSourceKind kind, lcm::LCM& lcm, const std::string& name,
                                              SimTime wall_at_start);
 

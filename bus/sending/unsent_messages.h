@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the network refused to take (no route, an interface that is down), in order, until it takes it.
 //
-// Bounded: after kKept, or beyond kMaxBytes, the oldest are forgotten; of flows they can still be repaired (flow_repair.h).
+// Bounded: after kKept, or beyond kMaxBytes, the oldest are forgotten; of flows they can still be repaired
+// (flow_repair.h).
 #pragma once
 
 #include <cstddef>

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Answers at which of some places a vehicle is best heard by others.
 //
-// Each place and listener is a link from the place, with the talker's modem at rest, to the listener where it is at the time asked
-// for. A place is scored by the delivery probability of link_predictor.h, mean over the listeners; of equals the greater mean SINR is
-// better, which tells places apart where everything or nothing is delivered. Places above the surface, inside the seabed or beyond
-// 1e7 m score 0 and kSilence. Links are computed together, shared out among threads, with all the searches that packets have; a
-// reply waits for the seabed no longer than `timeout` of steady time, then takes the straight path.
+// Each place and listener is a link from the place, with the talker's modem at rest, to the listener where it
+// is at the time asked for. A place is scored by the delivery probability of link_predictor.h, mean over the
+// listeners; of equals the greater mean SINR is better, which tells places apart where everything or nothing
+// is delivered. Places above the surface, inside the seabed or beyond 1e7 m score 0 and kSilence. Links are
+// computed together, shared out among threads, with all the searches that packets have; a reply waits for the
+// seabed no longer than `timeout` of steady time, then takes the straight path.
 //
-// Listeners hear their own noise and that of other vehicles but the talker, whose propeller is taken as at rest with it.
-// Left out: interference, and how the listeners are heard at the place. Not thread-safe.
+// Listeners hear their own noise and that of other vehicles but the talker, whose propeller is taken as at
+// rest with it. Left out: interference, and how the listeners are heard at the place. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -60,7 +61,8 @@ class BestPlaceService {
  public:
   static constexpr std::size_t kMaxLinks = 1600;  // places times listeners of one query
   static constexpr std::size_t kMaxWaiting = 16;  // queries that wait for the terrain
-  // A query may ask for an instant this far from the simulation time at which it is received; else it gets the nearest such.
+  // A query may ask for an instant this far from the simulation time at which it is received; else it gets
+  // the nearest such.
   static constexpr SimDuration kMostOff = SimDuration::from_milliseconds(1000);
 
   // All of them must outlive the service.

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which pairs of vehicles have their bottom echoes surveyed after the tables of a tick, where there are more than may be.
+// Which pairs of vehicles have their bottom echoes surveyed after the tables of a tick, where there are more
+// than may be.
 //
-// Rule. A pair needs a survey when it has none, or when an end lies further than `reuse_distance` from where it was at the last one.
-// Of those that need one as many are planned as a table may have: those without any first, then those planned longest ago;
-// equals by id.
+// Rule. A pair needs a survey when it has none, or when an end lies further than `reuse_distance` from where
+// it was at the last one. Of those that need one as many are planned as a table may have: those without any
+// first, then those planned longest ago; equals by id.
 //
-// What is planned is a function of the links of all ticks since the start of the run, of all vehicles, whichever shard serves
-// them, and of surveys that had no answer: shards and processes agree. A server that was started again plans anew.
-// Not thread-safe.
+// What is planned is a function of the links of all ticks since the start of the run, of all vehicles,
+// whichever shard serves them, and of surveys that had no answer: shards and processes agree. A server that
+// was started again plans anew. Not thread-safe.
 #pragma once
 
 #include <cstddef>

@@ -12,7 +12,8 @@
 //   EchoSurvey survey(a, b, 9);
 //   survey.take_depths(answers_to(survey.depth_rays()));
 //   survey.take_ways(answers_to(survey.way_rays()));
-//   const Multipath echoes = multipath_of(survey, /*reversed=*/false, now, propagation, transmitter, receiver);
+//   const Multipath echoes = multipath_of(survey, /*reversed=*/false, now, propagation, transmitter,
+//   receiver);
 //
 // The same survey serves both directions of the link.
 #pragma once

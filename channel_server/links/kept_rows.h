@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rows of link tables that hold on from tick to tick while their ends hardly move.
 //
-// Rule. A row is carried on, instead of computed anew, for kLongest at most, as long as its ends together have moved by no more
-// than the distance of reuse d, nor a fortieth of the range (depths count ten times), each velocity has changed by no more
-// than kGreatestVelocityChange, and water, seabed and both modems are the same. Then range and Doppler are those of the ends now, and a
-// delay along a path that leaves the transmitter at the angle a below the horizontal and arrives at the angle b is
+// Rule. A row is carried on, instead of computed anew, for kLongest at most, as long as its ends together
+// have moved by no more than the distance of reuse d, nor a fortieth of the range (depths count ten times),
+// each velocity has changed by no more than kGreatestVelocityChange, and water, seabed and both modems are
+// the same. Then range and Doppler are those of the ends now, and a delay along a path that leaves the
+// transmitter at the angle a below the horizontal and arrives at the angle b is
 //   tau = tau_then + (cos a dr - sin a dz_transmitter) / c_transmitter + sin b dz_receiver / c_receiver,
-// r the horizontal range and z depths (Fermat's principle; acoustics/rays/extrapolate_arrivals.h takes whole paths on likewise).
-// Levels and what is delivered stay: spreading changes by 0.2 dB at most meanwhile. LinkRow::paths_age grows.
+// r the horizontal range and z depths (Fermat's principle; acoustics/rays/extrapolate_arrivals.h takes whole
+// paths on likewise). Levels and what is delivered stay: spreading changes by 0.2 dB at most meanwhile.
+// LinkRow::paths_age grows.
 //
-// A row that waits for a search or for the bottom is not kept. What is kept depends on the ticks since the start: threads and
-// shards agree, a server that was started again computes all rows anew. Not thread-safe.
+// A row that waits for a search or for the bottom is not kept. What is kept depends on the ticks since the
+// start: threads and shards agree, a server that was started again computes all rows anew. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -44,9 +46,9 @@ class KeptRows {
   // `reuse_distance_m`: d, 0..1000; 0 keeps nothing.
   explicit KeptRows(double reuse_distance_m);
 
-  // The links of a tick, which come after those of the ticks before, transmitter by transmitter and each by receiver, as
-  // table_rows() has them; `vehicles` holds their ends, by id. Sets TableRows::carried, without the ages of states. The same again
-  // for the same tick.
+  // The links of a tick, which come after those of the ticks before, transmitter by transmitter and each by
+  // receiver, as table_rows() has them; `vehicles` holds their ends, by id. Sets TableRows::carried, without
+  // the ages of states. The same again for the same tick.
   void carry_on(SimTime tick, Sea sea, const acoustics::Environment& environment,
                 const std::vector<PlacedVehicle>& vehicles, TableRows& rows);
   // Computed for link `index` of that tick.

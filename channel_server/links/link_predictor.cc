@@ -69,7 +69,8 @@ LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
   return rates;
 }
 
-// A packet of a constant ratio is received no less often than one whose ratio varies about that mean within it.
+// A packet of a constant ratio is received no less often than one whose ratio varies about that mean within
+// it.
 double LinkPredictor::least_sinr_db(const Rates& rates) const {
   double least_db = std::numeric_limits<double>::infinity();
   for (const Rate& rate : rates) {

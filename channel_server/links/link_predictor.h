@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the rows of link tables state beside the budget: what the link delivers on average over its fading.
 //
-// Predictions are those of acoustics/reception/link_prediction.h for packets of one payload, without other packets. What
-// the medium decides before it looks at a preamble holds here, too: another family, a level below the cut-off and, without
-// fading, a Doppler shift beyond the tolerance deliver nothing.
+// Predictions are those of acoustics/reception/link_prediction.h for packets of one payload, without other
+// packets. What the medium decides before it looks at a preamble holds here, too: another family, a level
+// below the cut-off and, without fading, a Doppler shift beyond the tolerance deliver nothing.
 //
-// The rates of a transmitter are those of its family among the known profiles, with the transmitter's band. The best has
-// the greatest product of rate and delivery probability; none does that delivers less than one packet in a thousand.
+// The rates of a transmitter are those of its family among the known profiles, with the transmitter's band.
+// The best has the greatest product of rate and delivery probability; none does that delivers less than one
+// packet in a thousand.
 #pragma once
 
 #include <cstddef>
@@ -52,8 +53,8 @@ class LinkPredictor {
 
   // Takes milliseconds for a modem that is new; those of kMaxModems are kept. Not thread-safe.
   std::shared_ptr<const Rates> rates_of(const acoustics::Modem& transmitter);
-  // The mean ratio, dB, below which no rate of this transmitter delivers a packet in a thousand, however the link fades
-  // (acoustics/fading/fading_bounds.h). Not thread-safe.
+  // The mean ratio, dB, below which no rate of this transmitter delivers a packet in a thousand, however the
+  // link fades (acoustics/fading/fading_bounds.h). Not thread-safe.
   double least_sinr_db(const acoustics::Modem& transmitter);
   // Of a link whose transmitter has these rates. Thread-safe.
   LinkForecast forecast(const Rates& rates, const acoustics::Modem& transmitter,

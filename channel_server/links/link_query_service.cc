@@ -20,7 +20,8 @@ namespace {
 // Beyond it a position is a unit mixed up (the same bound as for vehicles).
 constexpr double kFarthestM = 1e7;
 
-// From the surface to `deepest_m`: even steps, and the rows between which a table is linear, so far as there is room.
+// From the surface to `deepest_m`: even steps, and the rows between which a table is linear, so far as there
+// is room.
 std::vector<acoustics::SpeedRow> column_of(const acoustics::SoundSpeedProfile& profile, double deepest_m) {
   constexpr int kSteps = 100;
   constexpr std::size_t kMaxRows = 150;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Answers link queries: between vehicles by name, and between positions and modems that need not exist.
 //
-// Every link is answered or refused on its own, with the noise of receiver_noise.h, of which a place that holds no vehicle has
-// none of its own. A straight budget is computed at once; whether an echo is likely,
-// and rays, need the terrain: a reply waits for it no longer than `timeout` of steady time, then holds unknown (and the
-// straight path). Echoes are surveyed urgently, unless the link tables know those of the two vehicles; the bottom that
-// rays need is requested by the propagation itself.
+// Every link is answered or refused on its own, with the noise of receiver_noise.h, of which a place that
+// holds no vehicle has none of its own. A straight budget is computed at once; whether an echo is likely,
+// and rays, need the terrain: a reply waits for it no longer than `timeout` of steady time, then holds
+// unknown (and the straight path). Echoes are surveyed urgently, unless the link tables know those of the two
+// vehicles; the bottom that rays need is requested by the propagation itself.
 //
 // The position of a named vehicle is that of state_history.h at the simulation time of the query; while no
 // simulation time is known, no vehicle is. Not thread-safe.
@@ -77,7 +77,8 @@ struct LinkReply {
 // Why a position is none in the sea, whatever the seabed; empty when it is one.
 [[nodiscard]] std::string problem_of_place(const Propagation& propagation, const Vec3& position_ned_m,
                                            SimTime at);
-// By so much the smooth seabed of rays may lie above that of the terrain, m: a place less far inside is taken as on it.
+// By so much the smooth seabed of rays may lie above that of the terrain, m: a place less far inside is taken
+// as on it.
 inline constexpr double kSeabedErrorM = 1;
 
 class LinkQueryService {

@@ -66,8 +66,8 @@ struct LinkTable {
 LinkEnd link_end(const PlacedVehicle& vehicle);
 LinkEnd receiving_end(const PlacedVehicle& vehicle, const acoustics::Modem& sender);
 
-// Which links have rows: of each transmitter that a shard serves those to receivers within its range, transmitter by
-// transmitter, the receivers in the order of the vehicles.
+// Which links have rows: of each transmitter that a shard serves those to receivers within its range,
+// transmitter by transmitter, the receivers in the order of the vehicles.
 struct TableRows {
   struct Transmitter {
     std::size_t vehicle;  // its index
@@ -90,10 +90,10 @@ TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vect
 using MultipathFunction =
     std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
 
-// One table a transmitter, of links whose sound leaves at `instant`; a vehicle alone has an empty one. The propagation is ready
-// for the links of `rows` to compute; all are of `vehicles`. `multipath` is called where paths are straight by choice: rays hold the
-// echoes of the bottom. `kept`, unless null, takes what is computed. `noise`, unless null, replaces the ambient noise of levels,
-// capacity and forecasts.
+// One table a transmitter, of links whose sound leaves at `instant`; a vehicle alone has an empty one. The
+// propagation is ready for the links of `rows` to compute; all are of `vehicles`. `multipath` is called where
+// paths are straight by choice: rays hold the echoes of the bottom. `kept`, unless null, takes what is
+// computed. `noise`, unless null, replaces the ambient noise of levels, capacity and forecasts.
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
                                    const MultipathFunction& multipath,

@@ -2,8 +2,8 @@
 // What is known of the bottom echoes between vehicles, and which of it the next link table may use.
 //
 // Rule. The row of tick k holds the echoes of the geometry of tick k-1: its answer has had a whole period to
-// arrive, so a table never waits, and a replay gives the same tables. A survey serves as long as both ends (at
-// tick k-1) lie within `reuse_distance` of where they were when it was queried; without one the row holds
+// arrive, so a table never waits, and a replay gives the same tables. A survey serves as long as both ends
+// (at tick k-1) lie within `reuse_distance` of where they were when it was queried; without one the row holds
 // unknown. One survey serves both directions. Which pairs are surveyed: echo_plan.h.
 #pragma once
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Predictions of links that have one path without a bounce, by a table: there is one for each packet and each ratio of signal to
-// noise, as nothing else of the link counts.
+// Predictions of links that have one path without a bounce, by a table: there is one for each packet and each
+// ratio of signal to noise, as nothing else of the link counts.
 //
-// Between ratios of kStepDb a cubic goes through the four nearest: within 5e-4 of acoustics/reception/link_prediction.h, at a
-// tenth of its cost; where that jumps, by some hundredths for phase-shift keying of many bits, about between its values beside
-// the jump. Immutable: calls may overlap between threads. Making one takes a millisecond or two.
+// Between ratios of kStepDb a cubic goes through the four nearest: within 5e-4 of
+// acoustics/reception/link_prediction.h, at a tenth of its cost; where that jumps, by some hundredths for
+// phase-shift keying of many bits, about between its values beside the jump. Immutable: calls may overlap
+// between threads. Making one takes a millisecond or two.
 #pragma once
 
 #include <optional>
@@ -24,8 +25,8 @@ class OnePathForecast {
   // Of packets with these curves, over the band of their modem. Empty, without a table, where nothing fades.
   OnePathForecast(const acoustics::FadingModel& fading, const acoustics::ReceptionCurves& curves);
 
-  // `noise` in uPa^2 over the band, less the receiver's directivity. Empty where the table does not hold: other paths, other
-  // ratios.
+  // `noise` in uPa^2 over the band, less the receiver's directivity. Empty where the table does not hold:
+  // other paths, other ratios.
   std::optional<acoustics::LinkPrediction> at(const std::vector<acoustics::SoundPath>& paths,
                                               double noise) const;
 

@@ -83,7 +83,8 @@ std::vector<RayQueryBatch> RayQueryClient::take_batches(SimTime steady) {
   return batches;
 }
 
-// Surveys are not split: all rays of one stage of one survey go in one batch. All tiles have one spacing, that of the seabed's map.
+// Surveys are not split: all rays of one stage of one survey go in one batch. All tiles have one spacing,
+// that of the seabed's map.
 RayQueryBatch RayQueryClient::send_from(Queue& queue, SimTime steady) {
   const RayKind kind = *next_query(queue.front().survey);
   const std::size_t max_rays = kind == RayKind::kTiles ? kTilesPerBatch : rule_.rays_per_batch;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Has surveys of the terrain answered by a service that may be slow or absent: batches their rays, limits the batches
-// in flight, repeats and times out, and detects when the service is away and back.
+// Has surveys of the terrain answered by a service that may be slow or absent: batches their rays, limits the
+// batches in flight, repeats and times out, and detects when the service is away and back.
 //
-// Surveys go through their queries (a tile; of an echo survey depths, then ways), each in batches of one kind of up to
-// `rays_per_batch` rays or kTilesPerBatch tiles. No more than `batches_in_flight` wait for an answer. Routine surveys that have not
-// been sent by the next tick are dropped and counted: their rows hold unknown. Urgent surveys go before routine ones.
+// Surveys go through their queries (a tile; of an echo survey depths, then ways), each in batches of one kind
+// of up to `rays_per_batch` rays or kTilesPerBatch tiles. No more than `batches_in_flight` wait for an
+// answer. Routine surveys that have not been sent by the next tick are dropped and counted: their rows hold
+// unknown. Urgent surveys go before routine ones.
 //
-// A batch without an answer is sent again after each quarter of the deadline, and given up at the deadline: the
-// service is away then. Where the owner looks for the first time after the deadline, because it was busy itself, the deadline counts from there. While it is away urgent surveys fail at once, and one batch at a time keeps probing;
-// the first answer ends it.
+// A batch without an answer is sent again after each quarter of the deadline, and given up at the deadline:
+// the service is away then. Where the owner looks for the first time after the deadline, because it was busy
+// itself, the deadline counts from there. While it is away urgent surveys fail at once, and one batch at a
+// time keeps probing; the first answer ends it.
 //
 // Time is steady time, given in. Nothing here sends: the owner takes batches and brings answers. A failed
 // survey is returned as unanswered. Not thread-safe.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The noise that receivers hear, as link tables and link queries state it: ambient, that of the receiver's own vehicle, and the mean
-// over fading of what other vehicles radiate. The packet medium has the same, but with the fading of each instant
-// (channel_server/packets/vehicle_sounds.h).
+// The noise that receivers hear, as link tables and link queries state it: ambient, that of the receiver's
+// own vehicle, and the mean over fading of what other vehicles radiate. The packet medium has the same, but
+// with the fading of each instant (channel_server/packets/vehicle_sounds.h).
 #pragma once
 
 #include <array>
@@ -22,14 +22,15 @@ class ReceiverNoise {
 
   // Whether it may be another than the ambient one of the environment.
   virtual bool differ() const = 0;
-  // By how much it exceeds that over the transmitter's band, dB, where a link's sound leaves at `at`. `silent`: a vehicle whose noise
-  // is left out; 0: none.
+  // By how much it exceeds that over the transmitter's band, dB, where a link's sound leaves at `at`.
+  // `silent`: a vehicle whose noise is left out; 0: none.
   virtual Decibels above_ambient(const EndPair& link, SimTime at, VehicleId silent) = 0;
   // Whether the propagation knows all that above_ambient() needs, as Propagation::is_ready.
   virtual bool is_ready(const EndPair& link, SimTime at, VehicleId silent) = 0;
 };
 
-// At the receivers of links whose sound leaves at one instant; each receiver and band is computed once. Not thread-safe.
+// At the receivers of links whose sound leaves at one instant; each receiver and band is computed once. Not
+// thread-safe.
 class NoiseOfLinks {
  public:
   // `model` outlives it.

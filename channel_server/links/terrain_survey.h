@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surveys of the terrain in one or more queries: each has the kind and the rays of its next query, and takes the
-// answers.
+// Surveys of the terrain in one or more queries: each has the kind and the rays of its next query, and takes
+// the answers.
 #pragma once
 
 #include <optional>

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Modems in TOML: [modem] and [vehicle.modem] of a scenario, and the files of models/modems.
 //
-// `profile` names a modem whose numbers hold where a scenario gives no others; every other key then changes one of
-// them. A vehicle's table starts from the scenario's modem, or from the profile it names where that is another. A
-// profile is a file: one of models/modems by its name ("janus"), any other by its path ("my_modem.toml"). It holds the
-// keys of [modem] but `profile` and `when_busy`, and those of framing, hopping and rates, which a scenario leaves as they
-// are; a key that is left out is the generic modem's. Unknown keys, wrong types and impossible values are errors with
-// file, line, key and what is allowed. docs/packets.md explains the parameters.
+// `profile` names a modem whose numbers hold where a scenario gives no others; every other key then changes
+// one of them. A vehicle's table starts from the scenario's modem, or from the profile it names where that is
+// another. A profile is a file: one of models/modems by its name ("janus"), any other by its path
+// ("my_modem.toml"). It holds the keys of [modem] but `profile` and `when_busy`, and those of framing,
+// hopping and rates, which a scenario leaves as they are; a key that is left out is the generic modem's.
+// Unknown keys, wrong types and impossible values are errors with file, line, key and what is allowed.
+// docs/packets.md explains the parameters.
 #pragma once
 
 #include <optional>
@@ -23,8 +24,9 @@ namespace halocline::channel_server {
 
 void visit_modem(bus::ConfigVisitor& v, VehicleModem& modem);
 
-// Gives a vehicle's modem the rates of its profile. Throws InvalidArgument, naming the field, where it differs from the profile
-// in the form of packets. Levels, band, family, guard time, Doppler and error model are free.
+// Gives a vehicle's modem the rates of its profile. Throws InvalidArgument, naming the field, where it
+// differs from the profile in the form of packets. Levels, band, family, guard time, Doppler and error model
+// are free.
 void set_rates_of(const VehicleModem& profile, VehicleModem& vehicle);
 
 // The taper after the guard time, in files and messages: seconds, below 0 for one more guard time.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packets lost on purpose, to test protocols: a stated share of those that would have been received, by pair, kind and span of
-// time. Nothing else changes: such a packet sounds, collides and is followed as if it had been received.
+// Packets lost on purpose, to test protocols: a stated share of those that would have been received, by pair,
+// kind and span of time. Nothing else changes: such a packet sounds, collides and is followed as if it had
+// been received.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +25,8 @@ struct ExtraLoss {
   bool concerns(const Packet& packet, const std::string& receiver) const;
 };
 
-// Whether one of the rules takes the packet at a receiver: with probability 1 - product (1 - share) over those that concern it, by
-// a draw that depends on nothing else.
+// Whether one of the rules takes the packet at a receiver: with probability 1 - product (1 - share) over
+// those that concern it, by a draw that depends on nothing else.
 bool is_lost_on_purpose(const std::vector<ExtraLoss>& rules, std::uint64_t seed, const Packet& packet,
                         const std::string& receiver, VehicleId receiver_id);
 

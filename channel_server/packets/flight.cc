@@ -77,8 +77,8 @@ acoustics::FadingLink fading_link(const Flight& flight, std::uint64_t seed) {
           static_cast<std::uint32_t>(std::max(from, to)), from > to};
 }
 
-// When the receiver is looked for: until there is a reception, as long after the departure as sound takes along the
-// straight line to where the receiver is then.
+// When the receiver is looked for: until there is a reception, as long after the departure as sound takes
+// along the straight line to where the receiver is then.
 SimTime expected_arrival(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                          Propagation& propagation) {
   if (flight.solutions > 0 && flight.propagation_calls > 0) return flight.arrival();
@@ -90,7 +90,8 @@ SimTime expected_arrival(const Flight& flight, SimTime decided_at, const Vehicle
   return departure + SimDuration::from_seconds((place->position_ned_m - from).norm() / speed_mps);
 }
 
-// Where the receiver is when the propagation is evaluated for it next, with what is known at `decided_at`; empty: nowhere.
+// Where the receiver is when the propagation is evaluated for it next, with what is known at `decided_at`;
+// empty: nowhere.
 std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                                 Propagation& propagation) {
   const SimTime expected = expected_arrival(flight, decided_at, fleet, propagation);

@@ -3,12 +3,12 @@
 //
 // Model. The first significant path arrives at the t that solves
 //     t = s + delay(sender at s, receiver at t).
-// The propagation is evaluated where the receiver is predicted to be after the straight line's travel time; from there
-// the delay to a position nearby is taken to first order, delay + (direction of arrival / sound speed) .
-// (displacement), and t found by fixed point (a contraction: the error falls by v/c, 1e-3 for a submarine, each round).
-// When the sound is about to arrive more than 0.1 m from there, the propagation is evaluated again where it will meet
-// the receiver, so that second-order terms (displacement^2 / (2 range c)) are those of the 0.1 m within which a
-// reception is reused: below a nanosecond beyond 2 km.
+// The propagation is evaluated where the receiver is predicted to be after the straight line's travel time;
+// from there the delay to a position nearby is taken to first order, delay + (direction of arrival / sound
+// speed) . (displacement), and t found by fixed point (a contraction: the error falls by v/c, 1e-3 for a
+// submarine, each round). When the sound is about to arrive more than 0.1 m from there, the propagation is
+// evaluated again where it will meet the receiver, so that second-order terms (displacement^2 / (2 range c))
+// are those of the 0.1 m within which a reception is reused: below a nanosecond beyond 2 km.
 //
 // Evaluations of the propagation: one for a receiver at rest or on a straight course, three at most for
 // one that turns. All paths of a flight hold for the one place of its first significant path.
@@ -81,25 +81,27 @@ struct Flight {
   double doppler_factor() const;
 };
 
-// Gives flights of one packet, none of which was solved yet, the reception that try_to_solve() would ask for, where the
-// propagation is ready for it; that is shared out by `for_each`.
+// Gives flights of one packet, none of which was solved yet, the reception that try_to_solve() would ask for,
+// where the propagation is ready for it; that is shared out by `for_each`.
 void evaluate_together(const std::vector<Flight*>& begun, const VehicleRegistry& fleet,
                        Propagation& propagation, const ForEach& for_each);
 
-// Solves for travel time and reception, with what is known at `decided_at`; false, and nothing is changed, where the propagation
-// does not know all that it needs (Propagation::is_ready_for_packet). A receiver that is forgotten keeps the last solution.
-// Throws as Propagation::reception.
+// Solves for travel time and reception, with what is known at `decided_at`; false, and nothing is changed,
+// where the propagation does not know all that it needs (Propagation::is_ready_for_packet). A receiver that
+// is forgotten keeps the last solution. Throws as Propagation::reception.
 [[nodiscard]] bool try_to_solve(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                                 Propagation& propagation);
 
 // All paths of a flight that has arrived, as the receiver gets them, with the link's large-scale fading.
 AudiblePacket audible_packet(const Flight& flight);
-// The same, without paths where they are too weak to disturb; such a packet may be acquired all the same. Without `reach` all disturb.
+// The same, without paths where they are too weak to disturb; such a packet may be acquired all the same.
+// Without `reach` all disturb.
 AudiblePacket disturbing_sound(const Flight& flight, const ReachModel* reach);
-// The packet's times at the receiver; `noise` in uPa^2 over the packet's band, less the receiver's directivity.
+// The packet's times at the receiver; `noise` in uPa^2 over the packet's band, less the receiver's
+// directivity.
 ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading);
-// Sets signal and echoes over those times, as they have been known since the signal began. Of no path: they stay empty. Calls for
-// different flights may overlap between threads.
+// Sets signal and echoes over those times, as they have been known since the signal began. Of no path: they
+// stay empty. Calls for different flights may overlap between threads.
 void evaluate_signal(Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed);
 // 10^(X/20) of the flight's link when it locks.
 double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed);

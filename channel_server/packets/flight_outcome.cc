@@ -38,7 +38,8 @@ double gain_s(const VehicleClocks& clocks, VehicleId id, SimTime from, SimTime t
   return clocks.error_s(id, to) - clocks.error_s(id, from);
 }
 
-// Of an answer: what the one that asked measures by its clock, less what both ends know of packets and turnaround.
+// Of an answer: what the one that asked measures by its clock, less what both ends know of packets and
+// turnaround.
 double two_way_travel_time_s(const Flight& answer, const VehicleClocks& clocks) {
   const Packet& asked = *answer.packet->answers;
   const SimDuration waited =

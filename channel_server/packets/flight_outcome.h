@@ -29,8 +29,8 @@ OutcomeKind outcome_before_acquisition(const Flight& flight);
 // A wall where nothing fades; with fading the shift costs signal (acoustics/reception/signal_history.h).
 bool is_shifted_too_far(const Flight& flight);
 
-// Evaluates the signal of `first`, and beside it those of `soon`, flights in their preambles, that will be asked for unless their
-// receivers acquire others before; shared out by `for_each`.
+// Evaluates the signal of `first`, and beside it those of `soon`, flights in their preambles, that will be
+// asked for unless their receivers acquire others before; shared out by `for_each`.
 void evaluate_signals(Flight& first, std::vector<Flight*> soon, const acoustics::FadingModel& fading,
                       std::uint64_t seed, const ForEach& for_each);
 
@@ -41,16 +41,16 @@ OutcomeKind decide_outcome(Flight& flight, SimTime at, const VehicleRegistry& fl
 // The record of a flight that ended as `kind`; `promiscuous`: the receiver takes packets for others, too.
 PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleEquipment& equipment,
                          bool promiscuous = false);
-// Of a packet that does not get as far as `range_m`, at a receiver, or without one at several: kOutOfReach. Levels are kSilence,
-// nothing else was computed.
+// Of a packet that does not get as far as `range_m`, at a receiver, or without one at several: kOutOfReach.
+// Levels are kSilence, nothing else was computed.
 PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m, VehicleId receiver_id = 0,
                                    std::string receiver = {});
 // What a packet took from the battery of its sender, and of its receiver by its end; nothing without one.
 void add_sending(const Packet& packet, const VehiclePower& power, std::vector<MediumEvent>& events);
 void add_receiving(const Flight& flight, const PacketOutcome& outcome, SimTime at, const VehiclePower& power,
                    std::vector<MediumEvent>& events);
-// Whether the receiver's modem answers by itself: a ping, or a packet that wants an acknowledgement, received by its addressee; a ping
-// to all received by a transponder.
+// Whether the receiver's modem answers by itself: a ping, or a packet that wants an acknowledgement, received
+// by its addressee; a ping to all received by a transponder.
 bool asks_for_answer(const PacketOutcome& outcome, const VehicleEquipment& equipment);
 // The answer to a packet that was received by `at`: it leaves a turnaround later by the receiver's clock.
 ModemReply answer_of(const Flight& flight, SimTime at, const VehicleClocks& clocks);

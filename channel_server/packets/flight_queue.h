@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The flights of a medium, in the order of their next events: by instant, then by stage, receiver and packet.
 //
-// A binary heap of small entries, most of which are compared without a look at the flights. Flights stay where they are made;
-// one that has ended serves the next packet, so there are as many as ever were under way at a time.
+// A binary heap of small entries, most of which are compared without a look at the flights. Flights stay
+// where they are made; one that has ended serves the next packet, so there are as many as ever were under way
+// at a time.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +31,8 @@ class FlightQueue {
   // Of a packet (`identity`: identity_for_draws) to a receiver; to be added.
   Flight& make_flight(PacketPointer packet, std::uint64_t identity, VehicleId receiver_id,
                       std::string receiver);
-  // Its next event is at `at`, in the stage that it has. No other flight may be of the same packet to the same receiver.
+  // Its next event is at `at`, in the stage that it has. No other flight may be of the same packet to the
+  // same receiver.
   void add(SimTime at, Flight& flight);
   void end(Flight& flight);
   void clear();

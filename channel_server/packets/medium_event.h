@@ -13,8 +13,8 @@
 
 namespace halocline::channel_server {
 
-// What one packet takes from a vehicle's battery: of its sender whole at the departure, of a receiver that acquired it, whatever
-// became of it, at its end.
+// What one packet takes from a vehicle's battery: of its sender whole at the departure, of a receiver that
+// acquired it, whatever became of it, at its end.
 struct EnergyUse {
   std::string vehicle;
   bool is_transmission = true;

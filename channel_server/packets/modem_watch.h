@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What modems notice besides whole packets, for those that report it (Listening::events): their own transmissions, packets
-// detected, and carrier.
+// What modems notice besides whole packets, for those that report it (Listening::events): their own
+// transmissions, packets detected, and carrier.
 //
-// Carrier. Each path of each packet of others counts with its mean power in the modem's band while it sounds. Carrier is sensed
-// where their sum exceeds the noise of the band, less the directivity index, by the modem's carrier_threshold:
+// Carrier. Each path of each packet of others counts with its mean power in the modem's band while it sounds.
+// Carrier is sensed where their sum exceeds the noise of the band, less the directivity index, by the modem's
+// carrier_threshold:
 //   sum_i P_i(t) > 10^(threshold / 10) N
-// Changes come at the exact instants at which the sum passes that level, but not within kCarrierHold of the one before: a
-// detector of energy averages over so much. A modem that transmits or sleeps senses nothing. The noise is that of the instant
-// at which sound last began or ended.
+// Changes come at the exact instants at which the sum passes that level, but not within kCarrierHold of the
+// one before: a detector of energy averages over so much. A modem that transmits or sleeps senses nothing.
+// The noise is that of the instant at which sound last began or ended.
 //
-// Each TRANSMISSION_ENDED, PACKET_ENDED and CARRIER_ENDED follows its beginning, even where the modem reports no more by then. Bounded:
-// two events for a transmission, three for a packet followed (one at a time), 100 changes of carrier a second. Not
-// thread-safe.
+// Each TRANSMISSION_ENDED, PACKET_ENDED and CARRIER_ENDED follows its beginning, even where the modem reports
+// no more by then. Bounded: two events for a transmission, three for a packet followed (one at a time), 100
+// changes of carrier a second. Not thread-safe.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +42,8 @@ class ModemWatch {
 
   // A packet leaves now.
   void begin_transmission(const Packet& packet, std::vector<MediumEvent>& events);
-  // When the next transmission that was reported ends, or the next header of a packet that was; never() without one.
+  // When the next transmission that was reported ends, or the next header of a packet that was; never()
+  // without one.
   SimTime next_end() const { return std::min(next_of(ends_), next_of(headers_)); }
   void end_transmission_or_header(std::vector<MediumEvent>& events);
 
@@ -50,8 +52,8 @@ class ModemWatch {
   // The last bit of a packet, detected or not.
   static void end(const Flight& flight, SimTime at, OutcomeKind outcome, std::vector<MediumEvent>& events);
 
-  // What is heard at a vehicle, or how its modem listens, changes at `at`: its carrier is to be judged then, after all else of
-  // that instant. Nothing where the modem reports nothing.
+  // What is heard at a vehicle, or how its modem listens, changes at `at`: its carrier is to be judged then,
+  // after all else of that instant. Nothing where the modem reports nothing.
   void judge_carrier_at(VehicleId id, SimTime at);
   SimTime next_carrier() const { return due_.empty() ? SimTime::never() : due_.begin()->first; }
   // Of whom next_carrier() is; only while there is one.

@@ -23,7 +23,8 @@ class NoiseLevelCache {
   Decibels level(const acoustics::Band& band, const acoustics::NoiseSources& sources);
 
  private:
-  // Low and high end of the band, Hz; shipping; wind, m/s; rain, mm/h. A table is as old as its sea, which outlives it.
+  // Low and high end of the band, Hz; shipping; wind, m/s; rain, mm/h. A table is as old as its sea, which
+  // outlives it.
   using Key = std::pair<std::array<double, 5>, const acoustics::NoiseSpectrum*>;
   LruCache<Key, Decibels> levels_{kMaxKept};
   // What was asked for last, which is what most packets ask for.

@@ -37,9 +37,10 @@ constexpr bool is_answer(PacketKind kind) {
   return kind == PacketKind::kPingReply || kind == PacketKind::kAck;
 }
 
-// From the last bit of a packet as sent (counted from its first bit's arrival) to the first bit of the modem's answer.
-// Our choice: time for a modem to decode and to turn from receiving to sending, and longer than Doppler makes
-// any packet (10 ms of 3 s at 5 m/s); both ends know it, so that the sender of the packet can subtract it.
+// From the last bit of a packet as sent (counted from its first bit's arrival) to the first bit of the
+// modem's answer. Our choice: time for a modem to decode and to turn from receiving to sending, and longer
+// than Doppler makes any packet (10 ms of 3 s at 5 m/s); both ends know it, so that the sender of the packet
+// can subtract it.
 inline constexpr SimDuration kReplyTurnaround = SimDuration::from_milliseconds(100);
 
 // Transmit this: `session` and `packet_sequence` are the sender's names for it.
@@ -133,8 +134,8 @@ struct Packet {
 };
 using PacketPointer = std::shared_ptr<const Packet>;  // never null
 
-// What became of a packet at one possible receiver; in the order of packet_outcome_t. It is the first of these that
-// holds, in the order of the numbers in brackets.
+// What became of a packet at one possible receiver; in the order of packet_outcome_t. It is the first of
+// these that holds, in the order of the numbers in brackets.
 enum class OutcomeKind {
   kReceived,      // [13] none of the others: at least one frame was right
   kBelowCutoff,   // [5] all paths together are below the receiver's least receivable level
@@ -168,7 +169,8 @@ struct DecisionStatistics {
   std::uint32_t frames_good = 0;       // bit i: frame i was right
 };
 
-// The outcome of a packet at one possible receiver; or, kOutOfReach, at all that are out of reach but for its destination.
+// The outcome of a packet at one possible receiver; or, kOutOfReach, at all that are out of reach but for its
+// destination.
 struct PacketOutcome {
   PacketPointer packet;
   VehicleId receiver_id = 0;  // 0: several receivers
@@ -179,7 +181,8 @@ struct PacketOutcome {
       false;  // received, and addressed to this receiver or to all, or this receiver is promiscuous
   double travel_time_s = 0;  // of the first significant path
   SimTime departure_stamp;   // the departure by the sender's clock
-  // As the receiver's modem measures it: with noise, in steps of its time quantum, by its own clock less the stamp.
+  // As the receiver's modem measures it: with noise, in steps of its time quantum, by its own clock less the
+  // stamp.
   double measured_travel_time_s = 0;
   double two_way_travel_time_s = 0;  // likewise by its own clock, of an answer: out and back; else 0
   acoustics::LinkBudget budget;      // from the sender at departure to the receiver at arrival
@@ -191,7 +194,8 @@ struct PacketOutcome {
   double arrival_azimuth_rad = 0;    // towards where the sound came from, from north by east, -pi..pi
   double arrival_elevation_rad = 0;  // likewise, from the horizontal, positive up
   DecisionStatistics statistics;
-  // Its SEND came so late that its sound overlaps, here or where it left, a reception that was decided without it.
+  // Its SEND came so late that its sound overlaps, here or where it left, a reception that was decided
+  // without it.
   bool is_too_late = false;
   double receive_energy_j = 0;  // taken from the receiver's battery; 0 unless acquired, and without one
 };

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How a modem sends what is requested: at which of its rates, and how the packet is divided.
 //
-// Without a rate in the request a packet goes at the modem's own rate; one of a kind that this has not, at the rate of the least
-// number that has it (a Micromodem's mini-packets are frequency-shift keying). Kinds:
+// Without a rate in the request a packet goes at the modem's own rate; one of a kind that this has not, at
+// the rate of the least number that has it (a Micromodem's mini-packets are frequency-shift keying). Kinds:
 //   data        header and frames of the payload
 //   ping        likewise; its answer has no payload
-//   ack         a mini-packet where a rate has these, else data of one bit for each frame acknowledged, in whole bytes
+//   ack         a mini-packet where a rate has these, else data of one bit for each frame acknowledged, in
+//               whole bytes
 //   mini        one block of `mini_packet_bits`, no header; 13 bits of them are the payload's
-//   JANUS       the header alone, whose `application_bits` are the payload's; with cargo, a second frame follows
+//   JANUS       the header alone, whose `application_bits` are the payload's; with cargo, a second frame
+//               follows
 // A payload of bits lies in whole bytes, the high byte first, in their lowest bits.
 #pragma once
 

@@ -2,10 +2,10 @@
 // The water between modems as a discrete-event simulation: packets start, travel, arrive, disturb each other
 // and end at their exact instants.
 //
-// Model. A packet requested for time s is decided at s: refused, accepted, or queued by a modem that queues (16
-// wait at most; each starts when those before it have ended). A sender that is nowhere at s is given the state lag
-// (state_history.h) until its first state counts: the packet is then requested for s + lag, so one requested with the
-// very first state is transmitted. Every vehicle present at its departure except the
+// Model. A packet requested for time s is decided at s: refused, accepted, or queued by a modem that queues
+// (16 wait at most; each starts when those before it have ended). A sender that is nowhere at s is given the
+// state lag (state_history.h) until its first state counts: the packet is then requested for s + lag, so one
+// requested with the very first state is transmitted. Every vehicle present at its departure except the
 // sender is a possible receiver, and each gets exactly one PacketOutcome.
 //   flight.h              when and how it arrives
 //   receiver_state.h      what else sounds at the receiver meanwhile
@@ -13,30 +13,34 @@
 //   modem_watch.h         what its modem reports meanwhile
 // packet.h lists the possible outcomes and in which order the first that holds is found. A packet lasts
 // duration / doppler factor at a receiver. A modem that has acquired a packet follows it to its end, even if
-// weak or for another; what arrives meanwhile it does not acquire. A transmission of its own ends that, and every
-// reception it overlaps. A ping that its addressee received is answered kReplyTurnaround later, one to all by each transponder that
-// received it, as is a packet that wants an acknowledgement, unless that modem is busy then: the answer is a packet like any other.
+// weak or for another; what arrives meanwhile it does not acquire. A transmission of its own ends that, and
+// every reception it overlaps. A ping that its addressee received is answered kReplyTurnaround later, one to
+// all by each transponder that received it, as is a packet that wants an acknowledgement, unless that modem
+// is busy then: the answer is a packet like any other.
 //
 // Repeatability. Decisions depend on the contents of states and requests, on the seed, and on instants of
 // simulation time, not on the order they were given in. Events are sorted by time, then receipts before
-// outcomes, then receiver, sender, packet sequence. A request received after its start is processed as of its start,
-// among all that sounded then; what was due meanwhile comes out at once, with its exact instant, marked late.
-// What was decided before it was received stays: packets it would have disturbed, and a receiver that would have
-// acquired it.
+// outcomes, then receiver, sender, packet sequence. A request received after its start is processed as of its
+// start, among all that sounded then; what was due meanwhile comes out at once, with its exact instant,
+// marked late. What was decided before it was received stays: packets it would have disturbed, and a receiver
+// that would have acquired it.
 //
-// Waiting. Where the propagation is not ready for an arrival (Propagation::is_ready), that event and all after it wait,
-// and happen at their exact instants once it is: waiting changes when events are known, never what happens.
+// Waiting. Where the propagation is not ready for an arrival (Propagation::is_ready), that event and all
+// after it wait, and happen at their exact instants once it is: waiting changes when events are known, never
+// what happens.
 //
-// Error. A receiver that turns towards the sound while it travels is met late by 2 v / c of the travel time at
-// most (a few ms); a decision at that receiver within this gap does not know of the sound yet.
+// Error. A receiver that turns towards the sound while it travels is met late by 2 v / c of the travel time
+// at most (a few ms); a decision at that receiver within this gap does not know of the sound yet.
 //
-// Energy. A vehicle with a battery (vehicles/vehicle_power.h) spends transmit_power_w over the duration of what it sends, and its
-// receiving power while it follows a packet it acquired; each gives an EnergyUse. Without power a modem sends, answers and
-// acquires nothing, and what waits in its queue is never sent; what it had begun to send goes on to its end.
+// Energy. A vehicle with a battery (vehicles/vehicle_power.h) spends transmit_power_w over the duration of
+// what it sends, and its receiving power while it follows a packet it acquired; each gives an EnergyUse.
+// Without power a modem sends, answers and acquires nothing, and what waits in its queue is never sent; what
+// it had begun to send goes on to its end.
 //
 // Shards. A medium that shares the water with others (rule.shard) gets all states and requests, decides all
-// of them, and follows packets only to the receivers it serves. Only a modem's own answer depends on what another
-// shard's vehicle received; it leaves kReplyTurnaround after that, and add_answer() passes it on meanwhile.
+// of them, and follows packets only to the receivers it serves. Only a modem's own answer depends on what
+// another shard's vehicle received; it leaves kReplyTurnaround after that, and add_answer() passes it on
+// meanwhile.
 //
 // Left out: echoes of a modem's own transmissions, motion of the receiver between the paths of one packet.
 #pragma once
@@ -90,8 +94,8 @@ class PacketMedium {
  public:
   static constexpr std::size_t kMaxQueued = kMaxQueuedSends;
 
-  // All must outlive the medium; `for_each` shares out what the paths of one packet cost; the owner adds the states to the registry before advance_to. Without `reach` everybody
-  // is within reach.
+  // All must outlive the medium; `for_each` shares out what the paths of one packet cost; the owner adds the
+  // states to the registry before advance_to. Without `reach` everybody is within reach.
   PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule,
                ReachModel* reach = nullptr, ForEach for_each = one_after_the_other);
 
@@ -109,13 +113,14 @@ class PacketMedium {
 
   // When something next happens; SimTime::never() when the water is silent, or waits.
   SimTime next_event() const;
-  // When a packet that a modem may answer next departs, arrives or ends; SimTime::never() without one, though the water waits.
+  // When a packet that a modem may answer next departs, arrives or ends; SimTime::never() without one, though
+  // the water waits.
   SimTime next_answerable() const;
-  // Everything that happens up to and including `time`, which does not decrease from call to call; up to the first
-  // event that waits. Valid until the next call.
+  // Everything that happens up to and including `time`, which does not decrease from call to call; up to the
+  // first event that waits. Valid until the next call.
   const std::vector<MediumEvent>& advance_to(SimTime time);
-  // Whether the last advance_to() ended at an event that waits for the propagation: to be called again when that may
-  // be ready.
+  // Whether the last advance_to() ended at an event that waits for the propagation: to be called again when
+  // that may be ready.
   bool is_waiting() const { return waiting_; }
 
   // Forgets receipts and occupations from before `time`; the owner gives an instant at least
@@ -147,7 +152,8 @@ class PacketMedium {
 
   // Of the first flight; false: it must wait for the propagation.
   bool on_flight_event(SimTime at, std::vector<MediumEvent>& events);
-  // Solves for the arrival of a flight that is not in the queue and puts it there; false, and nothing: it must wait.
+  // Solves for the arrival of a flight that is not in the queue and puts it there; false, and nothing: it
+  // must wait.
   [[nodiscard]] bool try_to_arrive(Flight& flight, SimTime at);
   void begin_reception(Flight& flight, SimTime at);
   void end_preamble(Flight& flight, SimTime at, std::vector<MediumEvent>& events);

@@ -16,8 +16,8 @@ bool overlap(const PacketInterval& span, SimTime begin, SimTime end) {
   return begin < span.end && (span.begin < end || span.begin == begin);
 }
 
-// Whether both answer one ping to all. Each transponder has a frequency or a code of its own, for which receivers have a filter each:
-// such answers neither disturb nor displace one another.
+// Whether both answer one ping to all. Each transponder has a frequency or a code of its own, for which
+// receivers have a filter each: such answers neither disturb nor displace one another.
 bool answer_one_ping(const Packet& a, const Packet& b) {
   const SendRequest &one = a.request, &other = b.request;
   return one.kind == PacketKind::kPingReply && other.kind == PacketKind::kPingReply &&

@@ -65,8 +65,9 @@ class ReceiverState {
   // `kept_longer`: how long after its end a sound may still overlap a reception that is added late.
   explicit ReceiverState(SimDuration kept_longer) : kept_longer_(kept_longer) {}
 
-  // A packet arrives; a reception is open from its begin on until closed. Returns whether it comes too late: it overlaps, in a band of both,
-  // a sound that had ended by `decided_by`, so that what became of that is decided.
+  // A packet arrives; a reception is open from its begin on until closed. Returns whether it comes too late:
+  // it overlaps, in a band of both, a sound that had ended by `decided_by`, so that what became of that is
+  // decided.
   bool open(AudiblePacket packet, SimTime decided_by = SimTime::at_once());
   void close(SimTime begin, SimTime now);
   // Likewise.
@@ -78,18 +79,18 @@ class ReceiverState {
 
   // What the receiver itself sends at any instant of [begin, end), by begin.
   std::vector<PacketPointer> transmitted_during(SimTime begin, SimTime end) const;
-  // The packet that the receiver follows at `instant` and that keeps it from `other`; null without one. A transmission of its own
-  // ends that. Answers to one ping are followed beside each other.
+  // The packet that the receiver follows at `instant` and that keeps it from `other`; null without one. A
+  // transmission of its own ends that. Answers to one ping are followed beside each other.
   std::shared_ptr<const Packet> followed_at(SimTime instant, const Packet& other) const;
-  // All packets that disturb `packet` during [begin, end), in its band: all others but answers to the ping that it answers; those of no
-  // power in it left out.
+  // All packets that disturb `packet` during [begin, end), in its band: all others but answers to the ping
+  // that it answers; those of no power in it left out.
   Interferers interferers_of(const Packet& packet, SimTime begin, SimTime end) const;
 
   // Whether it transmits at `instant`, and until when; never() where it does not.
   bool transmits_at(SimTime instant) const { return transmission_end(instant) != SimTime::never(); }
   SimTime transmission_end(SimTime instant) const;
-  // The first instant from `from` on at which the power in `band` of all paths known so far is above `level`, or with `is_above`
-  // false is not.
+  // The first instant from `from` on at which the power in `band` of all paths known so far is above `level`,
+  // or with `is_above` false is not.
   PowerCrossing next_crossing(SimTime from, const acoustics::Band& band, double level, bool is_above) const;
 
   bool silent() const { return sounds_.empty() && transmissions_.empty() && open_.empty(); }

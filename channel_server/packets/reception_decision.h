@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The outcome of one packet at one receiver from signal, noise and interference over time, for a packet above the
-// cut-off, in band, with an open path, at a receiver that does not transmit.
+// The outcome of one packet at one receiver from signal, noise and interference over time, for a packet above
+// the cut-off, in band, with an open path, at a receiver that does not transmit.
 //
 // Model. The first part of a packet is its preamble, the rest holds its information bits evenly. At every
 // instant and frequency SINR = S / (N + I) in the packet's band:
-//   S, and the packet's own echoes in I, from the history of the signal (acoustics/reception/signal_history.h): the
+//   S, and the packet's own echoes in I, from the history of the signal
+//   (acoustics/reception/signal_history.h): the
 //      power within the guard window, which fades;
 //   N  the noise over the band, less the receiver's directivity;
-//   I  besides its echoes all paths of all other packets, each during its own interval, with the large-scale fading of
-//      its link; the noise of other vehicles (vehicle_sounds.h), and bursts of the sea's (acoustics/noise/noise_variation.h).
-//   acquired  when draw 1 < acquisition_probability(modem, mean S / (N + mean I)), means over the preamble: a correlator
-//             gathers what sounds during the whole of it;
+//   I  besides its echoes all paths of all other packets, each during its own interval, with the large-scale
+//      fading of its link; the noise of other vehicles (vehicle_sounds.h), and bursts of the sea's
+//      (acoustics/noise/noise_variation.h).
+//   acquired  when draw 1 < acquisition_probability(modem, mean S / (N + mean I)), means over the preamble: a
+//             correlator gathers what sounds during the whole of it;
 //   header    right when draw 2 < P_header, 1 without one
-//   frames    the first is right when draw 2 < P_header P_0, frame i when the header is and draw 2 + i < P_i; P of a block is
-//             its probability to be right (acoustics/reception/decoding.h) in its own span of time
+//   frames    the first is right when draw 2 < P_header P_0, frame i when the header is and draw 2 + i < P_i;
+//             P of a block is its probability to be right (acoustics/reception/decoding.h) in its own span of
+//             time
 //   received  when at least one frame is right.
-// Given the header, draw 2 / P_header is uniform again, so all frames are decided independently of each other, and a packet of
-// one frame by one draw.
+// Given the header, draw 2 / P_header is uniform again, so all frames are decided independently of each
+// other, and a packet of one frame by one draw.
 // Both curves are those of acoustics/modem/modem.h. Interference counts as noise that is white over the band.
 //
-// A loss counts as a collision when the same draws without the other packets give a reception, and as the Doppler shift's
-// when they do without the shift that the receiver does not correct.
+// A loss counts as a collision when the same draws without the other packets give a reception, and as the
+// Doppler shift's when they do without the shift that the receiver does not correct.
 //
-// Draws are addressed by the packet's contents and the receiver, never by turn and not by the sender's session,
-// which differs between runs of separate processes.
+// Draws are addressed by the packet's contents and the receiver, never by turn and not by the sender's
+// session, which differs between runs of separate processes.
 #pragma once
 
 #include <cstdint>
@@ -81,12 +84,14 @@ double acquisition_probability(const ReceivedSignal& signal, const std::vector<I
 double success_probability(const ReceivedSignal& signal, const std::vector<Interference>& others);
 
 // Of the measured time of arrival: normal, with the deviation that noise leaves a matched filter,
-//   sigma = 1 / (2 pi (B / sqrt(12)) sqrt(2 E/N)),  E/N = T B SINR over the preamble (over all of it without one)
-// (Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993, section 3.11). 0 without fading.
+//   sigma = 1 / (2 pi (B / sqrt(12)) sqrt(2 E/N)),  E/N = T B SINR over the preamble (over all of it without
+//                                                   one)
+// (Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993, section 3.11). 0 without
+// fading.
 double timing_error_s(const ReceivedSignal& signal, const Interferers& others, double standard_normal);
 
-// Adds the bursts of the sea's noise at the receiver that fall into the packet, each g A over its part of it, with g above `noise` by
-// the stated level. Bursts are counted from time 0.
+// Adds the bursts of the sea's noise at the receiver that fall into the packet, each g A over its part of it,
+// with g above `noise` by the stated level. Bursts are counted from time 0.
 void add_bursts(const acoustics::NoiseVariation& variation, std::uint64_t seed, VehicleId receiver,
                 ReceivedSignal& signal);
 

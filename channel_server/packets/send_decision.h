@@ -21,8 +21,8 @@ struct SendDecision {
 SendDecision decide_send(const SendRequest& request, const Framing& framing, const VehicleRegistry& fleet,
                          const SendRegister& sends);
 
-// A queued packet as it departs: where the sender is by then, or was when the packet was accepted should it be forgotten
-// since.
+// A queued packet as it departs: where the sender is by then, or was when the packet was accepted should it
+// be forgotten since.
 PacketPointer at_its_departure(const Packet& queued, const VehicleRegistry& fleet);
 
 }  // namespace halocline::channel_server

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the noise of vehicles does at a receiver: to the reception of a packet, and to link tables.
 //
-// The receiver's own noise adds to the ambient noise over the packet's band. The noise of every other vehicle comes along the
-// paths of sound from where it was, as far as its reach (propagation/reach.h) goes: with the mean power of all paths and the
-// large-scale fading of the link, as the sound of packets does. It left where a straight line puts it to arrive with the packet, is as loud
-// as it was then for the whole of the packet, and disturbs like a packet that sounds all the while: by name, among the colliders.
-// Left out: how it changes during the packet, and its delays along several paths. Link tables state the mean over fading.
+// The receiver's own noise adds to the ambient noise over the packet's band. The noise of every other vehicle
+// comes along the paths of sound from where it was, as far as its reach (propagation/reach.h) goes: with the
+// mean power of all paths and the large-scale fading of the link, as the sound of packets does. It left where
+// a straight line puts it to arrive with the packet, is as loud as it was then for the whole of the packet,
+// and disturbs like a packet that sounds all the while: by name, among the colliders. Left out: how it
+// changes during the packet, and its delays along several paths. Link tables state the mean over fading.
 #pragma once
 
 #include <cstdint>
@@ -57,9 +58,11 @@ class VehicleSounds {
   double own_power(VehicleId receiver, const acoustics::Band& band, SimTime at, SimTime decided_at) const;
   // Over the band, ambient and the receiver's own, dB re 1 uPa.
   Decibels noise_level(VehicleId receiver, const acoustics::Band& band, SimTime at, SimTime decided_at);
-  // Sets the noise level in the packet's band, ambient and the receiver's own, and the noise of other vehicles beside it.
+  // Sets the noise level in the packet's band, ambient and the receiver's own, and the noise of other
+  // vehicles beside it.
   void set_noise(Flight& flight, SimTime decided_at);
-  // Of a flight whose arrival is solved: whether the propagation knows all that set_noise() needs, as Propagation::is_ready.
+  // Of a flight whose arrival is solved: whether the propagation knows all that set_noise() needs, as
+  // Propagation::is_ready.
   bool are_ready(const Flight& flight, SimTime decided_at);
 
   // Over the band, ambient, the receiver's own and the mean power of all others, dB re 1 uPa.
@@ -85,7 +88,8 @@ class VehicleSounds {
   std::uint64_t seed_;
 };
 
-// All other packets at the flight's receiver during [begin, end), and the noise of other vehicles, which sounds all the while.
+// All other packets at the flight's receiver during [begin, end), and the noise of other vehicles, which
+// sounds all the while.
 Interferers interferers_of(const Flight& flight, const ReceiverState& receiver, SimTime begin, SimTime end);
 
 }  // namespace halocline::channel_server

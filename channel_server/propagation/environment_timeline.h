@@ -2,16 +2,19 @@
 // The water of a run, which may change: which environment holds at which instant.
 //
 // A run starts with one environment; changes follow, from the scenario and from whoever announces them. Each
-// sets some of wind, shipping, sea surface and sound-speed profile from an instant on, and leaves the rest. One
-// that is announced late (its instant lies before what has been published) holds from the instant at which it was
-// received: what is published stays true. Changes of one instant apply in the order of their sessions and sequence
-// numbers, so what holds is a function of what was received and when, not of the order in one turn.
+// sets some of wind, shipping, sea surface and sound-speed profile from an instant on, and leaves the rest.
+// One that is announced late (its instant lies before what has been published) holds from the instant at
+// which it was received: what is published stays true. Changes of one instant apply in the order of their
+// sessions and sequence numbers, so what holds is a function of what was received and when, not of the order
+// in one turn.
 //
-// Where the environment has a field of temperature and salinity that changes with time, sound has the water of the middle of the
-// span of WaterField::period_s that an instant lies in: so many links and packets share their searches, and delays jump by what half
-// a span changes. Spans begin at multiples of the period. A profile that is announced ends the field.
+// Where the environment has a field of temperature and salinity that changes with time, sound has the water
+// of the middle of the span of WaterField::period_s that an instant lies in: so many links and packets share
+// their searches, and delays jump by what half a span changes. Spans begin at multiples of the period. A
+// profile that is announced ends the field.
 //
-// A value in memory; not thread-safe, also where it is only asked: it keeps the environments that a field makes.
+// A value in memory; not thread-safe, also where it is only asked: it keeps the environments that a field
+// makes.
 #pragma once
 
 #include <compare>
@@ -55,8 +58,8 @@ class EnvironmentTimeline {
 
   // A change of the scenario: survives clear(). Throws InvalidArgument when it leads out of range.
   void schedule(SimTime from, const EnvironmentChange& change);
-  // One announced by `origin` to hold from `announced_from`, received at `received_at`. Empty when taken (a repetition is);
-  // else why not.
+  // One announced by `origin` to hold from `announced_from`, received at `received_at`. Empty when taken (a
+  // repetition is); else why not.
   [[nodiscard]] std::string announce(SimTime announced_from, SimTime received_at, Origin origin,
                                      const EnvironmentChange& change);
 
@@ -66,8 +69,8 @@ class EnvironmentTimeline {
   // The first change, but of a field, after `instant`; never() when none is known.
   SimTime next_change_after(SimTime instant) const;
 
-  // Forgets changes that were announced and superseded before `time`, but for the latest kAnnouncedKept, of which
-  // repetitions may still arrive. No instant before `time` is evaluated any more.
+  // Forgets changes that were announced and superseded before `time`, but for the latest kAnnouncedKept, of
+  // which repetitions may still arrive. No instant before `time` is evaluated any more.
   void forget_before(SimTime time);
   std::size_t changes_kept() const { return spans_.size() - 1; }
 

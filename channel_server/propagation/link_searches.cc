@@ -35,7 +35,8 @@ std::vector<std::pair<SearchBudget::LinkId, const EndPair*>> one_way_of_each(
   return ways;
 }
 
-// Where the gradient of sound speed jumps, to the last bit: as a profile and a mooring of one scenario state it.
+// Where the gradient of sound speed jumps, to the last bit: as a profile and a mooring of one scenario state
+// it.
 bool is_knot(const acoustics::RayWater& water, double depth_m) {
   return depth_m > 0 && std::binary_search(water.depths_m().begin(), water.depths_m().end(), depth_m);
 }

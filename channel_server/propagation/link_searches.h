@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The searches that links need: which query of path_search.h is a link's, what has been found for it, and what is searched now.
+// The searches that links need: which query of path_search.h is a link's, what has been found for it, and
+// what is searched now.
 //
-// A link is searched from the end where the bottom profile starts (the lower id) to the other. For itself, the query is that of
-// its very ends. For a table, with a distance of reuse, both ends go to the nearest points of a horizontal lattice for the bottom,
-// and the query is that of the middle of the cell that the link lies in (middle_of_cell), but for an end exactly at a knot of the
-// water, which keeps its depth; not for coherent levels. With a budget
-// of searches a tick (search_budget.h) it is the query that the link was last granted. For a packet it is as for a table with
-// RayModel::reuse_for_packets, but a link that waits for its first turn, or was granted its query in other water or over another
-// seabed, is searched at once; else as for itself.
+// A link is searched from the end where the bottom profile starts (the lower id) to the other. For itself,
+// the query is that of its very ends. For a table, with a distance of reuse, both ends go to the nearest
+// points of a horizontal lattice for the bottom, and the query is that of the middle of the cell that the
+// link lies in (middle_of_cell), but for an end exactly at a knot of the water, which keeps its depth; not
+// for coherent levels. With a budget
+// of searches a tick (search_budget.h) it is the query that the link was last granted. For a packet it is as
+// for a table with RayModel::reuse_for_packets, but a link that waits for its first turn, or was granted its
+// query in other water or over another seabed, is searched at once; else as for itself.
 //
-// What is found is kept for kKept after its last use, and searched again when it was forgotten: answers are functions of environment, terrain and query
-// alone, and of the ticks so far where there is a budget. Of several servers one searches for two vehicles
-// (path_exchange.h). Not thread-safe.
+// What is found is kept for kKept after its last use, and searched again when it was forgotten: answers are
+// functions of environment, terrain and query alone, and of the ticks so far where there is a budget. Of
+// several servers one searches for two vehicles (path_exchange.h). Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +43,8 @@ namespace halocline::channel_server {
 class LinkSearches {
  public:
   using Paths = std::shared_ptr<const FoundPaths>;
-  // Simulation time, twice that at most: vehicles that lie still or pass a cell again soon find it, and what is kept is that of four
-  // minutes, however long the run.
+  // Simulation time, twice that at most: vehicles that lie still or pass a cell again soon find it, and what
+  // is kept is that of four minutes, however long the run.
   static constexpr SimDuration kKept = SimDuration::from_milliseconds(120'000);
   // A link, ready to be searched without touching what is kept.
   struct Task {
@@ -97,7 +99,8 @@ class LinkSearches {
   // Of each task, in their order; those that wait find nothing.
   std::vector<Paths> find_all(const std::vector<Task>& tasks, const ForEach& for_each);
 
-  // Of the links of a table, those that this server and another share: what it owns is searched for, what the other owns awaited.
+  // Of the links of a table, those that this server and another share: what it owns is searched for, what the
+  // other owns awaited.
   void find_shared(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each);
 
   std::shared_ptr<const SeabedProfile> seabed_of(const PathQuery& query) const;
@@ -120,7 +123,8 @@ class LinkSearches {
     std::optional<std::shared_ptr<const SeabedProfile>> seabed = std::nullopt;  // empty: not looked up yet
     PathLine searches = {};
   };
-  // Null where the bottom is not known. Calls may overlap between threads, each of which has lines of its own.
+  // Null where the bottom is not known. Calls may overlap between threads, each of which has lines of its
+  // own.
   Paths search(const Task& task, Line& line) const;
   void keep(const Task& task, const Paths& paths);
   // The same paths serve the server of the other end.

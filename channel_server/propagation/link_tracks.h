@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One link in full, for charts: its paths with their ways and the terms of their budgets, and the seabed under it.
+// One link in full, for charts: its paths with their ways and the terms of their budgets, and the seabed
+// under it.
 //
-// Of each path: received level = source level - spreading - absorption - loss at the surface - loss at the bottom - loss of
-// both beams, dB. The losses at the boundaries hold reflection and what is scattered out of the path. Ranges are
-// horizontal, from the transmitter, m; depths below the surface, m.
+// Of each path: received level = source level - spreading - absorption - loss at the surface - loss at the
+// bottom - loss of both beams, dB. The losses at the boundaries hold reflection and what is scattered out of
+// the path. Ranges are horizontal, from the transmitter, m; depths below the surface, m.
 #pragma once
 
 #include <algorithm>
@@ -40,8 +41,8 @@ struct LinkTracks {
   std::vector<acoustics::RayPoint> seabed = {};  // from end to end; empty where it is not known or not used
 };
 
-// Keeps the strongest LinkTracks::kMaxPaths of `found`, whose items have a SoundPath `path`, by delay; returns how many it
-// leaves out.
+// Keeps the strongest LinkTracks::kMaxPaths of `found`, whose items have a SoundPath `path`, by delay;
+// returns how many it leaves out.
 template <class Item>
 std::size_t keep_strongest(std::vector<Item>& found) {
   const std::size_t all = found.size();
@@ -54,8 +55,8 @@ std::size_t keep_strongest(std::vector<Item>& found) {
   return all - found.size();
 }
 
-// Fills in the weights. `paths` are all that arrive, by delay: those of the tracks in their order, those left out, and
-// reverberation.
+// Fills in the weights. `paths` are all that arrive, by delay: those of the tracks in their order, those left
+// out, and reverberation.
 void weigh(const std::vector<acoustics::SoundPath>& paths, const acoustics::Modem& receiver,
            LinkTracks& tracks);
 

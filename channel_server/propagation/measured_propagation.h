@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Propagation in which measured channels take the place of modelled paths, for all links or for some.
 //
-// A reception of such a link is that of the model with other paths: those of acoustics/fading/measured_fading.h for the
-// transmitter's band, the first of which arrives when the model's first significant path does. The level is the model's,
-// or the record's, whose h is then the pressure at the receiver over that at 1 m from the source. A link stays as
-// modelled to or from a position (id 0), where the model has no path, and for a band that the record does not hold.
+// A reception of such a link is that of the model with other paths: those of
+// acoustics/fading/measured_fading.h for the transmitter's band, the first of which arrives when the model's
+// first significant path does. The level is the model's, or the record's, whose h is then the pressure at the
+// receiver over that at 1 m from the source. A link stays as modelled to or from a position (id 0), where the
+// model has no path, and for a band that the record does not hold.
 #pragma once
 
 #include <map>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What several channel servers of one water tell each other about the paths of sound that they searched for.
 //
-// A search is a function of its query and the sea (path_search.h), so it does not matter who makes it, and an answer that
-// does not come is computed. The searches of link tables, and those that packets share with them, are told to the server of the
-// link's other end.
+// A search is a function of its query and the sea (path_search.h), so it does not matter who makes it, and an
+// answer that does not come is computed. The searches of link tables, and those that packets share with them,
+// are told to the server of the link's other end.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,8 @@
 
 namespace halocline::channel_server {
 
-// A query of the link between two vehicles that are served by this server and another, and the sea of its answer.
+// A query of the link between two vehicles that are served by this server and another, and the sea of its
+// answer.
 struct SharedQuery {
   VehicleId from = 0, to = 0;
   const PathQuery& query;

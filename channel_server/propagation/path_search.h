@@ -46,13 +46,15 @@ struct RayModel {
   double reuse_distance_m =
       0;  // of middle_of_cell(), 0..1000; 0: every link of a table is searched for itself
   bool reuse_for_packets = false;  // packets share the searches of tables
-  // Over a rough bottom paths this much weaker than the noise over the transmitter's band, less the receiver's directivity, come
-  // as energy alone (RayOptions::diffuse_below_pressure), -100..100. Not where options.diffuse_below_db is 0.
+  // Over a rough bottom paths this much weaker than the noise over the transmitter's band, less the
+  // receiver's directivity, come as energy alone (RayOptions::diffuse_below_pressure), -100..100. Not where
+  // options.diffuse_below_db is 0.
   Decibels diffuse_below_noise{5};
-  // The whole of a link of more than 10 depths that is this much weaker still comes as energy, -100..100: below 0, one whose paths
-  // together are stronger (acoustics/link/mixed_link.h).
+  // The whole of a link of more than 10 depths that is this much weaker still comes as energy, -100..100:
+  // below 0, one whose paths together are stronger (acoustics/link/mixed_link.h).
   Decibels weak_below_diffuse{6};
-  // Of the water wherever sound goes, as far as it is known, m: for the range that sound reaches. 0..kDeepestWater, rising.
+  // Of the water wherever sound goes, as far as it is known, m: for the range that sound reaches.
+  // 0..kDeepestWater, rising.
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
   int max_searches_per_tick = 0;         // of link tables, by search_budget.h; 0: as many as they need
   double profile_reuse_distance_m = 25;  // with it: between points of the lattice of ends, 0.1..1000
@@ -112,8 +114,8 @@ struct FoundPaths {
   bool beyond_terrain = false;  // as SeabedProfile's
 };
 
-// The water along the query's link: `water`, or where the environment has a field, that between the query's places down to the
-// depth (acoustics/link/field_section.h).
+// The water along the query's link: `water`, or where the environment has a field, that between the query's
+// places down to the depth (acoustics/link/field_section.h).
 acoustics::LinkWater water_along(const RayModel& model, const acoustics::RayWater& water,
                                  const acoustics::Environment& environment, const PathQuery& query,
                                  double deepest_m);
@@ -135,11 +137,13 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
                                                const acoustics::Environment& environment,
                                                const PathQuery& query, const SeabedProfile& seabed);
 
-// The searches of links that differ in the depths of their ends alone, whose sea is made once. Not shared between threads.
+// The searches of links that differ in the depths of their ends alone, whose sea is made once. Not shared
+// between threads.
 class PathLine {
  public:
-  // As search_paths(), which answers itself where an end lies below the bottom. With shared rays links differ in what those say
-  // (acoustics::SharedRays), the first call has the greatest range, and the mean depth is that of its link.
+  // As search_paths(), which answers itself where an end lies below the bottom. With shared rays links differ
+  // in what those say (acoustics::SharedRays), the first call has the greatest range, and the mean depth is
+  // that of its link.
   std::shared_ptr<const FoundPaths> search(const RayModel& model, const acoustics::RayWater& water,
                                            const acoustics::Environment& environment, const PathQuery& query,
                                            const SeabedProfile& seabed,
@@ -151,14 +155,16 @@ class PathLine {
 struct SharedLine {
   // Of receivers at several depths of one place (acoustics/rays/column_rays.h).
   static SharedLine of_depths();
-  // Of receivers along one bearing (acoustics/rays/bearings/bearing_rays.h), of which the furthest is asked for first.
+  // Of receivers along one bearing (acoustics/rays/bearings/bearing_rays.h), of which the furthest is asked
+  // for first.
   static SharedLine of_bearing(std::vector<double> rising_ranges_m);
 
   PathLine line;
   std::unique_ptr<acoustics::SharedRays> rays;  // refers to the sea of the line
 };
 
-// The same of a link so weak and over so uneven a bottom that its energy is enough (acoustics/link/mixed_link.h); null for others.
+// The same of a link so weak and over so uneven a bottom that its energy is enough
+// (acoustics/link/mixed_link.h); null for others.
 std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,
                                              const acoustics::Environment& environment,
                                              const PathQuery& query, const SeabedPlaces& seabed);
@@ -166,17 +172,19 @@ std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoust
 // Whether that may be found, before its bottom is looked at.
 bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query);
 
-// Bounces that a link's paths may have: 0.6 of range over mean depth (above 0), 60 at least and 10 000 at most. A path that
-// drops by the depth D from one bounce to the next meets the boundaries r tan(angle) / D times over the range r, so these are
-// all up to 31 degrees, the critical angle of medium sand; steeper ones lose several dB at each bounce.
+// Bounces that a link's paths may have: 0.6 of range over mean depth (above 0), 60 at least and 10 000 at
+// most. A path that drops by the depth D from one bounce to the next meets the boundaries r tan(angle) / D
+// times over the range r, so these are all up to 31 degrees, the critical angle of medium sand; steeper ones
+// lose several dB at each bounce.
 int bounces_for(double range_m, double depth_m);
 
 // Of the bottom between the ends of a link, m.
 double mean_depth_m(const acoustics::BottomProfile& bottom, double range_m);
 
-// What the level of a link may have beside the sum of its paths' powers in even water (acoustics/link/least_loss.h), our
-// choices: 10 dB where phasors are added, 3 dB where only those whose fading keeps together are; 10 dB for the tail of
-// reverberation; 6 dB where the straight path, which serves without a bottom, spreads less than by 1.5 * 10 log r.
+// What the level of a link may have beside the sum of its paths' powers in even water
+// (acoustics/link/least_loss.h), our choices: 10 dB where phasors are added, 3 dB where only those whose
+// fading keeps together are; 10 dB for the tail of reverberation; 6 dB where the straight path, which serves
+// without a bottom, spreads less than by 1.5 * 10 log r.
 Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment& environment);
 
 // The solver that is wanted where it can do the link, else the simplest that can; empty: the simplest.
@@ -187,15 +195,15 @@ std::optional<acoustics::RaySolver> usable_solver(std::optional<acoustics::RaySo
 // Of a path as it was found, from the link's lower end: the same for both directions.
 std::uint64_t number_of(const acoustics::PathIdentity& identity);
 
-// Between which points the paths of a link of a table are searched, so that one search serves links that differ little; empty:
-// this very one, as it is too short for cells of `distance_m` (above 0).
+// Between which points the paths of a link of a table are searched, so that one search serves links that
+// differ little; empty: this very one, as it is too short for cells of `distance_m` (above 0).
 //
 // Range and both depths are each replaced by the middle of their cell: cells are `distance_m` long in
 // range and a tenth of that in depth (fronts of sound that travels nearly level bend most across depth), and
 // half as large as often as it takes for a link to be at least 20 cells long. Below 20 / 64 of `distance_m`
-// nothing is replaced. So the searched link is a function of the link alone, whatever was searched before, and
-// lies within 2.5 % of the range in range and 0.25 % of it in depth. acoustics/rays/extrapolate_arrivals.h takes the paths
-// from there to the link.
+// nothing is replaced. So the searched link is a function of the link alone, whatever was searched before,
+// and lies within 2.5 % of the range in range and 0.25 % of it in depth.
+// acoustics/rays/extrapolate_arrivals.h takes the paths from there to the link.
 std::optional<acoustics::RayLink> middle_of_cell(const acoustics::RayLink& link, double distance_m);
 
 }  // namespace halocline::channel_server

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Propagation of sound from one point to another: the interface between the packet medium and the link tables and
-// the models of the water.
+// Propagation of sound from one point to another: the interface between the packet medium and the link tables
+// and the models of the water.
 //
 // Every result holds for an instant `at`, that of departure: it decides which water and which known bottom
 // count, both of which may change during a run. An implementation may keep what it has computed; its results
@@ -54,8 +54,8 @@ inline Decibels level_of(double power) {
 
 // Paths more than this below the strongest one do not announce a packet: a receiver finds the preamble by
 // correlation and takes for its start the first peak above a threshold relative to the greatest, and a
-// preamble compressed to one peak has sidelobes of its own up to -13 dB (a linear sweep without shading). 20 dB
-// stays clear of these.
+// preamble compressed to one peak has sidelobes of its own up to -13 dB (a linear sweep without shading). 20
+// dB stays clear of these.
 inline constexpr Decibels kSignificantBelowStrongest{20};
 
 // One end of a link.
@@ -86,17 +86,19 @@ enum class PropagationUsed {
   kStraight,               // one straight path
   kRays,                   // rays in the water above the known bottom
   kStraightWithoutBottom,  // rays were wanted, the bottom is not known: one straight path
-  kStraightNotSearched,  // of tables alone: rays were wanted, no search has been granted yet: one straight path
-  kRaysBeyondTerrain,    // as kRays, but over the last known depth where the terrain ends or has no data
+  kStraightNotSearched,    // of tables alone: rays were wanted, no search has been granted yet: one straight
+                           // path
+  kRaysBeyondTerrain,      // as kRays, but over the last known depth where the terrain ends or has no data
 };
 inline bool is_along_rays(PropagationUsed used) {
   return used == PropagationUsed::kRays || used == PropagationUsed::kRaysBeyondTerrain;
 }
 
-// What arrives over one link. In the budget, `delay_s` is that of the strongest path in the receiver's guard window,
-// `received_level` is the mean power of all paths together (acoustics/fading/link_fading.h; without fading, the sum of
-// their powers), and the rest follows from these. Without a path the delay is that of the straight line, both levels are
-// kSilence or a floor that the implementation states, and nothing is receivable.
+// What arrives over one link. In the budget, `delay_s` is that of the strongest path in the receiver's guard
+// window, `received_level` is the mean power of all paths together (acoustics/fading/link_fading.h; without
+// fading, the sum of their powers), and the rest follows from these. Without a path the delay is that of the
+// straight line, both levels are kSilence or a floor that the implementation states, and nothing is
+// receivable.
 struct Reception {
   acoustics::LinkBudget budget;
   PathState state = PathState::kOpen;
@@ -105,15 +107,15 @@ struct Reception {
   // Part of the received level: that of the paths that are diffuse; kSilence of none.
   Decibels diffuse_level = kSilence;
   std::vector<SoundPath> paths;  // by delay; empty unless the state is kOpen
-  // Of tables: since when the paths are not those of a search for the link as it was, but extrapolated from it; 0 where they
-  // are. Only with a budget of searches.
+  // Of tables: since when the paths are not those of a search for the link as it was, but extrapolated from
+  // it; 0 where they are. Only with a budget of searches.
   SimDuration paths_age = {};
   // The paths are its taps, and fade as it does; null: they fade by the model.
   std::shared_ptr<const acoustics::MeasuredChannel> measured = {};
 };
 
-// What is known of links so weak that only their energy is computed: all whose energy lies this far below the noise over the
-// transmitter's band, less the receiver's directivity.
+// What is known of links so weak that only their energy is computed: all whose energy lies this far below the
+// noise over the transmitter's band, less the receiver's directivity.
 struct WeakLinks {
   acoustics::LeastMixedLoss loss;
   Decibels below_noise;
@@ -140,26 +142,28 @@ class Propagation {
   virtual Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) {
     return reception(at, from, to);
   }
-  // reception_without_capacity() of each link of one packet for which it is ready, shared out by `for_each`; empty for others.
+  // reception_without_capacity() of each link of one packet for which it is ready, shared out by `for_each`;
+  // empty for others.
   virtual std::vector<std::optional<Reception>> packet_receptions(SimTime at,
                                                                   const std::vector<EndPair>& links,
                                                                   const ForEach& for_each);
-  // Whether begin_tick() is to be called before receptions(), once for each tick, with all links between all vehicles whoever
-  // asks for them: an implementation that has time for some searches only plans which.
+  // Whether begin_tick() is to be called before receptions(), once for each tick, with all links between all
+  // vehicles whoever asks for them: an implementation that has time for some searches only plans which.
   virtual bool plans_ticks() const { return false; }
   virtual void begin_tick(SimTime /*at*/, const std::vector<EndPair>& /*all*/) {}
-  // Whether this server and others tell each other what they search for, through `exchange`, from now on; it must outlive the
-  // propagation. Then prepare_tables() is to be called with the links of a tick before receptions() may be, at once where it
-  // awaits nothing: it searches for what others wait for. It changes no result.
+  // Whether this server and others tell each other what they search for, through `exchange`, from now on; it
+  // must outlive the propagation. Then prepare_tables() is to be called with the links of a tick before
+  // receptions() may be, at once where it awaits nothing: it searches for what others wait for. It changes no
+  // result.
   virtual bool share_searches(PathExchange& /*exchange*/) { return false; }
   virtual void prepare_tables(SimTime /*at*/, const std::vector<EndPair>& /*links*/,
                               const ForEach& /*for_each*/) {}
-  // For many links that leave at one instant, shared out by `for_each`: as reception() one by one, or nearly where
-  // an implementation lets links near each other share a search; the same whatever the sharing out.
+  // For many links that leave at one instant, shared out by `for_each`: as reception() one by one, or nearly
+  // where an implementation lets links near each other share a search; the same whatever the sharing out.
   virtual std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                             const ForEach& for_each);
-  // Whether all is known that reception() needs, or receptions(). What is not is requested here, and becomes known or
-  // turns out to be unavailable: to be called again then.
+  // Whether all is known that reception() needs, or receptions(). What is not is requested here, and becomes
+  // known or turns out to be unavailable: to be called again then.
   virtual bool is_ready(SimTime /*at*/, const LinkEnd& /*from*/, const LinkEnd& /*to*/) { return true; }
   // The same of reception_without_capacity().
   virtual bool is_ready_for_packet(SimTime at, const LinkEnd& from, const LinkEnd& to) {
@@ -167,8 +171,8 @@ class Propagation {
   }
   virtual bool are_ready(SimTime /*at*/, const std::vector<EndPair>& /*links*/) { return true; }
   // Whether answers depend on the bottom along the link: then reception() uses what is known of it, and
-  // reception_over() the one that is given, from the one end to the other (null: unknown). The latter is not to be
-  // called otherwise.
+  // reception_over() the one that is given, from the one end to the other (null: unknown). The latter is not
+  // to be called otherwise.
   virtual bool uses_bottom() const { return false; }
   // How far a place lies inside the seabed, m; 0 or less in the water, and where the seabed is not known.
   virtual double depth_inside_seabed_m(const Vec3& /*place_ned_m*/) const { return 0; }
@@ -181,8 +185,8 @@ class Propagation {
                                   const acoustics::Modem& receiver, const Vec3& from_ned_m,
                                   const Vec3& to_ned_m,
                                   const std::vector<acoustics::BottomPoint>& points) = 0;
-  // The least loss of every link at a frequency between ends no deeper than `deepest_end_m` (acoustics/link/least_loss.h);
-  // empty: levels have no bound by range.
+  // The least loss of every link at a frequency between ends no deeper than `deepest_end_m`
+  // (acoustics/link/least_loss.h); empty: levels have no bound by range.
   virtual std::optional<acoustics::LeastLoss> least_loss(SimTime /*at*/, double /*frequency_hz*/,
                                                          double /*deepest_end_m*/) const {
     return std::nullopt;

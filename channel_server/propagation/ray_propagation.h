@@ -2,24 +2,26 @@
 // Sound along rays, over the bottom that is known between the ends of a link.
 //
 // Model: acoustics/rays/eigenray.h gives the paths; each has the level
-//   source level - spreading - bounces - absorption - beams (the sender's at the launch angle; the receiver's looking
-//   back along the arriving ray, so at minus the arrival angle),
-// and the link the sum of their powers (or, if wished, of their phasors for the ends exactly where they are). In
-// the budget: delay, mean sound speed (range over delay) and absorption are those of the first significant path;
-// transmission loss = source level - received level; noise, signal-to-noise ratio and what is receivable follow;
-// capacity takes that loss at the centre of the band, and elsewhere in the band as much more or less as water
-// between the two depths absorbs more or less over the length of the first significant path
-// (LinkKernel::budget_of_path). Doppler of each path is that of acoustics/link/ray_doppler.h.
-// Where there is no path: too weak or too steep when rays arrive beyond the limits of the search, blocked when none does
-// and the bottom cuts the straight line between the ends, in a shadow otherwise; the level is kSilence or, in a shadow
-// and where rays are too weak, that of the stated floor, the delay that of the straight line, and nothing is receivable.
-// Where the bottom is not known (no terrain there, or no answer of who knows it): the straight path.
+//   source level - spreading - bounces - absorption - beams (the sender's at the launch angle; the receiver's
+//   looking back along the arriving ray, so at minus the arrival angle),
+// and the link the sum of their powers (or, if wished, of their phasors for the ends exactly where they are).
+// In the budget: delay, mean sound speed (range over delay) and absorption are those of the first significant
+// path; transmission loss = source level - received level; noise, signal-to-noise ratio and what is
+// receivable follow; capacity takes that loss at the centre of the band, and elsewhere in the band as much
+// more or less as water between the two depths absorbs more or less over the length of the first significant
+// path (LinkKernel::budget_of_path). Doppler of each path is that of acoustics/link/ray_doppler.h. Where
+// there is no path: too weak or too steep when rays arrive beyond the limits of the search, blocked when none
+// does and the bottom cuts the straight line between the ends, in a shadow otherwise; the level is kSilence
+// or, in a shadow and where rays are too weak, that of the stated floor, the delay that of the straight line,
+// and nothing is receivable. Where the bottom is not known (no terrain there, or no answer of who knows it):
+// the straight path.
 //
-// Paths are searched from the lower id to the higher; the other direction is the same paths backwards, so the two are reciprocal
-// to the last bit but for what the receiver's noise makes diffuse (RayModel::diffuse_below_noise). reception() searches every
-// link for itself. receptions(), for tables, may let links share searches, whose paths are extrapolated to each
-// (link_searches.h, acoustics/rays/extrapolate_arrivals.h); so may packets. With a budget of searches a tick a link
-// may keep the paths of an earlier tick, extrapolated likewise: Reception::paths_age. Ends above the surface are taken
+// Paths are searched from the lower id to the higher; the other direction is the same paths backwards, so the
+// two are reciprocal to the last bit but for what the receiver's noise makes diffuse
+// (RayModel::diffuse_below_noise). reception() searches every link for itself. receptions(), for tables, may
+// let links share searches, whose paths are extrapolated to each (link_searches.h,
+// acoustics/rays/extrapolate_arrivals.h); so may packets. With a budget of searches a tick a link may keep
+// the paths of an earlier tick, extrapolated likewise: Reception::paths_age. Ends above the surface are taken
 // at it. Left out: motion of the bottom's slope across the link (acoustics/rays/eigenray.h).
 #pragma once
 

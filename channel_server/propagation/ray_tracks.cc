@@ -35,8 +35,8 @@ std::vector<RayPoint> mirrored(std::vector<RayPoint> points, double range_m) {
   return points;
 }
 
-// Of the arrival's amplitude, its parts but the reflections are spreading; what the terms named leave of the loss is the
-// bottom's, reflected and scattered.
+// Of the arrival's amplitude, its parts but the reflections are spreading; what the terms named leave of the
+// loss is the bottom's, reflected and scattered.
 PathTrack track_of(const FoundPath& found, const acoustics::Modem& transmitter,
                    const acoustics::Modem& receiver) {
   const auto& [arrival, path, kept_at_surface] = found;

@@ -21,7 +21,8 @@ struct FoundPath {
   Decibels kept_at_surface;  // of received_path.h
 };
 
-// `found` by delay, over the link `searched`; `reversed`: from the receiver to the transmitter. Without weights.
+// `found` by delay, over the link `searched`; `reversed`: from the receiver to the transmitter. Without
+// weights.
 LinkTracks tracks_of(const acoustics::ProfiledSea& sea, const acoustics::RayLink& searched, bool reversed,
                      std::vector<FoundPath> found, const acoustics::Modem& transmitter,
                      const acoustics::Modem& receiver);

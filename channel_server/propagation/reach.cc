@@ -21,7 +21,8 @@ namespace halocline::channel_server {
 namespace {
 
 constexpr std::size_t kMaxRanges = 4096, kMaxModems = 256;
-// Depths are rounded up to these times a power of two, m: the reach of a crowd does not change whenever one dives.
+// Depths are rounded up to these times a power of two, m: the reach of a crowd does not change whenever one
+// dives.
 constexpr double kDepthUnit = 25;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One path that rays found, as the receiver gets it: with both beams, with what rough boundaries leave of it and how they make
-// it fade, and with the Doppler of both ends.
+// One path that rays found, as the receiver gets it: with both beams, with what rough boundaries leave of it
+// and how they make it fade, and with the Doppler of both ends.
 #pragma once
 
 #include <optional>

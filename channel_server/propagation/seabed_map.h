@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of the seabed: its depth at the points of a world-wide horizontal lattice, from which the bottom under
-// any link follows.
+// What is known of the seabed: its depth at the points of a world-wide horizontal lattice, from which the
+// bottom under any link follows.
 //
-// Rule. Lattice points lie `spacing_m` apart, one in the world's origin. The seabed between them is the tensor product
-// of cubic B-splines (de Boor 1978, A Practical Guide to Splines, ch. XII) with the coefficients
-// c_i = (8 f_i - f_(i-1) - f_(i+1)) / 6: slope and curvature are continuous, and polynomials up to cubics exact. Where
-// one of the 36 points in reach is unknown it is bilinear between the known ones of the nearest four.
-// The bottom under a link is sampled from its first end on, samples_per_point times in `spacing_m` (512 times between
-// the ends where that makes more: beyond 6.4 km by default), from kBeyond samples before the first end to as many
-// beyond the other. So it is a function of the two ends and the terrain, whatever was queried before, and
-// continuous in both ends: it changes where an end moves, by as much as the seabed differs there. Beyond the
-// edge of the terrain, and where it has no data, the last known depth is held (Terrain::held_depth_at), and
-// what rests on that says so. Where the service did not answer, a place is unknown when the four points
-// around it are.
+// Rule. Lattice points lie `spacing_m` apart, one in the world's origin. The seabed between them is the
+// tensor product of cubic B-splines (de Boor 1978, A Practical Guide to Splines, ch. XII) with the
+// coefficients c_i = (8 f_i - f_(i-1) - f_(i+1)) / 6: slope and curvature are continuous, and polynomials up
+// to cubics exact. Where one of the 36 points in reach is unknown it is bilinear between the known ones of
+// the nearest four. The bottom under a link is sampled from its first end on, samples_per_point times in
+// `spacing_m` (512 times between the ends where that makes more: beyond 6.4 km by default), from kBeyond
+// samples before the first end to as many beyond the other. So it is a function of the two ends and the
+// terrain, whatever was queried before, and continuous in both ends: it changes where an end moves, by as
+// much as the seabed differs there. Beyond the edge of the terrain, and where it has no data, the last known
+// depth is held (Terrain::held_depth_at), and what rests on that says so. Where the service did not answer, a
+// place is unknown when the four points around it are.
 //
-// The depths are queried tile by tile, 8 x 8 points together, and kept. Vehicles that stay in one area need no query
-// after the first, wherever they move. A tile whose query failed counts as answered without a depth until
-// forget_failures().
+// The depths are queried tile by tile, 8 x 8 points together, and kept. Vehicles that stay in one area need
+// no query after the first, wherever they move. A tile whose query failed counts as answered without a depth
+// until forget_failures().
 //
-// Error. Against a smooth seabed: of fourth order in the spacing. Relief shorter than two spacings is lost. Not
-// thread-safe.
+// Error. Against a smooth seabed: of fourth order in the spacing. Relief shorter than two spacings is lost.
+// Not thread-safe.
 #pragma once
 
 #include <array>
@@ -93,13 +93,13 @@ class SeabedMap {
 
   // From one end to the other; null where it is unknown.
   std::shared_ptr<const SeabedProfile> between(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
-  // At even places between the ends, in the middle of as many equal parts; slopes between the points of the lattice that weigh
-  // there. Empty where a place is unknown.
+  // At even places between the ends, in the middle of as many equal parts; slopes between the points of the
+  // lattice that weigh there. Empty where a place is unknown.
   std::optional<SeabedPlaces> places_between(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
   // z of the seabed at a place; empty where it is unknown.
   std::optional<double> seabed_z_m(const Vec3& place_ned_m) const;
-  // Whether every tile that between() needs is answered. Those that are not are requested. What was found so for the same two ends
-  // since the last tick but one is not looked up again while few tiles are kept.
+  // Whether every tile that between() needs is answered. Those that are not are requested. What was found so
+  // for the same two ends since the last tick but one is not looked up again while few tiles are kept.
   bool is_surveyed(const Vec3& from_ned_m, const Vec3& to_ned_m);
 
   // The tiles requested since the last call, by index.

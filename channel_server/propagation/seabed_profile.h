@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How the seabed runs under one link, at even places along it, and the bottom that rays meet.
 //
-// Places along a link are horizontal distances from its first end, m; the link's other end lies at its range. The
-// samples of seabed_map.h begin before the first end and go on beyond the other, so the facets of the bottom between
-// the ends never depend on where the samples stop. Where an end of the link lies below the bottom, the samples beside
-// it are lowered, in proportion to what they count there, until the bottom lies just below the end; nowhere else is it
-// changed. Land counts as 0.1 m of water.
+// Places along a link are horizontal distances from its first end, m; the link's other end lies at its range.
+// The samples of seabed_map.h begin before the first end and go on beyond the other, so the facets of the
+// bottom between the ends never depend on where the samples stop. Where an end of the link lies below the
+// bottom, the samples beside it are lowered, in proportion to what they count there, until the bottom lies
+// just below the end; nowhere else is it changed. Land counts as 0.1 m of water.
 #pragma once
 
 #include <algorithm>

@@ -29,8 +29,8 @@ SoundPath straight_path(const acoustics::Environment& water, const acoustics::Li
   return path;
 }
 
-// The budget of a straight path through a field: delay and absorption are those along the line, levels change by what that
-// absorbs more than the profile.
+// The budget of a straight path through a field: delay and absorption are those along the line, levels change
+// by what that absorbs more than the profile.
 void take_field(const acoustics::LinkKernel& kernel, const acoustics::Environment& water, const EndPair& ends,
                 acoustics::Capacity capacity, acoustics::LinkBudget& budget) {
   const auto& [from, to] = ends;

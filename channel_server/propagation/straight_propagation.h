@@ -25,12 +25,12 @@
 
 namespace halocline::channel_server {
 
-// The straight path of acoustics/link/link_kernel.h, in the water of the instant, weighed by both beams. Through a field delay and
-// absorption are those along the line (acoustics/link/line_means.h); echoes off the bottom and the capacity's change over the band
-// are those of the profile at the world's origin.
+// The straight path of acoustics/link/link_kernel.h, in the water of the instant, weighed by both beams.
+// Through a field delay and absorption are those along the line (acoustics/link/line_means.h); echoes off the
+// bottom and the capacity's change over the band are those of the profile at the world's origin.
 //
-// A LinkKernel takes a millisecond to make and a fraction of a microsecond to evaluate, so one is kept for each pair of
-// different modems, `max_kernels` at most.
+// A LinkKernel takes a millisecond to make and a fraction of a microsecond to evaluate, so one is kept for
+// each pair of different modems, `max_kernels` at most.
 class StraightPropagation : public Propagation {
  public:
   static constexpr std::size_t kMaxKernels = 1024;

@@ -12,7 +12,8 @@ namespace halocline::channel_server {
 enum class RayKind {
   kDepths,  // z of the seabed under each origin
   kWays,    // whether the seabed cuts each ray
-  kTiles,  // z of the seabed at kTileSide x kTileSide points north and east of each origin, eastwards row by row
+  kTiles,   // z of the seabed at kTileSide x kTileSide points north and east of each origin, eastwards row by
+            // row
 };
 inline constexpr int kTileSide = 8;
 inline std::size_t answers_a_ray(RayKind kind) { return kind == RayKind::kTiles ? kTileSide * kTileSide : 1; }

@@ -10,7 +10,8 @@
 
 namespace halocline::channel_server {
 
-// Of a link that is not over a bottom that was given. Empty for what the message cannot hold (lcmtypes/link_search_t.lcm).
+// Of a link that is not over a bottom that was given. Empty for what the message cannot hold
+// (lcmtypes/link_search_t.lcm).
 std::optional<link_search_t> to_message(std::int64_t sea_hash, const PathQuery& query,
                                         const FoundPaths& found);
 

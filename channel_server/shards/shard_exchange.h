@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Channel servers of one water tell each other, by FOUND_PATHS, the paths that both ends of a link need (path_exchange.h).
+// Channel servers of one water tell each other, by FOUND_PATHS, the paths that both ends of a link need
+// (path_exchange.h).
 //
-// Who searches. For link tables the owner of a pair (Shard::owner_of); at a tick it publishes what it has found since the one
-// before, with the mark that this is all, and awaits the marks of others for what they own. For a packet the receiver's server;
-// nobody waits for that. Between ticks nothing is published, so that in lockstep servers share lookahead.
+// Who searches. For link tables the owner of a pair (Shard::owner_of); at a tick it publishes what it has
+// found since the one before, with the mark that this is all, and awaits the marks of others for what they
+// own. For a packet the receiver's server; nobody waits for that. Between ticks nothing is published, so that
+// in lockstep servers share lookahead.
 //
-// Waiting. Until the marks have come, or the deadline, in steady time, has passed: the other counts as away then, and nobody
-// waits for it until it ends a tick again. What has not come by then is searched for here. In lockstep the marks come within the
-// instant.
+// Waiting. Until the marks have come, or the deadline, in steady time, has passed: the other counts as away
+// then, and nobody waits for it until it ends a tick again. What has not come by then is searched for here.
+// In lockstep the marks come within the instant.
 //
-// Which sea an answer is of is told by a hash of the scenario, the terrain, and of the water as the search reads it; paths of another
-// sea are never found again. Bounded: what was received longest ago is forgotten. Not thread-safe.
+// Which sea an answer is of is told by a hash of the scenario, the terrain, and of the water as the search
+// reads it; paths of another sea are never found again. Bounded: what was received longest ago is forgotten.
+// Not thread-safe.
 #pragma once
 
 #include <array>
@@ -37,13 +40,14 @@ namespace halocline::channel_server {
 
 class ShardExchange : public PathExchange {
  public:
-  // What is received is kept in two halves, of which the older is dropped when the newer has this many paths: 40 MB each.
+  // What is received is kept in two halves, of which the older is dropped when the newer has this many paths:
+  // 40 MB each.
   static constexpr std::size_t kMaxPathsOfHalf = 200'000;
   // Searches that wait for the tick to be published to one server: what is found beyond these is not.
   static constexpr std::size_t kMaxWaitingMessages = 1000;  // below 60 kB each
 
-  // `scenario`: a hash of it, the same for all servers that are to believe each other. Subscribes, unless the server is alone. Bus
-  // and publisher must outlive it.
+  // `scenario`: a hash of it, the same for all servers that are to believe each other. Subscribes, unless the
+  // server is alone. Bus and publisher must outlive it.
   ShardExchange(bus::Bus& bus, bus::NumberedPublisher& publisher, const Shard& shard, SimDuration deadline,
                 std::uint64_t scenario);
 
@@ -55,9 +59,9 @@ class ShardExchange : public PathExchange {
   std::shared_ptr<const FoundPaths> received(const SharedQuery& query) override;
   void found(const SharedQuery& query, const FoundPaths& paths) override;
 
-  // Forgets what was received and awaited over another. Where it `tells`, the other servers learn, by a FOUND_PATHS
-  // without searches that ends no tick, that there is a terrain to ask for: ENVIRONMENT, which the first of them
-  // publishes for all, names it as soon as any of them knows it, as one server alone would.
+  // Forgets what was received and awaited over another. Where it `tells`, the other servers learn, by a
+  // FOUND_PATHS without searches that ends no tick, that there is a terrain to ask for: ENVIRONMENT, which
+  // the first of them publishes for all, names it as soon as any of them knows it, as one server alone would.
   void set_terrain(std::string_view version, SimTime now, bool tells);
   bool will_tell_of_terrain() const { return !shard_.is_alone() && terrain_ == 0; }
   // True once after another server has told so.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The rates of a modem: the other waveforms that it also sends and receives, each by its number.
 //
-// A rate is a profile of its own (models/modems). Of one family with the vehicle's modem it differs in bit rate, overhead,
-// preamble, framing and code alone: the vehicle's numbers hold for all else, and it is received as the modem's own rate is. A
-// rate of another family has its own band and reception; source level, least receivable level, directivity and beam are
-// the vehicle's.
+// A rate is a profile of its own (models/modems). Of one family with the vehicle's modem it differs in bit
+// rate, overhead, preamble, framing and code alone: the vehicle's numbers hold for all else, and it is
+// received as the modem's own rate is. A rate of another family has its own band and reception; source level,
+// least receivable level, directivity and beam are the vehicle's.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a vehicle's modem is and how it listens at an instant: as configured, until the vehicle announces otherwise.
+// What a vehicle's modem is and how it listens at an instant: as configured, until the vehicle announces
+// otherwise.
 //
 // Announcements hold from the instant they name, whatever their order.
 #pragma once
@@ -31,8 +32,9 @@ struct Listening {
   std::optional<SimTime> wakes = {};  // of one asleep: by itself, at this instant
   bool promiscuous = false;           // packets for others are received as well
   bool events = false;                // what it does and notices is reported (packets/modem_watch.h)
-  // Carrier is sensed where the sound of others exceeds the noise in the modem's band by this, 0..100 dB. 6 dB is our choice:
-  // over 10 ms and 5 kHz the power of noise is known within 0.6 dB, so noise alone does not get there.
+  // Carrier is sensed where the sound of others exceeds the noise in the modem's band by this, 0..100 dB. 6
+  // dB is our choice: over 10 ms and 5 kHz the power of noise is known within 0.6 dB, so noise alone does not
+  // get there.
   Decibels carrier_threshold{6};
 
   bool is_asleep(SimTime instant) const { return asleep && !(wakes && instant >= *wakes); }
@@ -54,7 +56,8 @@ struct VehicleModem {
   bool operator==(const VehicleModem&) const = default;
 };
 
-// As which modem the vehicle receives a packet of this one: its own, unless a rate of another family knows the packet's.
+// As which modem the vehicle receives a packet of this one: its own, unless a rate of another family knows
+// the packet's.
 inline const acoustics::Modem& receiving_modem(const VehicleModem& receiver, const acoustics::Modem& packet) {
   if (same_family(packet, receiver.modem)) return receiver.modem;
   const ModemRate* rate =

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A value over time, told in pieces: each holds from an instant on, until the next.
 //
-// It is a function of what was told, whatever the order: at every instant what was told for the latest instant before holds. So a
-// repetition of what holds is kept, for something else may yet be told for an instant before it. Bounded: beyond `most` the
-// earliest repetition makes room, and where there is none the earliest of all. Not thread-safe.
+// It is a function of what was told, whatever the order: at every instant what was told for the latest
+// instant before holds. So a repetition of what holds is kept, for something else may yet be told for an
+// instant before it. Bounded: beyond `most` the earliest repetition makes room, and where there is none the
+// earliest of all. Not thread-safe.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which part of the work one of several channel servers does: they split the vehicles, all receive all, and the
-// union of what they publish is what one would.
+// Which part of the work one of several channel servers does: they split the vehicles, all receive all, and
+// the union of what they publish is what one would.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace halocline::channel_server {
 // The index of the server of each vehicle of the scenario.
 using ServersByVehicle = std::unordered_map<VehicleId, int>;
 
-// A server with index i of n serves the vehicles that `servers` gives it, and of others those whose id mod n is i: what arrives
-// at them, the receipts of what they send, the link tables that start at them.
+// A server with index i of n serves the vehicles that `servers` gives it, and of others those whose id mod n
+// is i: what arrives at them, the receipts of what they send, the link tables that start at them.
 struct Shard {
   int index = 0;  // 0 to count - 1
   int count = 1;
@@ -32,7 +32,8 @@ struct Shard {
     const auto found = servers->find(id);
     return found == servers->end() ? id % count : found->second;
   }
-  // Which server searches for the paths between two vehicles: that of the one or of the other, by a bit of a hash of both ids.
+  // Which server searches for the paths between two vehicles: that of the one or of the other, by a bit of a
+  // hash of both ids.
   int owner_of(VehicleId a, VehicleId b) const {
     const auto [low, high] = std::minmax(a, b);
     // A step like those of SplitMix64 (Steele and others 2014).
@@ -48,10 +49,11 @@ struct StartPlace {
   Vec3 start_ned_m;
 };
 
-// Shares vehicles out among `count` servers by where they start, so that few links run from those of one to those of another: the
-// vehicles are cut in two across their longer side, north or east, and the parts again. In an area of 3 km, where most hear each
-// other, the servers take the vehicles in turns of their ids instead, so that each has as many in the middle, which hear most. Each
-// server has as many vehicles as any other but for one. They stay with their servers wherever they go.
+// Shares vehicles out among `count` servers by where they start, so that few links run from those of one to
+// those of another: the vehicles are cut in two across their longer side, north or east, and the parts again.
+// In an area of 3 km, where most hear each other, the servers take the vehicles in turns of their ids
+// instead, so that each has as many in the middle, which hear most. Each server has as many vehicles as any
+// other but for one. They stay with their servers wherever they go.
 std::shared_ptr<const ServersByVehicle> servers_by_place(std::vector<StartPlace> vehicles, int count);
 
 }  // namespace halocline::channel_server

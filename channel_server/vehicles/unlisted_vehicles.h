@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which vehicles that are not of the scenario (unlisted) are followed.
 //
-// Rule. kMaxAtOnce of them are followed from their first state on. While so many are followed, another is followed from its second
-// state on: one of the same id and of another time, the two no more than the time-out apart. Beyond `max_followed` nobody is.
+// Rule. kMaxAtOnce of them are followed from their first state on. While so many are followed, another is
+// followed from its second state on: one of the same id and of another time, the two no more than the
+// time-out apart. Beyond `max_followed` nobody is.
 //
-// Link tables grow with the square of the vehicles, and so do the searches for their paths: thousands of vehicles in one place
-// take gigabytes and stop a run in real time. One datagram for each of thousands of names is no fleet, so those that publish
-// steadily find places. Many vehicles of another program belong in the scenario (`model = "external"`), where each has its place.
+// Link tables grow with the square of the vehicles, and so do the searches for their paths: thousands of
+// vehicles in one place take gigabytes and stop a run in real time. One datagram for each of thousands of
+// names is no fleet, so those that publish steadily find places. Many vehicles of another program belong in
+// the scenario (`model = "external"`), where each has its place.
 //
-// Bounded: of kMaxCandidates names the first state is remembered, the longest unused make room. Not thread-safe.
+// Bounded: of kMaxCandidates names the first state is remembered, the longest unused make room. Not
+// thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +34,8 @@ class UnlistedVehicles {
   explicit UnlistedVehicles(SimDuration timeout, std::size_t max_followed = kMaxFollowed)
       : timeout_(timeout), max_followed_(max_followed) {}
 
-  // A state that holds at `time`, of one that is not followed. Empty when it is followed from now on; else why not.
+  // A state that holds at `time`, of one that is not followed. Empty when it is followed from now on; else
+  // why not.
   [[nodiscard]] std::string admit(std::string_view name, VehicleId id, SimTime time);
   // One of those followed is followed no more.
   void leave();

@@ -3,16 +3,17 @@
 //
 // Model: a clock that was never set shows t + e(t),
 //     e(t) = offset + drift t + W(t),
-// W a random walk of its phase (white frequency noise, the common one of quartz over minutes), of which the standard deviation
-// after t seconds is random_walk sqrt(t) (Allan 1987, Time and frequency characterization). A GPS fix measured at u sets it at
-// s = u + fix_lag to simulation time, but for a residual: from s on
+// W a random walk of its phase (white frequency noise, the common one of quartz over minutes), of which the
+// standard deviation after t seconds is random_walk sqrt(t) (Allan 1987, Time and frequency
+// characterization). A GPS fix measured at u sets it at s = u + fix_lag to simulation time, but for a
+// residual: from s on
 //     e(t) = r + drift (t - s) + W(t) - W(s),   r normal with gps_residual,
-// until the next fix. A fix sets the phase alone; the drift goes on. The lag is that of states (state_history.h): longer than a
-// message takes, so that no clock depends on which datagram was quicker.
+// until the next fix. A fix sets the phase alone; the drift goes on. The lag is that of states
+// (state_history.h): longer than a message takes, so that no clock depends on which datagram was quicker.
 //
-// All is a function of (seed, vehicle, instants of its fixes, t), drawn by address: of two servers, or in any order of calls,
-// the same. Left out: temperature, ageing, frequency that GPS disciplines. A vehicle without a clock of its own shows
-// simulation time. Not thread-safe.
+// All is a function of (seed, vehicle, instants of its fixes, t), drawn by address: of two servers, or in any
+// order of calls, the same. Left out: temperature, ageing, frequency that GPS disciplines. A vehicle without
+// a clock of its own shows simulation time. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -56,7 +57,8 @@ class VehicleClocks {
 
   // Whether GPS sets any of them.
   bool need_fixes() const;
-  // A GPS fix of the vehicle, measured at `at`, in any order; of one whose clock it does not set of no effect.
+  // A GPS fix of the vehicle, measured at `at`, in any order; of one whose clock it does not set of no
+  // effect.
   void add_fix(std::string_view vehicle, SimTime at);
   // What the vehicle's clock shows at `at`, less `at`, s.
   double error_s(VehicleId id, SimTime at) const;

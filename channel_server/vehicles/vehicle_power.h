@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The batteries of vehicles as their modems see them: what packets take from them, and from when on they are empty.
+// The batteries of vehicles as their modems see them: what packets take from them, and from when on they are
+// empty.
 //
-// A vehicle whose BATTERY says empty at u has no modem from u + lag on, the lag of states (state_history.h): longer than a message
-// takes, so that every server takes it off the air at the same instant. One whose battery says otherwise later has it again
-// likewise. A function of the contents of the messages and of the instant, in whatever order they came. A vehicle without a battery
-// always has power. Not thread-safe.
+// A vehicle whose BATTERY says empty at u has no modem from u + lag on, the lag of states (state_history.h):
+// longer than a message takes, so that every server takes it off the air at the same instant. One whose
+// battery says otherwise later has it again likewise. A function of the contents of the messages and of the
+// instant, in whatever order they came. A vehicle without a battery always has power. Not thread-safe.
 #pragma once
 
 #include <cstddef>

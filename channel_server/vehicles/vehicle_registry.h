@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicles of a run: their names, ids, states, modems and equipment, and which of them are present at an instant.
+// The vehicles of a run: their names, ids, states, modems and equipment, and which of them are present at an
+// instant.
 //
 // A vehicle is present at instant t when its position at t, decided at t, is known from a state no older than
-// the time-out (state_history.h). One id belongs to one name: the first that claims it keeps it until that vehicle
-// is forgotten. All answers are functions of the messages received and of the instants given, whatever the
-// order of the messages.
+// the time-out (state_history.h). One id belongs to one name: the first that claims it keeps it until that
+// vehicle is forgotten. All answers are functions of the messages received and of the instants given,
+// whatever the order of the messages.
 //
-// Bounded: those of reserve() always have their places, others as unlisted_vehicles.h says. The modem of a vehicle without a state is forgotten when no
-// state follows in time, and when kMaxAnnounced others were announced after it, so names made up without end keep
-// nobody's modem out.
+// Bounded: those of reserve() always have their places, others as unlisted_vehicles.h says. The modem of a
+// vehicle without a state is forgotten when no state follows in time, and when kMaxAnnounced others were
+// announced after it, so names made up without end keep nobody's modem out.
 //
 // Not thread-safe.
 #pragma once
@@ -93,8 +94,8 @@ class VehicleRegistry {
   const Listening& listening(VehicleId id, SimTime instant) const;
   // Whether its modem sleeps at some instant of [from, to].
   bool sleeps_during(VehicleId id, SimTime from, SimTime to) const;
-  // Calls visit(modem) for each that the vehicle carries at some instant of [from, to], as far as announced; never for an
-  // unknown id.
+  // Calls visit(modem) for each that the vehicle carries at some instant of [from, to], as far as announced;
+  // never for an unknown id.
   template <class Visit>
   void visit_modems(VehicleId id, SimTime from, SimTime to, Visit&& visit) const {
     if (const Vehicle* vehicle = find(id))
@@ -105,8 +106,8 @@ class VehicleRegistry {
   const VehicleEquipment& equipment() const { return equipment_; }
   VehicleEquipment& equipment() { return equipment_; }
 
-  // Forgets vehicles without a state since `time`, modems of vehicles without any state received before it, and
-  // states and modems that no later instant needs.
+  // Forgets vehicles without a state since `time`, modems of vehicles without any state received before it,
+  // and states and modems that no later instant needs.
   void forget_before(SimTime time);
   // Another run: forgets everybody, keeps rules and configured modems.
   void clear();

@@ -24,8 +24,8 @@
 
 namespace halocline::clients {
 
-// From the state, reckoned on to `at` (core/dead_reckoning.h). The speed is the forward component over ground; SENSORS
-// holds the speed through the water.
+// From the state, reckoned on to `at` (core/dead_reckoning.h). The speed is the forward component over
+// ground; SENSORS holds the speed through the water.
 Situation to_situation(const vehicle_state_t& state, SimTime at);
 
 // From the vehicle's own sensors alone; place and attitude by reckoning, at `time_s`.
@@ -44,8 +44,8 @@ void take_in(const vehicle_gps_t& fix, Navigator& navigator);
 void take_in(const vehicle_usbl_t& bearing, const std::map<std::int32_t, Vec3>& beacons,
              const AcousticFixRules& rules, Navigator& navigator);
 
-// A localiser's place replaces the reckoned one when it is the only one left; carried on to the latest sample. The
-// reckoning goes on from there, through water that it holds to be still.
+// A localiser's place replaces the reckoned one when it is the only one left; carried on to the latest
+// sample. The reckoning goes on from there, through water that it holds to be still.
 void take_in(const position_estimate_t& estimate, Navigator& navigator);
 
 // The report that a leader broadcasts.
@@ -54,8 +54,8 @@ LeaderReport to_report(const Situation& situation);
 // Where a vehicle in this situation saw the ground.
 AltimeterLook to_look(const vehicle_sensors_t& sensors, const Situation& situation);
 
-// The plan and how far it has come: `progress` is that before the first situation where it is empty. What exceeds a
-// message (100 behaviours, 1200 waypoints) is left out and counted.
+// The plan and how far it has come: `progress` is that before the first situation where it is empty. What
+// exceeds a message (100 behaviours, 1200 waypoints) is left out and counted.
 vehicle_plan_t to_message(const Plan& plan, const PlanProgress& progress, const PilotConfig& config);
 
 // What the autopilot does and why; `points` of its command, empty where it gives none.

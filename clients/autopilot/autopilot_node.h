@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steers the vehicles that have a mission: receives their STATE and SENSORS and publishes their COMMAND on the time
-// grid, with PLAN at each change and once a minute and AUTOPILOT at each change and once a second; leaders of a formation also
-// publish SEND, followers receive RECEIVE; those that seek a link ask
+// Steers the vehicles that have a mission: receives their STATE and SENSORS and publishes their COMMAND on
+// the time grid, with PLAN at each change and once a minute and AUTOPILOT at each change and once a second;
+// leaders of a formation also publish SEND, followers receive RECEIVE; those that seek a link ask
 // by BEST_PLACE_QUERY.
 //
 // Position and attitude come from STATE (the true position), speed through the water and altitude

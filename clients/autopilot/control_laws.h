@@ -56,8 +56,8 @@ struct Integrals {
   double speed_rpm = 0;  // of speed, as propeller speed
 };
 
-// proportional + integral, held to [lowest, highest]; the integral moves on by the integrand only while that does not bind, or
-// where it leads back from the limit.
+// proportional + integral, held to [lowest, highest]; the integral moves on by the integrand only while that
+// does not bind, or where it leads back from the limit.
 double limited_pi(double proportional, double integrand, double lowest, double highest, double& integral);
 
 // The rudder alone.

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From set points to a glider's buoyancy engine, moving mass and rudder.
 //
-// A sawtooth between a shallow depth and that of the set points: heavy and nose down until that depth is passed, then light and
-// nose up until the shallow one is, at the same pitch either way. The depth may be one that keeps a height above the ground
-// (seabed_ahead.h): it turns where the ground comes near. Pitch: PI by the place of the mass,
-//   mass = p (pitch - pitch_d) + s integral,  integral += i s (pitch - pitch_d) dt,  s = 1 on the way down, -1 up:
-// the trim of a dive, mirrored, is that of the climb, so it is learnt once. Rudder: that of control_laws.h. Speed follows from
-// net buoyancy and pitch; a set speed is not used. Turns overshoot by what the engine needs to change sign (`glider`: 20 s and
-// some metres). Left out: rolling the mass for turns, currents.
+// A sawtooth between a shallow depth and that of the set points: heavy and nose down until that depth is
+// passed, then light and nose up until the shallow one is, at the same pitch either way. The depth may be one
+// that keeps a height above the ground (seabed_ahead.h): it turns where the ground comes near. Pitch: PI by
+// the place of the mass,
+//   mass = p (pitch - pitch_d) + s integral,  integral += i s (pitch - pitch_d) dt,  s = 1 on the way down,
+//                                             -1 up:
+// the trim of a dive, mirrored, is that of the climb, so it is learnt once. Rudder: that of control_laws.h.
+// Speed follows from net buoyancy and pitch; a set speed is not used. Turns overshoot by what the engine
+// needs to change sign (`glider`: 20 s and some metres). Left out: rolling the mass for turns, currents.
 #pragma once
 
 #include "clients/autopilot/control_laws.h"
@@ -33,8 +35,8 @@ struct GlideState {
   void archive(Archive& a) { a(is_climbing, trim_m); }
 };
 
-// One step of `dt_s` (0 or above) seconds; moves `state` on. Stopped (SetPoints::propel false) it is neutral; to surface it
-// climbs straight ahead.
+// One step of `dt_s` (0 or above) seconds; moves `state` on. Stopped (SetPoints::propel false) it is neutral;
+// to surface it climbs straight ahead.
 inline ActuatorCommand glide_command(const GlideGains& glide, const Gains& gains, const SetPoints& points,
                                      const Measured& m, double dt_s, GlideState& state) {
   if (!points.propel && !points.surface) return {};

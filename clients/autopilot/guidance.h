@@ -4,11 +4,11 @@
 // Model: the waypoints are joined by straight legs. On a leg, line-of-sight guidance (Fossen 2021, Handbook,
 // 2nd ed., section 12.3): course = leg's azimuth - atan(cross-track error / lookahead). A waypoint is reached
 // within the acceptance radius (horizontal), or when the plane through it across the leg is passed. After the
-// last one the mission starts again, stops, comes to the surface, or holds: a clockwise orbit by a vector field (Beard and McLain
-// 2012, Small Unmanned Aircraft, eq. 10.13): course = azimuth from the centre + pi/2 + atan(gain (distance -
-// radius) / radius). Depth is that of the waypoint ahead, from the start of its leg. Frame: world NED,
-// metres; course clockwise from north, radians. Left out: current (the error it leaves shrinks with the
-// lookahead), obstacles, time of arrival. Pure functions; threads do not matter.
+// last one the mission starts again, stops, comes to the surface, or holds: a clockwise orbit by a vector
+// field (Beard and McLain 2012, Small Unmanned Aircraft, eq. 10.13): course = azimuth from the centre + pi/2
+// + atan(gain (distance - radius) / radius). Depth is that of the waypoint ahead, from the start of its leg.
+// Frame: world NED, metres; course clockwise from north, radians. Left out: current (the error it leaves
+// shrinks with the lookahead), obstacles, time of arrival. Pure functions; threads do not matter.
 #pragma once
 
 #include <cstddef>

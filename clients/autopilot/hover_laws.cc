@@ -20,8 +20,8 @@ double rpm_for(const HoverGains& g, double thrust_n) {
   return std::copysign(rpm, thrust_n);
 }
 
-// The force wanted in the horizontal plane, with the drag of the set speed while the point is far. The integral moves
-// only near the point, and no further than the thrusters.
+// The force wanted in the horizontal plane, with the drag of the set speed while the point is far. The
+// integral moves only near the point, and no further than the thrusters.
 Vec2 horizontal_force(const HoverGains& g, const StationPoint& point, const HoverMeasured& m, double dt_s,
                       HoverIntegrals& integrals) {
   const Vec2 away = (point.position_ned_m - m.position_ned_m).head<2>();
@@ -49,8 +49,8 @@ double down_force(const HoverGains& g, const StationPoint& point, const HoverMea
   return g.depth_p_n_per_m * error - g.depth_d_n_s_per_m * m.velocity_ned_mps.z() + integrals.down_n;
 }
 
-// On the way the hull points along its path, so that the flow does not turn it further: nose up to climb. At rest it
-// lies level.
+// On the way the hull points along its path, so that the flow does not turn it further: nose up to climb. At
+// rest it lies level.
 double wanted_pitch(const HoverGains& g, const StationPoint& point, const HoverMeasured& m) {
   const double forward_mps = m.velocity_ned_mps.x() * elementary::cos(m.heading_rad) +
                              m.velocity_ned_mps.y() * elementary::sin(m.heading_rad);

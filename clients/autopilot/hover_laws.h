@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From a point to hold to the speeds of four thrusters: how `hover` goes somewhere and stays there.
 //
-// Model: a vehicle that pushes ahead, astern and up and down but not sideways holds a point by turning. The force it
-// wants in the world frame is a PID law of its position, F = P e + C V^2 e / e_max - D v + integral, with e cut to
-// e_max = V D / P so that it approaches at the set speed V, the second term being the drag at that speed; it heads where
-// F points and pushes its part along the bow (weather-vaning, after Fossen 2021, Handbook, 2nd ed., section 13.3). In
-// a current the integral becomes the drag, so the bow comes to face the current and the vehicle stands still. Below a
-// least force the heading is kept. Depth: PID of z. On the way the hull pitches along its path, for a flow across a
-// slender hull turns it further (Munk moment); pitch and heading: PD, stiff enough to hold it against that up to
-// 1.9 m/s with `hover`. Thrust goes with the square of speed; thrusters in the order of
-// vehicle_sim/dynamics/hover.h. Left out: a station closer than the vehicle can turn in gusts that veer by more than
-// it can follow. Pure functions.
+// Model: a vehicle that pushes ahead, astern and up and down but not sideways holds a point by turning. The
+// force it wants in the world frame is a PID law of its position, F = P e + C V^2 e / e_max - D v + integral,
+// with e cut to e_max = V D / P so that it approaches at the set speed V, the second term being the drag at
+// that speed; it heads where F points and pushes its part along the bow (weather-vaning, after Fossen 2021,
+// Handbook, 2nd ed., section 13.3). In a current the integral becomes the drag, so the bow comes to face the
+// current and the vehicle stands still. Below a least force the heading is kept. Depth: PID of z. On the way
+// the hull pitches along its path, for a flow across a slender hull turns it further (Munk moment); pitch and
+// heading: PD, stiff enough to hold it against that up to 1.9 m/s with `hover`. Thrust goes with the square
+// of speed; thrusters in the order of vehicle_sim/dynamics/hover.h. Left out: a station closer than the
+// vehicle can turn in gusts that veer by more than it can follow. Pure functions.
 #pragma once
 
 #include <array>
@@ -60,7 +60,8 @@ struct HoverIntegrals {
   bool has_heading = false;
 };
 
-// Revolutions a minute: port, starboard, bow, stern; within +-full_rpm. One step of `dt_s`; moves `integrals` on.
+// Revolutions a minute: port, starboard, bow, stern; within +-full_rpm. One step of `dt_s`; moves `integrals`
+// on.
 std::array<double, 4> hover_command(const HoverGains& gains, const StationPoint& point,
                                     const HoverMeasured& measured, double dt_s, HoverIntegrals& integrals);
 

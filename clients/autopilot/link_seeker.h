@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which of several places a vehicle goes to so that others hear it best.
 //
-// Rule. It goes to the place of the greatest mean delivery, of equals that of the greatest ratio, whenever it is asked for, but stays
-// where that gains less than `least_gain` of mean delivery: so it does not run to and fro between places alike. Where the present
-// place delivers nothing at all, any gain counts. Before the first answer it is the first place. Pure.
+// Rule. It goes to the place of the greatest mean delivery, of equals that of the greatest ratio, whenever it
+// is asked for, but stays where that gains less than `least_gain` of mean delivery: so it does not run to and
+// fro between places alike. Where the present place delivers nothing at all, any gain counts. Before the
+// first answer it is the first place. Pure.
 #pragma once
 
 #include <cstddef>

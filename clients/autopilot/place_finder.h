@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Asks the channel server where a vehicle that seeks a link is best heard, and hands on what it answers.
 //
-// A question is asked of an instant, once a period, and its answer counts kAnswerAfter later: so what the vehicle does depends on
-// simulation time, not on how long the answer took. A question without an answer by then is asked again.
+// A question is asked of an instant, once a period, and its answer counts kAnswerAfter later: so what the
+// vehicle does depends on simulation time, not on how long the answer took. A question without an answer by
+// then is asked again.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,8 @@ class PlaceFinder {
   PlaceFinder(const PlaceFinder&) = delete;
   PlaceFinder& operator=(const PlaceFinder&) = delete;
 
-  // At each instant of commands; `seeker` is null while the vehicle does something else. True when it changed its mind.
+  // At each instant of commands; `seeker` is null while the vehicle does something else. True when it changed
+  // its mind.
   [[nodiscard]] bool step(SimTime instant, LinkSeeker* seeker);
   void restart();
   void archive(Archive& a) { a(asked_at_, next_, request_id_, answer_); }

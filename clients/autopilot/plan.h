@@ -3,13 +3,13 @@
 //
 // Behaviours: waypoints (guidance.h); a heading kept; a loiter, a circle of given radius and sense about a
 // point (the vector field of guidance.h, mirrored for counterclockwise); a survey, parallel tracks over a
-// rectangle joined outside of it; following a leader (formation.h gives its set points); waiting, stopped; seeking a
-// link, a circle about one of several places (link_seeker.h chooses). Waypoints and
+// rectangle joined outside of it; following a leader (formation.h gives its set points); waiting, stopped;
+// seeking a link, a circle about one of several places (link_seeker.h chooses). Waypoints and
 // surveys end at their last point, the others after their duration. Each at a depth, or at a height above
 // the ground (seabed_ahead.h turns it into a depth). After the last one: again from the first, hold
-// (circle where it ended; a loiter goes on), stop, or come to the surface. Frame: world NED, metres; z of a depth is down from
-// the datum. Left out: current across a heading or a circle, obstacles, behaviours at once. Pure
-// functions.
+// (circle where it ended; a loiter goes on), stop, or come to the surface. Frame: world NED, metres; z of a
+// depth is down from the datum. Left out: current across a heading or a circle, obstacles, behaviours at
+// once. Pure functions.
 #pragma once
 
 #include <string>

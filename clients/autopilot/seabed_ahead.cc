@@ -8,7 +8,8 @@
 namespace halocline::clients {
 namespace {
 
-// On the way down to a height whose ground is out of the altimeter's reach: this far below the vehicle, always.
+// On the way down to a height whose ground is out of the altimeter's reach: this far below the vehicle,
+// always.
 constexpr double kBlindDescentM = 4;
 constexpr double kClearlyBelowM = 0.5;  // the minimum height: less is the control's error
 constexpr double kPullUpRadPerM = 0.3;  // a metre below the minimum height demands about the maximum pitch

@@ -3,7 +3,8 @@
 //
 // It carries a plan (plan.h) through, follows a leader by its reports (formation.h), keeps above the
 // ground that its altimeter showed it (seabed_ahead.h), and steers with fins (control_laws.h), with
-// thrusters (hover_laws.h) or by buoyancy (glide_laws.h). Values in, values out: where a situation comes from is the node's.
+// thrusters (hover_laws.h) or by buoyancy (glide_laws.h). Values in, values out: where a situation comes from
+// is the node's.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission as messages of Foxglove's schemas: its scene, positions on the earth, and a log of what became of packets. Pure.
+// A mission as messages of Foxglove's schemas: its scene, positions on the earth, and a log of what became of
+// packets. Pure.
 //
 // The frame "world" is east, north, up in metres from the scenario's origin, as Foxglove's panels want it.
 #pragma once
@@ -21,12 +22,13 @@ namespace halocline::clients {
 
 nlohmann::json foxglove_time(SimTime at);
 
-// foxglove.SceneUpdate: vehicles with their names, links coloured by SNR, and wavefronts of those of `packets` that are on
-// their way.
+// foxglove.SceneUpdate: vehicles with their names, links coloured by SNR, and wavefronts of those of
+// `packets` that are on their way.
 nlohmann::json foxglove_scene(const MissionStore& mission, SimTime at,
                               std::span<const PacketRecord* const> packets);
 
-// Between the earth and the scenario's frame, as the simulator has it by default; empty where the origin is not known.
+// Between the earth and the scenario's frame, as the simulator has it by default; empty where the origin is
+// not known.
 std::optional<bathymetry::LocalFrame> frame_of(const MissionStore& mission);
 
 struct PlaceOnEarth {

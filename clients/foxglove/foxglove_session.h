@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One connection by Foxglove's WebSocket protocol (foxglove.websocket.v1): channels are advertised, those that the
-// client subscribes to are sent. Of a bus the newest; a log plays from its beginning at its own pace.
+// One connection by Foxglove's WebSocket protocol (foxglove.websocket.v1): channels are advertised, those
+// that the client subscribes to are sent. Of a bus the newest; a log plays from its beginning at its own
+// pace.
 //
 //   github.com/foxglove/ws-protocol, "Foxglove WebSocket Protocol Specification"
 #pragma once

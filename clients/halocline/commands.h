@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The subcommands of `halocline`. Each adds itself to the command line; when it is chosen, its callback does the
-// work and leaves the exit code: 0 done, 1 failed, 2 the user's error, 130 interrupted by Ctrl-C. What it throws is
-// reported by main.
+// The subcommands of `halocline`. Each adds itself to the command line; when it is chosen, its callback does
+// the work and leaves the exit code: 0 done, 1 failed, 2 the user's error, 130 interrupted by Ctrl-C. What it
+// throws is reported by main.
 #pragma once
 
 #include <string>

@@ -54,7 +54,8 @@ bool is_plan(const std::string& path) {
   return text.find("\n[sweep]") != std::string::npos || text.find("\n[[axis]]") != std::string::npos;
 }
 
-// The plan file, or the scenario, and what the command line adds; without a file, the plan of an earlier start.
+// The plan file, or the scenario, and what the command line adds; without a file, the plan of an earlier
+// start.
 SweepPlan plan_of(const SweepOptions& options) {
   SweepPlan plan;
   const std::string file = options.plan.empty() ? plan_path(options.out) : options.plan;

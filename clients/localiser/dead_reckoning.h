@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where a vehicle has gone through the water, by its own speed and heading.
 //
-// Model: between two measurements the velocity through the water changes evenly (trapezium rule); after the last
-// one it stays. Horizontal velocity = speed * cos(pitch), along the heading: the vehicle goes where it points, so a
-// drift to the side or an angle of attack is an error (the REMUS of the vehicle simulator
-// ends a sharp turn of 110 degrees 2.7 m beside where this puts it). Current is
+// Model: between two measurements the velocity through the water changes evenly (trapezium rule); after the
+// last one it stays. Horizontal velocity = speed * cos(pitch), along the heading: the vehicle goes where it
+// points, so a drift to the side or an angle of attack is an error (the REMUS of the vehicle simulator ends a
+// sharp turn of 110 degrees 2.7 m beside where this puts it). Current is
 // the business of whoever uses this.
 //
 // The sum of all turns, left and right alike, is counted beside it, for whoever reckons with drift in turns.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sections [vehicle.localiser] of a scenario file: which vehicle finds its place, by which beacons and how.
+// The sections [vehicle.localiser] of a scenario file: which vehicle finds its place, by which beacons and
+// how.
 #pragma once
 
 #include <cstdint>

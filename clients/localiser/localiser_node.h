@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Estimates the positions of vehicles from acoustic ranges to beacons, and publishes them as ESTIMATE.<vehicle>.
+// Estimates the positions of vehicles from acoustic ranges to beacons, and publishes them as
+// ESTIMATE.<vehicle>.
 //
 // Inputs are those the vehicle itself has: its SENSORS (depth, heading, pitch, speed through the
-// water) and the packets its modem receives. The node sends pings in its name, to one beacon after the other, and takes ranges
-// from the travel times of the answers; with `use_stamps` also from stamped packets of beacons. A travel time becomes
-// a length by the mean sound speed between the two depths, of the profile in ENVIRONMENT: a straight path;
-// where the water bends sound, the range is off: by Fermat's principle
+// water) and the packets its modem receives. The node sends pings in its name, to one beacon after the other,
+// and takes ranges from the travel times of the answers; with `use_stamps` also from stamped packets of
+// beacons. A travel time becomes a length by the mean sound speed between the two depths, of the profile in
+// ENVIRONMENT: a straight path; where the water bends sound, the range is off: by Fermat's principle
 // the bent way is quicker, by (g r)^2 / (24 c^2) of the time for a gradient g (5 cm in 1 km at 0.05 1/s, 4 m
 // at 0.45 1/s). Before the first ENVIRONMENT (the channel server repeats it once a minute) no range is used.
 // STATE serves only to compute the error of the estimate.
 //
-// Estimates are published on the time grid, and know what was stamped 0.1 s before or earlier: longer than a message
-// takes, so that a run in many processes gives what one in lockstep does. An answer is counted from the
-// instants that the water gave it, so its lateness costs nothing.
+// Estimates are published on the time grid, and know what was stamped 0.1 s before or earlier: longer than a
+// message takes, so that a run in many processes gives what one in lockstep does. An answer is counted from
+// the instants that the water gave it, so its lateness costs nothing.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +37,8 @@ namespace halocline::clients {
 
 class LocaliserNode : public bus::Node {
  public:
-  // Localises the vehicles of `config` that have beacons. Throws InvalidArgument for a beacon that the scenario does
-  // not have, or a vehicle that has two names for one.
+  // Localises the vehicles of `config` that have beacons. Throws InvalidArgument for a beacon that the
+  // scenario does not have, or a vehicle that has two names for one.
   LocaliserNode(lcm::LCM& lcm, bus::NodeIdentity identity, const LocaliserConfig& config);
 
  protected:

@@ -212,7 +212,8 @@ void PositionEstimator::start_from_ranges(const RangeMeasurement& latest) {
   if (!hypotheses_.empty()) waiting_.clear();
 }
 
-// Both crossings of the circles that the ranges draw about the beacons, these carried along as the vehicle went.
+// Both crossings of the circles that the ranges draw about the beacons, these carried along as the vehicle
+// went.
 void PositionEstimator::add_crossings(const RangeMeasurement& one, const RangeMeasurement& other) {
   struct Circle {
     Vec2 centre = Vec2::Zero();

@@ -1,29 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Position estimator: ranges to beacons at known positions fused with the vehicle's own speed, heading and depth.
+// Position estimator: ranges to beacons at known positions fused with the vehicle's own speed, heading and
+// depth.
 //
-// Model: an extended Kalman filter (Bar-Shalom, Li and Kirubarajan 2001, ch. 10; updates iterated as in 10.5.2)
-// over horizontal position and current, [north, east, current north, current east]. Between ranges the
-// vehicle goes by dead reckoning plus the current; both wander as random walks. Depth below the sea surface
-// is measured and no part of the state. A
-// range is the length of one way (a stamped packet) or the sum of two (a ping and its answer), each from where the
-// vehicle was at that way's own instant, which may lie seconds back:
+// Model: an extended Kalman filter (Bar-Shalom, Li and Kirubarajan 2001, ch. 10; updates iterated as in
+// 10.5.2) over horizontal position and current, [north, east, current north, current east]. Between ranges
+// the vehicle goes by dead reckoning plus the current; both wander as random walks. Depth below the sea
+// surface is measured and no part of the state. A
+// range is the length of one way (a stamped packet) or the sum of two (a ping and its answer), each from
+// where the vehicle was at that way's own instant, which may lie seconds back:
 //   sum over ways of |p(t) - beacon|,  p(t) = p(now) - (gone through the water since t) - current (now - t)
 //
-// With a clock_offset_sigma_s above 0 the offset b and the drift d of the vehicle's clock are part of the state, too: one way by
-// a stamped packet is c b(t) longer, c the sound speed, b(t) = b(now) - d (now - t); the sum of two is not. b wanders as a
-// random walk. Beacons keep the right time. Position and clock can be told apart when ranges come from beacons on several sides,
-// or with pings among them; otherwise their covariance stays large.
+// With a clock_offset_sigma_s above 0 the offset b and the drift d of the vehicle's clock are part of the
+// state, too: one way by a stamped packet is c b(t) longer, c the sound speed, b(t) = b(now) - d (now - t);
+// the sum of two is not. b wanders as a random walk. Beacons keep the right time. Position and clock can be
+// told apart when ranges come from beacons on several sides, or with pings among them; otherwise their
+// covariance stays large.
 //
-// Two beacons leave a mirror image of the vehicle beyond the line through them. Without a stated start the filter
-// starts from two ranges to two beacons, with one hypothesis on either side; each goes by the same dead
-// reckoning, and each range weighs them by how well it fits, until one has kForgotten of the other's weight. A
-// course along that very line leaves both sides possible; with it, the start has to be stated.
+// Two beacons leave a mirror image of the vehicle beyond the line through them. Without a stated start the
+// filter starts from two ranges to two beacons, with one hypothesis on either side; each goes by the same
+// dead reckoning, and each range weighs them by how well it fits, until one has kForgotten of the other's
+// weight. A course along that very line leaves both sides possible; with it, the start has to be stated.
 //
-// A range farther from what a hypothesis expects than `gate` standard deviations is an outlier to it: it does not
-// move it, and costs weight. After kMaxMisfits such ranges in a row to all hypotheses the filter starts anew.
+// A range farther from what a hypothesis expects than `gate` standard deviations is an outlier to it: it does
+// not move it, and costs weight. After kMaxMisfits such ranges in a row to all hypotheses the filter starts
+// anew.
 //
-// Holds where errors of range and dead reckoning are white and ranges are long against the position's error; errors
-// common to all ranges (of sound speed, of a beacon's place) are not in the covariance. Pure and not thread-safe.
+// Holds where errors of range and dead reckoning are white and ranges are long against the position's error;
+// errors common to all ranges (of sound speed, of a beacon's place) are not in the covariance. Pure and not
+// thread-safe.
 #pragma once
 
 #include <optional>

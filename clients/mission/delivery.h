@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well vehicles received each other: by pair, and by range with the prediction of the link tables beside it.
+// How well vehicles received each other: by pair, and by range with the prediction of the link tables beside
+// it.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,8 @@
 
 namespace halocline::clients {
 
-// What one vehicle received of another; every transmission counts, whomever it was addressed to, but those to others that
-// were summed up as out of reach.
+// What one vehicle received of another; every transmission counts, whomever it was addressed to, but those to
+// others that were summed up as out of reach.
 struct PairDelivery {
   std::int32_t from_id = 0, to_id = 0;
   std::int64_t packets = 0, received = 0;
@@ -33,9 +34,9 @@ struct RangeDelivery {
       predicted;  // mean over these packets of the probability in the table before departure
 };
 
-// Ranges in steps of 1, 2 or 5 times a power of ten, at most `max_steps` of them; those without a packet are left
-// out. A prediction counts where a table is at most 10 s older than the departure. Only packets whose numbers the
-// mission still holds.
+// Ranges in steps of 1, 2 or 5 times a power of ten, at most `max_steps` of them; those without a packet are
+// left out. A prediction counts where a table is at most 10 s older than the departure. Only packets whose
+// numbers the mission still holds.
 std::vector<RangeDelivery> delivery_by_range(const MissionStore& mission, std::size_t max_steps);
 
 // The least of 1, 2 and 5 times a power of ten that is `least` or more; above 0.

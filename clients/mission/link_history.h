@@ -33,8 +33,8 @@ class LinkHistory {
   // Parts of one table (messages of one time) are put together.
   void add(SimTime at, const link_table_t& table);
 
-  // The row of the last table of this time or before; null when there is none that is no older than `max_age`, or it has no
-  // such row. Valid until the next add.
+  // The row of the last table of this time or before; null when there is none that is no older than
+  // `max_age`, or it has no such row. Valid until the next add.
   const link_t* row_at(std::int32_t from_id, std::int32_t to_id, SimTime at,
                        SimDuration max_age = SimTime::never() - SimTime()) const;
   // The last rows of all transmitters, of this time or before; and no older than `max_age`.

@@ -25,7 +25,8 @@ concept HasUtime = requires(const Message& message) {
   message.utime;
 };
 
-// What is stamped with the instant from which it holds may lie ahead; all else shows how far the mission has come.
+// What is stamped with the instant from which it holds may lie ahead; all else shows how far the mission has
+// come.
 template <class Message>
 inline constexpr bool kAdvancesTime =
     std::is_same_v<Message, vehicle_state_t> || std::is_same_v<Message, packet_outcome_t> ||

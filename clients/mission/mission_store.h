@@ -5,13 +5,14 @@
 //   while (log.next(event)) store.add(event.stamp_us, event.channel, event.data);
 //   const auto place = state_at(store.vehicles()[0].track, SimTime::from_seconds(60));
 //
-// It takes the messages of a bus or a log in any order, whatever they are: what is on no channel of ours, does not
-// decode or cannot be is counted and left out. Times are simulation time, each message's own (mission_time.h); what has
-// none holds from the latest time that was reached. It reads no file, opens no socket and knows no clock. Not
-// thread-safe.
+// It takes the messages of a bus or a log in any order, whatever they are: what is on no channel of ours,
+// does not decode or cannot be is counted and left out. Times are simulation time, each message's own
+// (mission_time.h); what has none holds from the latest time that was reached. It reads no file, opens no
+// socket and knows no clock. Not thread-safe.
 //
-// Memory is bounded by MissionLimits: series are thinned together (timed_series.h), and the oldest packets' numbers are
-// dropped while the ledger keeps counting all. limit_history() drops what is old, for a bus that never ends.
+// Memory is bounded by MissionLimits: series are thinned together (timed_series.h), and the oldest packets'
+// numbers are dropped while the ledger keeps counting all. limit_history() drops what is old, for a bus that
+// never ends.
 #pragma once
 
 #include <cstddef>

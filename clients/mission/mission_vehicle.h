@@ -29,12 +29,12 @@ struct TrackState {
   SimDuration age;  // since the last state of that time or before; 0 between two states
 };
 
-// Where it was: between two states linear in position and speed, along the shorter arc in angles; after the last one it stays
-// there and ages. Empty before the first.
+// Where it was: between two states linear in position and speed, along the shorter arc in angles; after the
+// last one it stays there and ages. Empty before the first.
 std::optional<TrackState> state_at(const Track& track, SimTime at);
 
-// At most `max_points` for drawing a track from above and from the side: north, east and depth keep their extremes
-// (timed_series.h).
+// At most `max_points` for drawing a track from above and from the side: north, east and depth keep their
+// extremes (timed_series.h).
 std::vector<Timed<TrackPoint>> decimated_track(const Track& track, SimTime from, SimTime to,
                                                std::size_t max_points);
 

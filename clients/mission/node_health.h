@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the programs of a mission fare: what they count, how long they were silent, how fast simulation time passes.
+// How the programs of a mission fare: what they count, how long they were silent, how fast simulation time
+// passes.
 #pragma once
 
 #include <cstdint>
@@ -27,14 +28,15 @@ struct NodeRecord {
 
 class NodeHealth {
  public:
-  // Stamps are those of the recorder or receiver: wall time, but simulation time in the log of a lockstep run.
+  // Stamps are those of the recorder or receiver: wall time, but simulation time in the log of a lockstep
+  // run.
   void add_status(std::int64_t stamp_us, const std::string& node, const node_status_t& status);
   void add_heartbeat(std::int64_t stamp_us, const std::string& node);
   void add_clock(std::int64_t stamp_us, const sim_clock_t& clock);
 
   const std::map<std::string, NodeRecord>& nodes() const { return nodes_; }
-  // Simulated seconds per second of the stamps, over the last ten of these; empty before the second CLOCK, and where stamps are
-  // simulation time.
+  // Simulated seconds per second of the stamps, over the last ten of these; empty before the second CLOCK,
+  // and where stamps are simulation time.
   std::optional<double> real_time_factor() const;
   // Over all nodes, of their last statuses.
   std::int64_t total(std::int64_t node_status_t::*counter) const;

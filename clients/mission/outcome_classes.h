@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The marks and colours of outcomes: one table for reports and monitors.
 //
-// Seventeen outcomes are too many to distinguish by colour, so they share six classes, each with a mark of its own.
-// Colours: Okabe and Ito 2008, which colour-blind people can distinguish.
+// Seventeen outcomes are too many to distinguish by colour, so they share six classes, each with a mark of
+// its own. Colours: Okabe and Ito 2008, which colour-blind people can distinguish.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many packets had which outcome: counted by outcome, pair and window of time, and by what their paths were
-// computed with.
+// How many packets had which outcome: counted by outcome, pair and window of time, and by what their paths
+// were computed with.
 #pragma once
 
 #include <array>
@@ -25,7 +25,8 @@ class OutcomeLedger {
   // Outcomes are summed over windows of `window_us` > 0 of simulation time, by the instant of departure.
   explicit OutcomeLedger(std::int64_t window_us);
 
-  // Counts each of its receivers, by pair only where there is one; it is for the caller to leave out repetitions.
+  // Counts each of its receivers, by pair only where there is one; it is for the caller to leave out
+  // repetitions.
   void add(const packet_outcome_t& outcome);
 
   const OutcomeCounts& total() const { return total_; }
@@ -48,8 +49,8 @@ inline std::size_t number_of(const packet_outcome_t& outcome) {
   return static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.outcome));
 }
 
-// Names of receipt results, packet outcomes and propagations ("straight", "rays", "straight without bottom"), by
-// their number; "?" for others.
+// Names of receipt results, packet outcomes and propagations ("straight", "rays", "straight without bottom"),
+// by their number; "?" for others.
 const char* receipt_name(std::size_t result);
 const char* outcome_name(std::size_t outcome);
 const char* propagation_name(std::size_t propagation);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The packets of a mission: each transmission with its SEND, its receipt and its outcome at every receiver, joined by name.
+// The packets of a mission: each transmission with its SEND, its receipt and its outcome at every receiver,
+// joined by name.
 //
-// A packet's name is its sender's id, session, sequence and kind. Where a name was used more than once (a publisher
-// without sessions that was started again), transmissions differ by their departure. Any part may be missing or come
-// first: a log may begin late, the answer to a ping has no SEND.
+// A packet's name is its sender's id, session, sequence and kind. Where a name was used more than once (a
+// publisher without sessions that was started again), transmissions differ by their departure. Any part may
+// be missing or come first: a log may begin late, the answer to a ping has no SEND.
 #pragma once
 
 #include <cstddef>
@@ -67,7 +68,8 @@ class PacketBook {
   // Grows at every change; packets with a greater revision than the one remembered are new or have changed.
   std::uint64_t revision() const { return revision_; }
 
-  // Drops the oldest, in the order in which they were met: those over before `at`; or until at most so many outcomes are left.
+  // Drops the oldest, in the order in which they were met: those over before `at`; or until at most so many
+  // outcomes are left.
   void drop_before(SimTime at);
   void keep_outcomes(std::size_t at_most);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why a packet was received or lost: as a reason with its numbers, as a sentence, and as the ladder of numbers that
-// decided it, from the transmitted level to the draws. All from OUTCOME; docs/packets.md explains the steps.
+// Why a packet was received or lost: as a reason with its numbers, as a sentence, and as the ladder of
+// numbers that decided it, from the transmitted level to the draws. All from OUTCOME; docs/packets.md
+// explains the steps.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,8 @@ std::string deciding_reason(const packet_outcome_t& outcome, const VehicleName& 
 // "Lost at auv-3: too quiet: 95.2 dB arrived of the 100.0 dB that its modem needs."
 std::string sentence(const packet_outcome_t& outcome, const VehicleName& name);
 
-// "data", "ping", "ping_reply", "ack", "mini_packet", "janus", "janus_cargo"; what is none of them counts as data.
+// "data", "ping", "ping_reply", "ack", "mini_packet", "janus", "janus_cargo"; what is none of them counts as
+// data.
 const char* packet_kind_name(std::int8_t packet_kind);
 
 // Why a SEND was not transmitted, by the result of its receipt; empty where it was.

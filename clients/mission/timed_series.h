@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values by time, for what comes many times a second: kept in order, thinned when there are too many, dropped when old.
+// Values by time, for what comes many times a second: kept in order, thinned when there are too many, dropped
+// when old.
 //
-// Thinning: every second value is dropped, and from then on values stand twice as far apart as before. The newest value is
-// always there. Extremes between two that are kept are lost: the price of bounded memory.
+// Thinning: every second value is dropped, and from then on values stand twice as far apart as before. The
+// newest value is always there. Extremes between two that are kept are lost: the price of bounded memory.
 #pragma once
 
 #include <algorithm>
@@ -101,8 +102,9 @@ class TimedSeries {
   SimDuration gap_;             // least distance of two that are kept
 };
 
-// At most `max_points` >= 8 of the entries for drawing, in order: of each of equally long stretches of time the least
-// and the greatest of each quantity, and the ends. A quantity is a function of the value, such as its depth.
+// At most `max_points` >= 8 of the entries for drawing, in order: of each of equally long stretches of time
+// the least and the greatest of each quantity, and the ends. A quantity is a function of the value, such as
+// its depth.
 template <class Value, class... Quantities>
 std::vector<Timed<Value>> decimated(std::span<const Timed<Value>> entries, std::size_t max_points,
                                     const Quantities&... quantities) {

@@ -6,7 +6,8 @@
 //   const auto sequence = modem.send(kBroadcastId, payload);
 //   if (sequence && modem.wait_receipt(*sequence, SimDuration::from_seconds(2))) { ... }
 //   while (const auto packet = modem.wait_receive(SimDuration::from_seconds(60))) { ... }
-//   if (modem.listen({.events = true})) { const auto event = modem.wait_event(SimDuration::from_seconds(60)); ... }
+//   if (modem.listen({.events = true})) { const auto event = modem.wait_event(SimDuration::from_seconds(60));
+//   ... }
 //
 // Time-outs are of steady (wall) time. While a call waits, everything on the LCM is dispatched, so other
 // subscriptions made on it are served too. Not thread-safe; the LCM must outlive the modem.
@@ -39,12 +40,12 @@ class BlockingModem {
   [[nodiscard]] std::optional<std::int64_t> send(std::int32_t destination,
                                                  std::span<const std::uint8_t> payload,
                                                  SendOptions options = {});
-  // Sends a PING and waits for its answer: the travel time out and back, s; empty after `timeout`. Packets that
-  // arrive meanwhile wait for wait_receive().
+  // Sends a PING and waits for its answer: the travel time out and back, s; empty after `timeout`. Packets
+  // that arrive meanwhile wait for wait_receive().
   [[nodiscard]] std::optional<double> ping(std::int32_t destination, SimDuration timeout);
 
-  // Sends a packet that wants an acknowledgement and waits for it: bit i is 1 where frame i was right; empty after `timeout`.
-  // Other packets that arrive meanwhile wait for wait_receive().
+  // Sends a packet that wants an acknowledgement and waits for it: bit i is 1 where frame i was right; empty
+  // after `timeout`. Other packets that arrive meanwhile wait for wait_receive().
   [[nodiscard]] std::optional<std::uint32_t> send_acknowledged(std::int32_t destination,
                                                                std::span<const std::uint8_t> payload,
                                                                SimDuration timeout, SendOptions options = {});
@@ -55,10 +56,11 @@ class BlockingModem {
   // Waits for a packet to arrive; empty after `timeout`. A timeout of 0 takes what is there.
   [[nodiscard]] std::optional<modem_receive_t> wait_receive(SimDuration timeout);
 
-  // How the modem listens from now on (ModemClient::listen): with `events`, wait_event() has what it reports. False where there is no
-  // CLOCK within a second: nothing was published. Throws as ModemClient::listen.
+  // How the modem listens from now on (ModemClient::listen): with `events`, wait_event() has what it reports.
+  // False where there is no CLOCK within a second: nothing was published. Throws as ModemClient::listen.
   bool listen(const ListenOptions& options);
-  // Waits for an event of the modem; empty after `timeout`. The oldest of more than ModemClient::kMaxWaiting are forgotten.
+  // Waits for an event of the modem; empty after `timeout`. The oldest of more than ModemClient::kMaxWaiting
+  // are forgotten.
   [[nodiscard]] std::optional<modem_event_t> wait_event(SimDuration timeout);
 
   const ModemClient& client() const { return client_; }

@@ -46,8 +46,8 @@ struct ModemAddress {
 
 // How a packet is sent.
 struct SendOptions {
-  std::int8_t kind = modem_send_t::
-      DATA;  // or PING: to one vehicle, whose modem answers with a PING_REPLY, or to all, for transponders; MINI_PACKET ...
+  std::int8_t kind = modem_send_t::DATA;  // or PING: to one vehicle, whose modem answers with a PING_REPLY,
+                                          // or to all, for transponders; MINI_PACKET ...
   bool stamped = true;     // carries the instant of its departure: the receiver computes the delay
   bool wants_ack = false;  // to one vehicle, whose modem answers with an ACK; not for a PING
   std::optional<std::int32_t> rate_number = {};  // of a rate of the modem, 0..255; none: its own
@@ -94,7 +94,8 @@ class ModemClient {
   using ReceiveHandler = std::function<void(const modem_receive_t&)>;
   using EventHandler = std::function<void(const modem_event_t&)>;
 
-  // Bounds of what a client keeps: packets not taken yet, receipts, and packet identities to detect duplicates.
+  // Bounds of what a client keeps: packets not taken yet, receipts, and packet identities to detect
+  // duplicates.
   static constexpr std::size_t kMaxWaiting = 1000, kMaxReceipts = 100, kMaxRemembered = 200;
 
   // `wakeup`: what the handlers of receipts and packets may do to the node (bus/subscription.h).
@@ -111,8 +112,8 @@ class ModemClient {
   // Called for each event of the modem, where it reports them (listen). Before the first step of a node.
   void on_event(EventHandler handler);
 
-  // Publishes a LISTEN that holds from `from` on (simulation time); nothing answers it. Throws InvalidArgument for a threshold
-  // out of range.
+  // Publishes a LISTEN that holds from `from` on (simulation time); nothing answers it. Throws
+  // InvalidArgument for a threshold out of range.
   void listen(SimTime from, const ListenOptions& options);
 
   // Publishes a SEND that starts at `start` (simulation time) and returns its packet_sequence.
@@ -140,7 +141,8 @@ class ModemClient {
   // The two-way travel time of the waiting answer to this ping, s, which is taken; empty while none waits.
   std::optional<double> take_ping_reply(std::int64_t packet_sequence);
 
-  // Of the waiting acknowledgement of this packet, which is taken: bit i is 1 where frame i was right. Empty while none waits.
+  // Of the waiting acknowledgement of this packet, which is taken: bit i is 1 where frame i was right. Empty
+  // while none waits.
   std::optional<std::uint32_t> take_ack(std::int64_t packet_sequence);
 
   // Repeats what has waited for its receipt for the policy's interval.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hosts that are connected to the doors of a gateway: all their bytes, on one thread, without waiting for any of them.
+// The hosts that are connected to the doors of a gateway: all their bytes, on one thread, without waiting for
+// any of them.
 //
-// Bounds: kMaxClients hosts a door, others are turned away; kMaxPiece bytes of a host in a call of take(); kMaxUnsent bytes that a host
-// does not read: what does not fit is dropped, each write whole, so that a message is never cut. So no host disturbs another
-// door, whatever it does. A pseudo-terminal has one host, from when it is opened until it is closed.
+// Bounds: kMaxClients hosts a door, others are turned away; kMaxPiece bytes of a host in a call of take();
+// kMaxUnsent bytes that a host does not read: what does not fit is dropped, each write whole, so that a
+// message is never cut. So no host disturbs another door, whatever it does. A pseudo-terminal has one host,
+// from when it is opened until it is closed.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +36,8 @@ class Connections {
 
   Connections();
 
-  // Opens a door at `place` and returns its number: 0, 1, ... Throws InvalidArgument where that is impossible.
+  // Opens a door at `place` and returns its number: 0, 1, ... Throws InvalidArgument where that is
+  // impossible.
   std::size_t add(const Place& place);
   // With the port that was free, where the place left it open.
   std::string place_of(std::size_t door) const;
@@ -55,7 +58,8 @@ class Connections {
   // Ends a connection on TCP: take() reports it as closed.
   void disconnect(ClientId client);
 
-  // By UDP, to that port of the machine that a host on TCP is on; what the network does not take at once is lost.
+  // By UDP, to that port of the machine that a host on TCP is on; what the network does not take at once is
+  // lost.
   void send_datagram(ClientId client, std::uint16_t port, std::string_view bytes);
 
   // Readable when take() has something to do, but for pseudo-terminals that are opened.

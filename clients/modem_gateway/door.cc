@@ -160,7 +160,8 @@ void Door::hand_over(const Happening& happening) {
   }
 }
 
-// An event and an outcome are of one packet where instant and cause agree: a modem follows one packet at a time.
+// An event and an outcome are of one packet where instant and cause agree: a modem follows one packet at a
+// time.
 void Door::pair_losses() {
   for (auto event = lost_events_.begin(); event != lost_events_.end();) {
     const auto outcome =

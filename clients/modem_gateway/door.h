@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One door: a modem of the simulation, its protocol, and what goes between them.
 //
-// Messages of the bus are stored when they come and handed to the protocol in the node's step, in their order. A packet that was detected
-// and lost is reported once its MODEM_EVENT and its OUTCOME, which the channel server publishes one after the other, have both come.
+// Messages of the bus are stored when they come and handed to the protocol in the node's step, in their
+// order. A packet that was detected and lost is reported once its MODEM_EVENT and its OUTCOME, which the
+// channel server publishes one after the other, have both come.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +39,8 @@ class Door : private ProtocolPort {
   using Writer = std::function<void(ClientId client, std::string_view bytes)>;
   using DatagramWriter = std::function<void(ClientId client, std::uint16_t port, std::string_view bytes)>;
   using Disconnect = std::function<void(ClientId client)>;
-  // Of everything that passes, for a person: `direction` is '<' from a host, '>' to it, '*' of the bus. May be empty.
+  // Of everything that passes, for a person: `direction` is '<' from a host, '>' to it, '*' of the bus. May
+  // be empty.
   using Trace = std::function<void(char direction, std::string_view text)>;
 
   // Subscribes on the bus. Throws InvalidArgument for a configuration that makes no door.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files by which hosts reach a door: a listening TCP socket, or a pseudo-terminal with a symbolic link to it. All non-blocking.
+// Files by which hosts reach a door: a listening TCP socket, or a pseudo-terminal with a symbolic link to it.
+// All non-blocking.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The modem gateway: simulated modems that answer as real ones do, over TCP and serial lines.
 //
-// Each door has a modem of the scenario, a place where hosts connect, and the protocol of its kind (protocols/). One thread serves all: in
-// a process of its own the node is stepped when a host has written or the bus has a message; in lockstep it looks at its hosts every
-// `look_period` of simulation time, because there time advances only by steps. Hosts have time-outs of wall time: runs with doors
-// are meant for rate 1.
+// Each door has a modem of the scenario, a place where hosts connect, and the protocol of its kind
+// (protocols/). One thread serves all: in a process of its own the node is stepped when a host has written or
+// the bus has a message; in lockstep it looks at its hosts every `look_period` of simulation time, because
+// there time advances only by steps. Hosts have time-outs of wall time: runs with doors are meant for rate 1.
 #pragma once
 
 #include <cstddef>
@@ -33,8 +33,8 @@ class GatewayNode : public bus::Node {
   // How often hosts are looked at in lockstep.
   static constexpr SimDuration kLockstepPeriod = SimDuration::from_milliseconds(5);
 
-  // `look_period`: kLockstepPeriod in lockstep; 0 where the runner watches ready_file(). `trace_path`: trace_log.h; empty: none.
-  // `make_sound`: for doors of waveforms; empty: there can be none.
+  // `look_period`: kLockstepPeriod in lockstep; 0 where the runner watches ready_file(). `trace_path`:
+  // trace_log.h; empty: none. `make_sound`: for doors of waveforms; empty: there can be none.
   // Throws InvalidArgument for a place that cannot be opened, and for doors of vehicles that there are not.
   GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const GatewayConfig& config, SimDuration look_period,
               const std::string& trace_path = {}, const SoundFieldMaker& make_sound = {});

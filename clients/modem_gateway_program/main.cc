@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program halocline-modem-gateway: the doors of clients/modem_gateway, and the water for those that play sound.
+// The program halocline-modem-gateway: the doors of clients/modem_gateway, and the water for those that play
+// sound.
 #include <memory>
 #include <string>
 #include <vector>

@@ -21,8 +21,8 @@ struct MonitorOptions {
   WebServer::Options web;
 };
 
-// Empty when the command line only requested output (--help, --version), which was printed. Throws InvalidArgument for a
-// wrong one.
+// Empty when the command line only requested output (--help, --version), which was printed. Throws
+// InvalidArgument for a wrong one.
 [[nodiscard]] std::optional<MonitorOptions> parse_monitor_command_line(int argc, char** argv);
 
 }  // namespace halocline::monitor

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Python module `_halocline`: logs as arrays, arrivals and link budgets. clients/python/halocline wraps it.
+// The Python module `_halocline`: logs as arrays, arrivals and link budgets. clients/python/halocline wraps
+// it.
 //
-// Errors of the caller (InvalidArgument) become ValueError with their text, others RuntimeError. Long computations release the
-// interpreter's lock.
+// Errors of the caller (InvalidArgument) become ValueError with their text, others RuntimeError. Long
+// computations release the interpreter's lock.
 #include <array>
 #include <cstddef>
 #include <optional>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One vehicle's part in passing packets on: store and forward by flooding.
 //
-// Model: a packet goes to all in range; a relay that receives it for the first time keeps it, waits for a random time, and
-// transmits it again while transmissions are left; where it has come from, or whoever had it before, does not take it
-// again (controlled flooding: Tanenbaum and Wetherall 2011, Computer Networks, section 5.2.3). A packet that the modem refuses
-// because it is transmitting is kept and tried again. The vehicle it goes to may confirm it: a packet of its own that
-// goes back the same way. The wait is uniform between 0 and `longest_wait`, drawn from seed, vehicle and packet, so that two
-// relays that received the same packet do not transmit it at once. Bounded: kMaxStored packets, the latest kMaxKnown names,
-// kMaxTries. Left out: routes, acknowledgement from hop to hop. Values in, values out.
+// Model: a packet goes to all in range; a relay that receives it for the first time keeps it, waits for a
+// random time, and transmits it again while transmissions are left; where it has come from, or whoever had it
+// before, does not take it again (controlled flooding: Tanenbaum and Wetherall 2011, Computer Networks,
+// section 5.2.3). A packet that the modem refuses because it is transmitting is kept and tried again. The
+// vehicle it goes to may confirm it: a packet of its own that goes back the same way. The wait is uniform
+// between 0 and `longest_wait`, drawn from seed, vehicle and packet, so that two relays that received the
+// same packet do not transmit it at once. Bounded: kMaxStored packets, the latest kMaxKnown names, kMaxTries.
+// Left out: routes, acknowledgement from hop to hop. Values in, values out.
 #pragma once
 
 #include <cstddef>
@@ -66,8 +67,8 @@ class Relay {
 
   // When the next stored packet is to be transmitted; never() without one.
   SimTime next() const;
-  // The earliest stored packet that is due at `now`, to be transmitted to all. on_sent() follows, and on_receipt() when
-  // the modem has answered.
+  // The earliest stored packet that is due at `now`, to be transmitted to all. on_sent() follows, and
+  // on_receipt() when the modem has answered.
   struct Transmission {
     SimTime at;
     std::vector<std::uint8_t> bytes;

@@ -50,8 +50,8 @@ struct TrafficConfig {
 
 void visit(bus::ConfigVisitor& v, TrafficConfig& config);
 
-// The id of `traffic.destination`; kBroadcastId for "all". Throws InvalidArgument for a name the scenario does
-// not have.
+// The id of `traffic.destination`; kBroadcastId for "all". Throws InvalidArgument for a name the scenario
+// does not have.
 std::int32_t destination_id(const TrafficConfig& config, const VehicleTraffic& traffic);
 
 }  // namespace halocline::clients

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sends packets for the vehicles of a scenario on a time grid, through the modem library, and counts what comes
-// of them.
+// Sends packets for the vehicles of a scenario on a time grid, through the modem library, and counts what
+// comes of them.
 //
-// Packets start at start + k period. A payload begins with the packet's number (8 bytes, little-endian) as far
-// as it is long enough, and goes on with a pattern of it, so that a receiver can check what it got. A packet
-// whose instant passed while the program was not running is not sent late. Packets with hops above 1, and those that a
-// vehicle passes on, go through its Relay (relay.h); the status counts them from end to end.
+// Packets start at start + k period. A payload begins with the packet's number (8 bytes, little-endian) as
+// far as it is long enough, and goes on with a pattern of it, so that a receiver can check what it got. A
+// packet whose instant passed while the program was not running is not sent late. Packets with hops above 1,
+// and those that a vehicle passes on, go through its Relay (relay.h); the status counts them from end to end.
 #pragma once
 
 #include <cstdint>

@@ -68,7 +68,8 @@ void become_expendable(double seconds, double address_space) {
   _exit(kRead);
 }
 
-// While in scope: the system keeps how a child ended, also where this process was started with SIGCHLD ignored.
+// While in scope: the system keeps how a child ended, also where this process was started with SIGCHLD
+// ignored.
 class KeptEnds {
  public:
   KeptEnds() {

@@ -19,8 +19,9 @@
 
 namespace halocline {
 
-// Throws InvalidArgument where a child that calls `reading` is ended by a signal or runs out of processor time
-// ("<paths> is damaged: ...") or of memory. What `reading` throws is no damage: the caller meets it again.
+// Throws InvalidArgument where a child that calls `reading` is ended by a signal or runs out of processor
+// time ("<paths> is damaged: ...") or of memory. What `reading` throws is no damage: the caller meets it
+// again.
 void require_survivable(const std::vector<std::string>& paths, const std::function<void()>& reading);
 
 // What `reading` returns; a child calls it first.

@@ -269,7 +269,8 @@ TEST_F(BusTest, MessagesPublishedInAHandlerFollowInOrder) {
   EXPECT_THAT(order, ElementsAre(1, 2, 11, 12));
 }
 
-// Random bytes, and valid messages with random bytes changed: each is either delivered or counted, none ends us.
+// Random bytes, and valid messages with random bytes changed: each is either delivered or counted, none ends
+// us.
 TEST_F(BusTest, NoBytesOnAnyChannelCauseAFailure) {
   const auto subscribe = [&](auto message, const char* channel) {
     using Message = decltype(message);

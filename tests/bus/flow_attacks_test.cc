@@ -37,8 +37,8 @@ TEST(FlowRepair, AHeartbeatByItselfMakesNoFlow) {
   EXPECT_EQ(watch.next_due(), SimTime::never());
 }
 
-// What a publisher of `published` messages sends in `seconds` when these are requested `per_s` times a second, `numbers` at a time: each time the
-// same, or all in turn.
+// What a publisher of `published` messages sends in `seconds` when these are requested `per_s` times a
+// second, `numbers` at a time: each time the same, or all in turn.
 int answers_to(int published, int seconds, int per_s, int numbers, bool in_turn) {
   FlowWatch watch;
   FlowRepair repair("publisher", 1, watch);

@@ -242,7 +242,8 @@ TEST_F(FlowRepairTest, ASendThatItsSenderRepeatsIsReceivedEachTimeAndOneOfRepair
   EXPECT_EQ(received, 3);
 }
 
-// How many messages of a flow that a heartbeat did not list are missing when it is received for the first time, with number 1000.
+// How many messages of a flow that a heartbeat did not list are missing when it is received for the first
+// time, with number 1000.
 std::int64_t missing_of_unlisted_flow(int flows_kept) {
   FlowWatch watch;
   FlowRepair repair("receiver", 1, watch);
@@ -309,7 +310,8 @@ TEST_F(FlowRepairTest, AnswersLeaveInTheStepNotInTheHandler) {
   EXPECT_EQ(publisher_->counters().sent, sent + 1);
 }
 
-// What a second vehicle simulator of the same name publishes is refused until the first is silent, and then repaired.
+// What a second vehicle simulator of the same name publishes is refused until the first is silent, and then
+// repaired.
 TEST_F(FlowRepairTest, OfTwoPublishersOfOneNameTheFirstIsReceived) {
   start(0);
   enable_repair();

@@ -105,8 +105,8 @@ TEST_F(FlowWatchTest, SeventySessionsOfOneChannelAreFollowedWhileAllAreHeard) {
   }
 }
 
-// A program that is started anew every minute has four sessions that are known, and one that is silent for less than half of one is
-// remembered whatever follows it.
+// A program that is started anew every minute has four sessions that are known, and one that is silent for
+// less than half of one is remembered whatever follows it.
 TEST_F(FlowWatchTest, SessionsThatAreSilentForLongAreForgotten) {
   for (int session = 1; session <= 100; ++session)
     watch_.on_message(at_ms(60'000 * session), "A", session, 5);
@@ -244,8 +244,8 @@ TEST_F(FlowWatchTest, WhatIsMissingOrGivenUpIsNotOld) {
   EXPECT_FALSE(watch_.is_old(at_ms(10'001), "B", 1, 0, 0));
 }
 
-// A datagram that the network delivers again much later, or that somebody replays: without the heartbeat it would be a new start, after which all that
-// followed is missing, repaired and handled a second time.
+// A datagram that the network delivers again much later, or that somebody replays: without the heartbeat it
+// would be a new start, after which all that followed is missing, repaired and handled a second time.
 TEST_F(FlowWatchTest, AnOldDuplicateOfAFlowThatAHeartbeatListsIsIgnored) {
   for (std::int64_t sequence = 0; sequence <= 200; ++sequence) receive({sequence});
   watch_.on_last(SimTime(), "A", 1, 200, {.from_its_start = true});
@@ -314,8 +314,8 @@ TEST_F(FlowWatchTest, AnAnnouncedFlowOfWhichNothingWasReceivedIsMissingWhole) {
 }
 
 TEST_F(FlowWatchTest, EverySequenceNumberIsReceivedOrLostWhateverTheOrder) {
-  // A sweep through all orders of a short flow, each with every subset of it delivered: gaps found, filled and
-  // lost always balance.
+  // A sweep through all orders of a short flow, each with every subset of it delivered: gaps found, filled
+  // and lost always balance.
   std::vector<std::int64_t> order{0, 1, 2, 3};
   do {
     for (unsigned delivered = 0; delivered < 16; ++delivered) {

@@ -30,7 +30,8 @@ template <class Message>
 class ChecksOf : public ::testing::Test {};
 TYPED_TEST_SUITE(ChecksOf, testing::TypesOf<AllMessages>::Type);
 
-// Calls change(field, number) for every double and every enumerated number of a message: the first of each list.
+// Calls change(field, number) for every double and every enumerated number of a message: the first of each
+// list.
 template <class Change>
 struct NumberVisitor {
   Change change;

@@ -15,8 +15,8 @@
 namespace halocline::bus::testing {
 namespace {
 
-// Fills fields with small numbers within their limits that differ from field to field, so that an exchange of two
-// shows.
+// Fills fields with small numbers within their limits that differ from field to field, so that an exchange of
+// two shows.
 class Filler {
  public:
   explicit Filler(unsigned seed) : seed_(seed), next_(seed * 7u % 50u) {}

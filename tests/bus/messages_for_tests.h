@@ -22,7 +22,8 @@ struct TypesOf<std::tuple<Messages...>> {
   using Type = ::testing::Types<Messages...>;
 };
 
-// A message that passes every check; the same for the same seed. Seed 0 has empty lists where a type allows them.
+// A message that passes every check; the same for the same seed. Seed 0 has empty lists where a type allows
+// them.
 template <class Message>
 Message valid_message(unsigned seed);
 

@@ -47,8 +47,8 @@ TEST(SessionWatch, AChannelOfAVehicleHasOnePublisherWhateverTheNodesAreCalled) {
   }
 }
 
-// Shard 1 has the receivers 1 and 3, shard 2 those with even ids. A second server under another name, 9, decides for all of them, and its rows of
-// those out of reach (receiver 0) come first.
+// Shard 1 has the receivers 1 and 3, shard 2 those with even ids. A second server under another name, 9,
+// decides for all of them, and its rows of those out of reach (receiver 0) come first.
 TEST(SessionWatch, OutcomesOfAReceiverHaveOnePublisherAndShardsShareTheReceivers) {
   SessionWatch watch;
   const auto outcome = [&](int ms, std::int64_t session, std::int32_t receiver) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The layout of each type consumes exactly the bytes that its encoder writes, and refuses bytes that its decoder cannot read.
+// The layout of each type consumes exactly the bytes that its encoder writes, and refuses bytes that its
+// decoder cannot read.
 #include "bus/wire_layout.h"
 
 #include <chrono>
@@ -70,8 +71,8 @@ TYPED_TEST(WireLayoutOf, AcceptsOnlyBytesThatTheDecoderReads) {
   EXPECT_GT(passed, 0);
 }
 
-// Each offset in turn holds a huge and a negative number: a count or a length with it is refused before memory is
-// allocated.
+// Each offset in turn holds a huge and a negative number: a count or a length with it is refused before
+// memory is allocated.
 TYPED_TEST(WireLayoutOf, AnyHugeCountIsRefusedOrIsNoCount) {
   const auto good = encoded(valid_message<TypeParam>(4));
   for (const std::uint32_t value : {0x7fffffffu, 0x80000000u, 0xffffffffu, 0x00ffffffu}) {

@@ -156,7 +156,8 @@ TEST_F(BestPlaceTest, ItWaitsForTheSeabedAndGoesStraightWithoutIt) {
   EXPECT_EQ(replies_[1].best_place, 0);
 }
 
-// 5 kHz of 100 dB at 1 m: of the listener itself, 20 dB less; of another vehicle 300 m away; of the talker none.
+// 5 kHz of 100 dB at 1 m: of the listener itself, 20 dB less; of another vehicle 300 m away; of the talker
+// none.
 TEST(BestPlaceAmongNoise, ListenersHearTheirOwnNoiseAndThatOfOthersButTheTalker) {
   bus::set_log_level(bus::LogLevel::kSilent);
   const auto sinr_of = [](const std::string& loud, const std::string& talker) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A weak link and a packet over it in a small world, all numbers that the channel server publishes of them, and
-// claims about how each moves: for tests that turn one input alone.
+// A weak link and a packet over it in a small world, all numbers that the channel server publishes of them,
+// and claims about how each moves: for tests that turn one input alone.
 //
-// The link is 800 m long, at a depth of 50 m over 200 m of water, and so weak that the packet is acquired and right
-// with probabilities well inside 0..1: they show what moves them.
+// The link is 800 m long, at a depth of 50 m over 200 m of water, and so weak that the packet is acquired and
+// right with probabilities well inside 0..1: they show what moves them.
 #pragma once
 
 #include <cmath>

@@ -231,8 +231,8 @@ void add_water_of_rays(std::vector<Turn>& all) {
   add(
       "shipping", world, [](World& w) { w.water.noise.shipping = 1; },
       Moves{moves_by("noise", kBusyDb), moves_by("snr", -kBusyDb), falls("sinr")} + dimmer());
-  // Pressure bends the direct path: its delay is less than the line's by (g r / c)^2 / 24, 3e-6 of it; g is the
-  // gradient, 0.016 1/s.
+  // Pressure bends the direct path: its delay is less than the line's by (g r / c)^2 / 24, 3e-6 of it; g is
+  // the gradient, 0.016 1/s.
   const auto cool = uniform_water(10, 35, acoustics::AbsorptionModel::kThorp1967);
   for (const auto& [input, temperature, salinity] :
        {std::tuple("temperature", 20, 35), std::tuple("salinity", 10, 39)}) {

@@ -205,7 +205,8 @@ TEST(LinkQueryOverASeabed, APositionInsideItIsRefused) {
   EXPECT_EQ(answers.at(2).problem, "receiver: position_ned_m lies 8 m inside the seabed");
 }
 
-// 2 hears itself and a jammer 300 m beside it; 3 has no modem. All rest, so what a packet meets is what was asked for before.
+// 2 hears itself and a jammer 300 m beside it; 3 has no modem. All rest, so what a packet meets is what was
+// asked for before.
 TEST(LinkQueryAmongNoise, TablesAnswersAndOutcomesKnowTheSameNoise) {
   bus::set_log_level(bus::LogLevel::kSilent);
   const acoustics::NoiseSpectrum own({1e3}, {60}), jammer({1e3}, {100});
@@ -239,7 +240,8 @@ TEST(LinkQueryAmongNoise, TablesAnswersAndOutcomesKnowTheSameNoise) {
   EXPECT_NEAR(asked.snr_db, asked.received_level_db - asked.noise_level_db, tolerance(1e-9));
   EXPECT_EQ(asked.capacity_bps, table.capacity_bps);
   EXPECT_EQ(asked.sinr_db, table.sinr_db);
-  // A hydrophone at the place of 2 has no noise of its own, and hears 2 at 1 m: 5 kHz of 60 dB in the place of 50 dB.
+  // A hydrophone at the place of 2 has no noise of its own, and hears 2 at 1 m: 5 kHz of 60 dB in the place
+  // of 50 dB.
   const link_t& place = bench.replies[0].message.answers.at(1).link;
   EXPECT_NEAR((power(place.noise_level_db) - power(asked.noise_level_db)) / (5000 * (1e6 - 1e5)), 1,
               tolerance(1e-6));

@@ -84,7 +84,8 @@ TEST(ModemConfig, EveryPhysicalParameterOfAProfileCanBeChanged) {
   EXPECT_EQ(modem, all);
 }
 
-// Rates of the same waveform have the vehicle's band and family, and their own framing; those of another keep their band.
+// Rates of the same waveform have the vehicle's band and family, and their own framing; those of another keep
+// their band.
 TEST(ModemConfig, TheRatesOfAProfileTakeTheVehiclesNumbers) {
   const auto modem =
       read(

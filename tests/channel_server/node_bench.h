@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A channel server on a bus of its own (memq), with vehicles, subscriptions and a bathymetry service that may be away.
+// A channel server on a bus of its own (memq), with vehicles, subscriptions and a bathymetry service that may
+// be away.
 #pragma once
 
 #include <algorithm>

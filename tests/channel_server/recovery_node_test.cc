@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A channel server that is killed while packets are under way, and restarted with its journal, publishes in both
-// incarnations together what an uninterrupted one publishes: nothing twice, nothing missing, the same numbers.
+// A channel server that is killed while packets are under way, and restarted with its journal, publishes in
+// both incarnations together what an uninterrupted one publishes: nothing twice, nothing missing, the same
+// numbers.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -54,8 +55,8 @@ struct Incarnation {
     for (VehicleId id = 1; id <= kVehicles; ++id)
       bench.state(id, t, {2000.0 * id + t, 40.0 * id - 2 * t, 60}, {1, -2, 0});
   }
-  // What four vehicles, two to six kilometres apart, publish in a tenth of a second: two send at times, of which
-  // one pings; and one sleeps at times.
+  // What four vehicles, two to six kilometres apart, publish in a tenth of a second: two send at times, of
+  // which one pings; and one sleeps at times.
   void publish(int tenth) {
     const double t = tenth / 10.0;
     publish_states(t);
@@ -110,8 +111,8 @@ class RecoveringServer : public ::testing::TestWithParam<bool> {
     for (const char* part : {"", ".1"}) std::filesystem::remove(journal_ + part);
   }
 
-  // Killed at each of `kills` (tenths of a second), and restarted `away` tenths later; what was published meanwhile
-  // is repaired.
+  // Killed at each of `kills` (tenths of a second), and restarted `away` tenths later; what was published
+  // meanwhile is repaired.
   Published with_kills(const std::vector<int>& kills, int away) {
     forget();
     Published published;
@@ -151,7 +152,8 @@ TEST_P(RecoveringServer, PublishesInAllIncarnationsWhatAnUninterruptedServerPubl
   EXPECT_GT(late_, 5) << "nothing was due while it was away: not much of a test";
 }
 
-// What was due before a late step happened after its inputs were known, and does so when the step is done again.
+// What was due before a late step happened after its inputs were known, and does so when the step is done
+// again.
 TEST_P(RecoveringServer, ThatStepsLateAgreesWithItsEarlierIncarnation) {
   Published several;
   for (const int begin : {0, 105, 210, 315}) {

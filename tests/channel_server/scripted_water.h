@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A propagation whose paths are written down link by link, and a bench of still vehicles around a medium: what
-// decides a packet's outcome can then be set one by one.
+// A propagation whose paths are written down link by link, and a bench of still vehicles around a medium:
+// what decides a packet's outcome can then be set one by one.
 #pragma once
 
 #include <cmath>

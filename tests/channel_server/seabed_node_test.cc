@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packets and the bathymetry service: every packet goes over the bottom that lies under it, from the first one on, and
-// waits for the answer where that comes after its sound.
+// Packets and the bathymetry service: every packet goes over the bottom that lies under it, from the first
+// one on, and waits for the answer where that comes after its sound.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -98,7 +98,8 @@ TEST_F(SeabedNodeTest, OutcomesDoNotDependOnTheRateOfLinkTables) {
   for (const auto& outcome : often) EXPECT_EQ(outcome.propagation_used, packet_outcome_t::RAYS);
 }
 
-// Sound needs 20 ms to the second vehicle, the answer 60: the decision waits for it, and so does all after it.
+// Sound needs 20 ms to the second vehicle, the answer 60: the decision waits for it, and so does all after
+// it.
 TEST_F(SeabedNodeTest, APacketWaitsForAnAnswerThatComesAfterItsSoundAndKeepsItsInstants) {
   Sea prompt(rules_of(0.0167)), slow(rules_of(0.0167));
   for (Sea* sea : {&prompt, &slow}) {

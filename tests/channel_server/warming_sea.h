@@ -13,7 +13,8 @@ namespace halocline::channel_server::testing {
 
 inline constexpr double kMetresPerRadian = 6'371'000;
 
-// Columns 1 km apart about the origin on the equator, at 0 and 3600 s; warmer with time and towards the north.
+// Columns 1 km apart about the origin on the equator, at 0 and 3600 s; warmer with time and towards the
+// north.
 inline acoustics::Environment warming_sea(double per_hour, double per_km) {
   ocean::OceanGrid grid{{0, 3600}, {0, 30, 60, 200}, {}, {}};
   for (int i = -4; i <= 4; ++i) {

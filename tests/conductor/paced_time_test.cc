@@ -127,8 +127,8 @@ TEST_F(PacedTimeTest, ARateIsAboveZero) {
   EXPECT_THROW(PacedTime(lcm_, -1), InvalidArgument);
 }
 
-// Simulation time is a multiple of the steady clock's, not a sum of steps: after a day it is off by no more than a
-// rounding of doubles, however often it was read.
+// Simulation time is a multiple of the steady clock's, not a sum of steps: after a day it is off by no more
+// than a rounding of doubles, however often it was read.
 TEST_F(PacedTimeTest, DoesNotDriftInADay) {
   for (const double rate : {1.0, 0.1, 3.7, 1000.0}) {
     PacedTime time(lcm_, rate);

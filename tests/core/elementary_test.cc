@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors against long double, whose 64 bits of mantissa make its own error 0.001 units of a double; special values against
-// <cmath>; bits that no processor may change.
+// Errors against long double, whose 64 bits of mantissa make its own error 0.001 units of a double; special
+// values against <cmath>; bits that no processor may change.
 #include "core/elementary.h"
 
 #include <algorithm>
@@ -193,8 +193,8 @@ TEST(ElementaryFunctions, ComplexNumbersGoRoundByTheSameFunctions) {
   }
 }
 
-// The hash was found on an Intel Xeon with AVX-512 with g++ 12; another compiler, level of optimisation or processor has the
-// same.
+// The hash was found on an Intel Xeon with AVX-512 with g++ 12; another compiler, level of optimisation or
+// processor has the same.
 TEST(ElementaryFunctions, BitsAreTheSameEverywhere) {
   std::vector<double> results;
   for (std::uint64_t i = 0; i < 20'000; ++i) {

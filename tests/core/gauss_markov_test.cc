@@ -49,9 +49,9 @@ double mean_square(std::uint64_t seed, int step_ms, int seconds) {
   return sum / samples;
 }
 
-// Samples of one path are correlated: over a time S the mean square's relative standard error is sqrt(2 T / S) (its
-// correlation is exp(-2 t / T)): 4.5 % for S = 2000 s. Bounds at 4 standard errors: a true variance fails
-// once in 16 000.
+// Samples of one path are correlated: over a time S the mean square's relative standard error is sqrt(2 T /
+// S) (its correlation is exp(-2 t / T)): 4.5 % for S = 2000 s. Bounds at 4 standard errors: a true variance
+// fails once in 16 000.
 TEST(GaussMarkov, VarianceIsTheSameAtOneTenAndAHundredMilliseconds) {
   constexpr int kSeconds = 2000;
   const double bound = 4 * std::sqrt(2 * kTime_s / kSeconds);
@@ -62,7 +62,8 @@ TEST(GaussMarkov, VarianceIsTheSameAtOneTenAndAHundredMilliseconds) {
   }
 }
 
-// Over 10 000 independent paths: variance to 4 sqrt(2 / 10 000) = 5.7 %, correlations to 4 / sqrt(10 000) = 0.04.
+// Over 10 000 independent paths: variance to 4 sqrt(2 / 10 000) = 5.7 %, correlations to 4 / sqrt(10 000) =
+// 0.04.
 TEST(GaussMarkov, CorrelationFallsExponentially) {
   constexpr int kPaths = 10'000;
   const int lags_ms[] = {1, 500, 2000, 6000};
@@ -81,8 +82,8 @@ TEST(GaussMarkov, CorrelationFallsExponentially) {
         << lags_ms[k] << " ms";
 }
 
-// The step of a millisecond has variance 2 sigma^2 (1 - exp(-h / T)); 20 000 of them estimate it to 4 sqrt(2 / 20
-// 000) = 4 %.
+// The step of a millisecond has variance 2 sigma^2 (1 - exp(-h / T)); 20 000 of them estimate it to 4 sqrt(2
+// / 20 000) = 4 %.
 TEST(GaussMarkov, IncrementsHaveTheRightSizeAtTheFinestStep) {
   const GaussMarkovProcess p = process(77);
   GaussMarkovProcess::Cursor cursor;

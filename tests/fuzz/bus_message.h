@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of the bus out of a fuzzer's bytes: a channel of the table, a name, and a body behind the fingerprint of the
-// channel's type, so that the fuzzer need not find that.
+// Messages of the bus out of a fuzzer's bytes: a channel of the table, a name, and a body behind the
+// fingerprint of the channel's type, so that the fuzzer need not find that.
 #pragma once
 
 #include <algorithm>
@@ -30,9 +30,11 @@ inline constexpr std::array<std::string_view, 6> kNames{"auv-1", "auv-2",   "cha
 // Of the byte before the body, beside the name: the body has a fingerprint of its own; it is a repair.
 inline constexpr std::uint8_t kOwnFingerprint = 0x80, kRepairs = 0x40;
 
-// Two bytes stand for a type or a channel: a hash of its name, so that kept inputs mean the same when others come.
+// Two bytes stand for a type or a channel: a hash of its name, so that kept inputs mean the same when others
+// come.
 inline std::uint16_t key_of(std::string_view name) { return static_cast<std::uint16_t>(fnv1a(name)); }
-// Of values that are sorted by their keys, the first whose key is not below; the first of all behind the last.
+// Of values that are sorted by their keys, the first whose key is not below; the first of all behind the
+// last.
 template <class Keyed>
 const Keyed& with_key(const std::vector<Keyed>& sorted, std::uint16_t key) {
   const auto found =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a fuzz target once over each file that the command line names, and over those of each folder: what libFuzzer does
-// with -runs=0, without it.
+// Runs a fuzz target once over each file that the command line names, and over those of each folder: what
+// libFuzzer does with -runs=0, without it.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a fuzz target is, and the bytes of a fuzzer taken as values.
 //
-// The same bytes give the same values: a finding is a file. Behind the end every number is 0 and every block empty.
+// The same bytes give the same values: a finding is a file. Behind the end every number is 0 and every block
+// empty.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,8 @@
 #include <string_view>
 #include <type_traits>
 
-// Each target defines it, for libFuzzer and for corpus_main.cc: takes any bytes, returns 0, and ends the process for a finding.
+// Each target defines it, for libFuzzer and for corpus_main.cc: takes any bytes, returns 0, and ends the
+// process for a finding.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace halocline::fuzz {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A protocol of the modem gateway (HALOCLINE_FUZZ_PROTOCOL): what two hosts write, in pieces, between what happens to the modem and as time goes on.
+// A protocol of the modem gateway (HALOCLINE_FUZZ_PROTOCOL): what two hosts write, in pieces, between what
+// happens to the modem and as time goes on.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

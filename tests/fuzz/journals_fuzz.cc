@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The journals: of the conductor, of a node's messages, of a node's state. A kind, then the bytes behind the file's header, as they are; or
-// records with check sums that hold, which the fuzzer need not find.
+// The journals: of the conductor, of a node's messages, of a node's state. A kind, then the bytes behind the
+// file's header, as they are; or records with check sums that hold, which the fuzzer need not find.
 #include <array>
 #include <filesystem>
 #include <map>

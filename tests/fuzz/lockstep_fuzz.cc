@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A lockstep run of a conductor and two participants that say anything: joins, answers, grants and notices as bytes, and results that fit
-// the turn that was granted but for what the fuzzer puts in. What breaks the promises of lockstep may end the run (std::runtime_error).
+// A lockstep run of a conductor and two participants that say anything: joins, answers, grants and notices as
+// bytes, and results that fit the turn that was granted but for what the fuzzer puts in. What breaks the
+// promises of lockstep may end the run (std::runtime_error).
 #include <map>
 #include <optional>
 #include <stdexcept>

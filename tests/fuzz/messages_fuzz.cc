@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The decoder and the checks of each type: the key of the type, then its body. What is accepted is encoded as the same bytes.
+// The decoder and the checks of each type: the key of the type, then its body. What is accepted is encoded as
+// the same bytes.
 #include <algorithm>
 #include <cstdint>
 #include <span>

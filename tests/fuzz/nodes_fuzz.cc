@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All nodes of a small scenario, and messages of others on their channels, as simulation time goes on: no node ends by what it receives.
+// All nodes of a small scenario, and messages of others on their channels, as simulation time goes on: no
+// node ends by what it receives.
 #include <string>
 
 #include <lcm/lcm-cpp.hpp>

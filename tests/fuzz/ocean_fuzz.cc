@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An ocean field (netCDF) through our reader, and the water and current in it. The bytes say how the file departs from a good one: any bytes
-// as a file would try netCDF, which asks for the memory that a header claims.
+// An ocean field (netCDF) through our reader, and the water and current in it. The bytes say how the file
+// departs from a good one: any bytes as a file would try netCDF, which asks for the memory that a header
+// claims.
 #include <algorithm>
 #include <array>
 #include <cstdint>

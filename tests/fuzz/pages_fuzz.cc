@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What pages of the monitor ask, and clients of Foxglove's protocol: requests, one a line, as the monitor takes them (monitor.cc), with a
-// tenth of a second between them. What is no JSON or cannot be is an exception, which it answers.
+// What pages of the monitor ask, and clients of Foxglove's protocol: requests, one a line, as the monitor
+// takes them (monitor.cc), with a tenth of a second between them. What is no JSON or cannot be is an
+// exception, which it answers.
 #include <exception>
 #include <sstream>
 #include <string>

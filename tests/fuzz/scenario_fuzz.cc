@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scenario as TOML, but for its terrain. Lines that begin with "#set " are overrides of the command line. What is accepted
-// can be written as a scenario that is accepted.
+// A scenario as TOML, but for its terrain. Lines that begin with "#set " are overrides of the command line.
+// What is accepted can be written as a scenario that is accepted.
 #include <sstream>
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Short texts of command lines and scenarios, by the first byte: rotation of logs, addresses and options of doors, places, hosts that are
-// accepted, channels.
+// Short texts of command lines and scenarios, by the first byte: rotation of logs, addresses and options of
+// doors, places, hosts that are accepted, channels.
 #include <string>
 #include <vector>
 

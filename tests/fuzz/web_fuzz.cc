@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The monitor's web server on a socket of this host: HTTP as it is, or a WebSocket's frames behind a sound request for one, in pieces.
+// The monitor's web server on a socket of this host: HTTP as it is, or a WebSocket's frames behind a sound
+// request for one, in pieces.
 #include <chrono>
 #include <cstdint>
 #include <memory>

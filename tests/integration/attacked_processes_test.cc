@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Programs as separate processes on a bus that somebody attacks: each attack is a datagram, a count and a time, as docs/reliability.md lists
-// them. Runs inside a network namespace of its own (scripts/isolated).
+// Programs as separate processes on a bus that somebody attacks: each attack is a datagram, a count and a
+// time, as docs/reliability.md lists them. Runs inside a network namespace of its own (scripts/isolated).
 #include "tests/integration/attacked/attacked_processes.h"
 
 #include <algorithm>
@@ -41,8 +41,8 @@ TEST_F(AttackedProcesses, AClockOfTheRightSessionWithAnotherRateChangesNothing) 
   expect_all_running();
 }
 
-// One copy of the last STATE of a vehicle with the number 2^62; then heartbeats of a stranger, of its own name and session, that list the flow of
-// another far ahead.
+// One copy of the last STATE of a vehicle with the number 2^62; then heartbeats of a stranger, of its own
+// name and session, that list the flow of another far ahead.
 TEST_F(AttackedProcesses, NumbersFarAheadSilenceNobody) {
   ASSERT_TRUE(outcomes_come(4));
   vehicle_state_t state = last_state_;
@@ -84,7 +84,8 @@ TEST_F(AttackedProcesses, AStrayClockChangesNothing) {
   expect_all_obey_sigterm();
 }
 
-// Two that agree are believed once the conductor is silent; what follows is long, and still SIGTERM is obeyed.
+// Two that agree are believed once the conductor is silent; what follows is long, and still SIGTERM is
+// obeyed.
 TEST_F(AttackedProcesses, SigtermIsObeyedTenYearsAhead) {
   ASSERT_TRUE(outcomes_come(1));
   at("halocline-conductor").signal(SIGKILL);

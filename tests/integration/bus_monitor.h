@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A subscriber on udpm for tests of separate processes: counts messages by channel and keeps those that tests check.
+// A subscriber on udpm for tests of separate processes: counts messages by channel and keeps those that tests
+// check.
 #pragma once
 
 #include <chrono>

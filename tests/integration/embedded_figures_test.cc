@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures 4, 6 and 7 of Sehgal, Cernea and Birk 2010, made by the running channel server, against the reference
-// tables (tests/data/README.md). Tolerances are those of the reference formulas: relative 1e-12, dB 1e-10,
-// capacity 1e-9; a vehicle's depth is exact in all three, and states travel as doubles.
+// Figures 4, 6 and 7 of Sehgal, Cernea and Birk 2010, made by the running channel server, against the
+// reference tables (tests/data/README.md). Tolerances are those of the reference formulas: relative 1e-12, dB
+// 1e-10, capacity 1e-9; a vehicle's depth is exact in all three, and states travel as doubles.
 #include <cmath>
 #include <map>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What missions come to in the whole simulation, measured by the true states: surveys at a height, formations by
-// sound, dead reckoning.
+// What missions come to in the whole simulation, measured by the true states: surveys at a height, formations
+// by sound, dead reckoning.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -42,7 +42,8 @@ class FleetOfTenThousand : public testing::EmbeddedTest {
 // Processor time of this process, s.
 double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-// From the file to the end of the first second it costs what ten times as many vehicles may, and half as much again.
+// From the file to the end of the first second it costs what ten times as many vehicles may, and half as much
+// again.
 TEST_F(FleetOfTenThousand, StartsAndEveryVehicleIsThere) {
   const double begin_s = processor_s();
   run(config(32), "tenth");
@@ -52,7 +53,8 @@ TEST_F(FleetOfTenThousand, StartsAndEveryVehicleIsThere) {
   std::set<std::int32_t> moved;
   for (const auto& [channel, state] : messages_in<vehicle_state_t>(log)) moved.insert(state.vehicle_id);
   EXPECT_EQ(moved.size(), 10'000u);
-  // Each has rows of its eight neighbours, fewer at the edge, and knows of all others that they are out of reach or further away.
+  // Each has rows of its eight neighbours, fewer at the edge, and knows of all others that they are out of
+  // reach or further away.
   std::map<std::int32_t, std::set<std::int32_t>> peers;
   std::map<std::int32_t, int> others;
   for (const auto& [channel, table] : messages_in<link_table_t>(log)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The harbour shows why packets are lost: four outcomes at least, each with the numbers that decided it, and no outcome
-// missing or double.
+// The harbour shows why packets are lost: four outcomes at least, each with the numbers that decided it, and
+// no outcome missing or double.
 #include <cstdint>
 #include <map>
 #include <set>

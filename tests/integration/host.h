@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hosts of a network, for tests of programs on several: network namespaces that cables join. Within scripts/isolated, as root there.
+// Hosts of a network, for tests of programs on several: network namespaces that cables join. Within
+// scripts/isolated, as root there.
 #pragma once
 
 #include <cstdlib>
@@ -50,8 +51,8 @@ class Host {
   Process keeper_;
 };
 
-// Joins this host and its hosts 0, 1, ... by a bridge that floods multicast; of each cable and of the bridge some percent of all frames are
-// lost on their way out.
+// Joins this host and its hosts 0, 1, ... by a bridge that floods multicast; of each cable and of the bridge
+// some percent of all frames are lost on their way out.
 inline std::vector<std::unique_ptr<Host>> hosts_on_a_bridge(int count, int loss_percent) {
   Host::run("ip link add bridge0 type bridge mcast_snooping 0");
   Host::run("ip addr add 10.99.0.1/24 dev bridge0");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of the default scenario as separate processes (scripts/run_distributed), each of which is killed once and
-// started again by the script: every vehicle goes on from where it was. Checked on the recorded log.
+// A run of the default scenario as separate processes (scripts/run_distributed), each of which is killed once
+// and started again by the script: every vehicle goes on from where it was. Checked on the recorded log.
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -97,7 +97,8 @@ class KilledProcesses : public ::testing::Test {
     output_ = run.output();
   }
 
-  // Whether all of `channels`, and the states of all vehicles, were recorded after this instant of the wall clock.
+  // Whether all of `channels`, and the states of all vehicles, were recorded after this instant of the wall
+  // clock.
   bool serves(const std::vector<std::string>& channels, std::int64_t after_us) const {
     std::set<std::string> awaited{channels.begin(), channels.end()};
     awaited.insert({"STATE.auv-1", "STATE.auv-2", "STATE.auv-3"});

@@ -24,8 +24,8 @@ inline std::ostream& operator<<(std::ostream& out, const NetworkFaults& faults) 
 
 class LockstepFleet {
  public:
-  // Runs the scenario of tests/data with these settings ("section.key=value"), with so many channel servers and vehicle
-  // simulators.
+  // Runs the scenario of tests/data with these settings ("section.key=value"), with so many channel servers
+  // and vehicle simulators.
   LockstepFleet(std::string scenario, std::vector<std::string> settings, NetworkFaults faults = {},
                 int shards = 1, int blocks = 1);
   ~LockstepFleet();
@@ -42,7 +42,8 @@ class LockstepFleet {
   // Restarts whatever has ended with an error, until the conductor has ended with 0. False when it hangs.
   bool run_to_the_end();
 
-  // False after a generous time: until the log has so many bytes, and until the conductor's output holds a text.
+  // False after a generous time: until the log has so many bytes, and until the conductor's output holds a
+  // text.
   bool wait_for_log(std::size_t bytes) const;
   bool wait_for_output(const std::string& text);
   // Leaves the log as a conductor killed while writing it would.

@@ -26,8 +26,8 @@ using testing::NetworkFaults;
 using ::testing::Not;
 using testing::Process;
 
-// Bytes of the log by which a run is under way: all have joined, and the first instant, of 55 kB with terrain and scenario, is
-// over.
+// Bytes of the log by which a run is under way: all have joined, and the first instant, of 55 kB with terrain
+// and scenario, is over.
 constexpr std::size_t kUnderWay = 80'000;
 
 LockstepFleet fleet_of(const std::string& duration_s, NetworkFaults faults = {}) {
@@ -166,7 +166,8 @@ TEST(LockstepProcesses, AKilledConductorReturns) {
   expect_the_log_of_one_process(fleet);
 }
 
-// A fixed bug: killed between its last step and the end of its log, it refused the journal of a run that is over.
+// A fixed bug: killed between its last step and the end of its log, it refused the journal of a run that is
+// over.
 TEST(LockstepProcesses, AConductorKilledBeforeTheEndOfItsLogWritesIt) {
   LockstepFleet fleet = fleet_of("6");
   fleet.start_all();

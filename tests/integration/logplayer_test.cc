@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A recorded log, played by LCM's own lcm-logplayer into a lone channel server, gives the link tables and outcomes
-// of the original run.
+// A recorded log, played by LCM's own lcm-logplayer into a lone channel server, gives the link tables and
+// outcomes of the original run.
 // Runs inside a network namespace of its own (scripts/isolated).
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All programs as separate processes on a bus that loses datagrams: what OUTCOME reports as received is received,
-// on one host and on several. Runs inside a network namespace of its own (scripts/isolated).
+// All programs as separate processes on a bus that loses datagrams: what OUTCOME reports as received is
+// received, on one host and on several. Runs inside a network namespace of its own (scripts/isolated).
 //
 // HALOCLINE_LOSSY_SECONDS sets how long they send (default 20 s).
 #include <algorithm>
@@ -181,8 +181,8 @@ TEST_F(LossyBus, EveryDeliveredPacketReachesItsClient) {
   Host::run(HALOCLINE_SOURCE_DIR "/scripts/lose 0");
 }
 
-// Vehicles on one host, the seabed on another with one channel server, a second server on a third; clients and
-// auditor on a fourth.
+// Vehicles on one host, the seabed on another with one channel server, a second server on a third; clients
+// and auditor on a fourth.
 TEST_F(LossyBus, ThreeHostsWithTwoShardsPublishEachOutcomeOnce) {
   hosts_ = testing::hosts_on_a_bridge(3, 5);
   start_on_hosts();
@@ -190,7 +190,8 @@ TEST_F(LossyBus, ThreeHostsWithTwoShardsPublishEachOutcomeOnce) {
   expect_two_shards_with_each_outcome_once();
 }
 
-// The same where each frame takes 3 to 7 ms from host to host, so that frames overtake each other, and 5 % are lost.
+// The same where each frame takes 3 to 7 ms from host to host, so that frames overtake each other, and 5 %
+// are lost.
 TEST_F(LossyBus, ThreeHostsOnASlowAndUnevenNetworkPublishEachOutcomeOnce) {
   Host::run("ip link add own type veth peer name own-end");
   Host::run("ip addr add 10.99.0.1/24 dev own");

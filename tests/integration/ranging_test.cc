@@ -35,9 +35,9 @@ double normalised_square(const position_estimate_t& e) {
   return error.dot(covariance.inverse() * error);
 }
 
-// Travel times are exact here; what is left is the bending of the way (0.1 m in 0.9 km of this water, by Fermat's
-// principle) and the slip of the vehicle in turns, which dead reckoning does not model and which the next
-// ranges take back: a turn of 60 degrees is reckoned with 2 m.
+// Travel times are exact here; what is left is the bending of the way (0.1 m in 0.9 km of this water, by
+// Fermat's principle) and the slip of the vehicle in turns, which dead reckoning does not model and which the
+// next ranges take back: a turn of 60 degrees is reckoned with 2 m.
 TEST_F(RangingTest, FindsAndKeepsItsPlaceByPings) {
   const auto all = estimates({"scenario.duration_s=420"});
   ASSERT_EQ(all.size(), 421u);

@@ -73,7 +73,8 @@ TEST_F(ReplayTest, TheSameLogAndScenarioRepeatEveryNumberOfEveryOutcome) {
   }
 }
 
-// Bubbles take from every bounce at the surface. One link may gain: where calm paths cancel, a rough surface fills the null.
+// Bubbles take from every bounce at the surface. One link may gain: where calm paths cancel, a rough surface
+// fills the null.
 TEST_F(ReplayTest, WindMovesTheNoiseAndTheSurface) {
   const Comparison comparison = replayed_with({"environment.wind_mps=14"});
   int weaker = 0;

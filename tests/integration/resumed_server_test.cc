@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Channel servers that are killed (SIGKILL) while packets are under way for seconds, on udpm in real time, and
-// return with their journal: every packet that a receipt accepts has one outcome at each other vehicle, and every
-// reception that the ledger names arrives, once. Runs inside a network namespace of its own (scripts/isolated).
+// Channel servers that are killed (SIGKILL) while packets are under way for seconds, on udpm in real time,
+// and return with their journal: every packet that a receipt accepts has one outcome at each other vehicle,
+// and every reception that the ledger names arrives, once. Runs inside a network namespace of its own
+// (scripts/isolated).
 #include <csignal>
 #include <cstdint>
 #include <cstdio>

@@ -14,8 +14,8 @@ namespace {
 
 class SeekLinkOutcomesTest : public testing::EmbeddedTest {};
 
-// 40 packets each, 20 minutes of them from the fifth minute on, when the seeker has come down. Large-scale fading of two minutes
-// leaves some 10 independent states.
+// 40 packets each, 20 minutes of them from the fifth minute on, when the seeker has come down. Large-scale
+// fading of two minutes leaves some 10 independent states.
 TEST_F(SeekLinkOutcomesTest, WhoSeeksTheLinkIsHeardAndWhoStaysIsNot) {
   constexpr int kKeeper = 2, kSeeker = 3, kLander = 1;
   const auto log = run(load("seek_link", {}), "seek_link");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a thermocline does to links of 6.5 km: packets arrive within a layer and are mostly lost across it, while 600 m across
-// cost nothing.
+// What a thermocline does to links of 6.5 km: packets arrive within a layer and are mostly lost across it,
+// while 600 m across cost nothing.
 #include <algorithm>
 #include <set>
 #include <string>

@@ -40,7 +40,8 @@ class SoakTest : public testing::EmbeddedTest {
   struct Use {
     double first_half = 0, second_half = 0;
   };
-  // After `settled_s`, for which caches fill, two halves of equal length. The log rotates and is deleted behind it.
+  // After `settled_s`, for which caches fill, two halves of equal length. The log rotates and is deleted
+  // behind it.
   Use bytes_in_use(const ScenarioConfig& config, double settled_s, double half_s) {
     lcm::LCM lcm("memq://");
     Composition all(lcm, config, Composition::kRun);
@@ -77,8 +78,8 @@ TEST_F(SoakTest, HoursOfAHarbourNeedNoMoreMemoryInTheirSecondHalf) {
       << use.first_half << " to " << use.second_half;
 }
 
-// What was found along rays is forgotten (LinkSearches::kKept); the rest of an hour fills what is bounded. The heap's own bytes grow in
-// steps of its caches: 2 % of what is in use.
+// What was found along rays is forgotten (LinkSearches::kKept); the rest of an hour fills what is bounded.
+// The heap's own bytes grow in steps of its caches: 2 % of what is in use.
 TEST_F(SoakTest, HoursAlongRaysNeedNoMoreMemoryThanTheFirst) {
   const Use use = bytes_in_use(load("harbour", {}), 3600, 3600);
   EXPECT_LT(use.second_half, 1.02 * use.first_half) << use.first_half << " to " << use.second_half;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds a running bus to what it promises about packets (docs/packets.md): every SEND is answered by one RECEIPT, every accepted packet has exactly
-// one outcome at each other vehicle, and a vehicle gets a RECEIVE exactly where the outcome says so. A node as any other: its messages are
-// repaired. At its end it prints what it counted, a line; scripts/soak reads it.
+// Holds a running bus to what it promises about packets (docs/packets.md): every SEND is answered by one
+// RECEIPT, every accepted packet has exactly one outcome at each other vehicle, and a vehicle gets a RECEIVE
+// exactly where the outcome says so. A node as any other: its messages are repaired. At its end it prints
+// what it counted, a line; scripts/soak reads it.
 //
 // A packet is judged when it and kSettled have passed: repair gives up after 10 s.
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vehicles of two tiles of the sea, with the programs of each tile on a host of its own, on a network that loses datagrams: with a
-// multicast group a tile a host receives less, and the outcomes of packets and the link tables are the same. Runs inside a network
-// namespace of its own (scripts/isolated).
+// Vehicles of two tiles of the sea, with the programs of each tile on a host of its own, on a network that
+// loses datagrams: with a multicast group a tile a host receives less, and the outcomes of packets and the
+// link tables are the same. Runs inside a network namespace of its own (scripts/isolated).
 #include "bus/runtime/tile_groups.h"
 
 #include <cstdint>
@@ -62,7 +62,8 @@ class Listener : public testing::BusListener {
   bus::GroupMemberships groups_;
 };
 
-// Bytes of multicast that a host has received of groups that it has joined (proc(5), IpExt of /proc/net/netstat).
+// Bytes of multicast that a host has received of groups that it has joined (proc(5), IpExt of
+// /proc/net/netstat).
 double multicast_bytes(const Host& host) {
   std::string command;
   for (const std::string& word : host.command({"/bin/cat", "/proc/net/netstat"})) command += word + " ";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clocks, batteries and noise of vehicles in a whole run: the scenarios ranging, with some of each, ship_crossing and, with all else
-// beside them, front_survey.
+// Clocks, batteries and noise of vehicles in a whole run: the scenarios ranging, with some of each,
+// ship_crossing and, with all else beside them, front_survey.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -113,7 +113,8 @@ TEST_F(VehicleEquipmentTest, OneWayRangesToThreeBeaconsTellThePlaceAndTheClock) 
   EXPECT_LT(last.clock_drift_deviation, 3e-7);
 }
 
-// Of the packets on the 1400 m between two beacons: while the ship is within 900 m of the receiver, and while she is not.
+// Of the packets on the 1400 m between two beacons: while the ship is within 900 m of the receiver, and while
+// she is not.
 TEST_F(VehicleEquipmentTest, AShipThatCrossesCostsPacketsWhileSheIsNear) {
   constexpr std::int32_t kShip = 5;
   const std::string log = run(load("ship_crossing", {"channel_server.predicted_payload_bytes=1"}), "ship");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command lines of docs/vehicles.md, run as they stand there: each makes the reference trajectory of its name.
+// The command lines of docs/vehicles.md, run as they stand there: each makes the reference trajectory of its
+// name.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Functions whose results may depend on the processor: those of <cmath> that IEEE 754 does not round correctly, and what calls
-// them (Eigen's rotations by an angle, Boost.Math).
+// Functions whose results may depend on the processor: those of <cmath> that IEEE 754 does not round
+// correctly, and what calls them (Eigen's rotations by an angle, Boost.Math).
 #pragma once
 
 #include <string>

@@ -14,8 +14,8 @@
 namespace halocline::layers {
 namespace {
 
-// The class of a member function that the line starts to define, "Outer::Inner" of "int Outer::Inner::size() const {";
-// empty when it defines none.
+// The class of a member function that the line starts to define, "Outer::Inner" of "int Outer::Inner::size()
+// const {"; empty when it defines none.
 std::string class_defined_by(std::string_view line) {
   if (line.empty() || std::isalpha(static_cast<unsigned char>(line.front())) == 0) return "";
   std::string_view head = line.substr(0, line.find('('));

@@ -13,14 +13,16 @@ inline constexpr int kMaxSourceLines = 450;  // of a .cc
 inline constexpr int kMaxHeaderLines = 250;
 inline constexpr int kMaxFilesOfAFolder = 35;
 
-// Files longer than their limit, without the line of the licence: "path: 472 lines, at most 450". Tests are held to the same limits.
+// Files longer than their limit, without the line of the licence: "path: 472 lines, at most 450". Tests are
+// held to the same limits.
 std::vector<std::string> long_files(const std::vector<SourceFile>& sources);
 
 // Folders with too many files: "path: 37 source files, at most 35".
 std::vector<std::string> full_folders(const std::vector<SourceFile>& sources);
 
-// Classes whose members are defined in several source files: "Class: a.cc, b.cc". Approximate: a definition is a line
-// that starts with "... Class::member("; classes that a source file declares itself are local to it.
+// Classes whose members are defined in several source files: "Class: a.cc, b.cc". Approximate: a definition
+// is a line that starts with "... Class::member("; classes that a source file declares itself are local to
+// it.
 std::vector<std::string> split_classes(const std::vector<SourceFile>& sources);
 
 }  // namespace halocline::layers

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each range annotated in lcmtypes/*.lcm that a model states as well is the same in both: the model accepts the limit
-// of the message and refuses what lies beyond. Where a constant of the model is the limit, the two are equal.
+// Each range annotated in lcmtypes/*.lcm that a model states as well is the same in both: the model accepts
+// the limit of the message and refuses what lies beyond. Where a constant of the model is the limit, the two
+// are equal.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

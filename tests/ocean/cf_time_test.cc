@@ -31,7 +31,8 @@ TEST(CfTime, UnitsCountFromTheirDate) {
   EXPECT_EQ(seconds.date_of(seconds.seconds_at(1'700'000'000)), "2023-11-14T22:13:20Z");
 }
 
-// Leap years as each calendar has them (CF 1.10, section 4.4.1), and the ten days that the standard one leaves out.
+// Leap years as each calendar has them (CF 1.10, section 4.4.1), and the ten days that the standard one
+// leaves out.
 TEST(CfTime, EachCalendarHasItsOwnDays) {
   EXPECT_EQ(days_between("standard", "1900-02-28", "1900-03-01"), 1);
   EXPECT_EQ(days_between("julian", "1900-02-28", "1900-03-01"), 2);

@@ -82,8 +82,8 @@ TEST(OceanField, HoldsItsEdges) {
   EXPECT_EQ(field.water_at({9e5, 0, 0}, 0).temperature_degc, field.water_at({5e5, 0, 0}, 0).temperature_degc);
 }
 
-// Against the transverse Mercator projection (Karney 2011, as GeographicLib has it): origin 40 N 50 W, the place 0.25 degrees
-// north and 0.3 degrees east of it lies 27 798 m north and 25 508 m east.
+// Against the transverse Mercator projection (Karney 2011, as GeographicLib has it): origin 40 N 50 W, the
+// place 0.25 degrees north and 0.3 degrees east of it lies 27 798 m north and 25 508 m east.
 TEST(OceanField, PlacesAreThoseOfTheWorldsFrame) {
   OceanGrid grid = small_grid();
   grid.latitudes_rad = {to_radians(39.5), to_radians(40.25), to_radians(41)};
@@ -108,7 +108,8 @@ TEST(OceanField, PlacesAreThoseOfTheWorldsFrame) {
   EXPECT_NEAR(east_m, 25'512.6, tolerance(12));
 }
 
-// Towards the true east means a little to the south of the grid's east, east of the origin's meridian in the north.
+// Towards the true east means a little to the south of the grid's east, east of the origin's meridian in the
+// north.
 TEST(OceanField, CurrentsTurnWithTheMeridians) {
   const OceanGrid grid = small_grid();
   OceanValues values = constant(grid);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scenario with [network] as separate processes (scripts/run --distributed), which start halocline-network with the rest.
+// A scenario with [network] as separate processes (scripts/run --distributed), which start halocline-network
+// with the rest.
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -24,8 +25,8 @@ std::string bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Requests, warnings and waits of DACAP answer what modems notice within the instant, so over udpm they leave the log of one process
-// as well, byte for byte, and with it the same outcomes.
+// Requests, warnings and waits of DACAP answer what modems notice within the instant, so over udpm they leave
+// the log of one process as well, byte for byte, and with it the same outcomes.
 TEST(DistributedNetwork, LeavesTheLogOfOneProcessInLockstep) {
   const testing::TemporaryFolder folder;
   const std::string here = std::filesystem::current_path().string();

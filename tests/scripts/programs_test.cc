@@ -17,7 +17,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// GDAL brings 70 shared libraries and netCDF 40, which takes 80 ms at each start; modules load them where they are used.
+// GDAL brings 70 shared libraries and netCDF 40, which takes 80 ms at each start; modules load them where
+// they are used.
 TEST(Programs, LinkNeitherGdalNorNetcdf) {
   for (const char* program :
        {"halocline", "halocline-autopilot", "halocline-bathymetry", "halocline-channel-server",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Missions over several hosts as jobs of SLURM (scripts/run --slurm), with network namespaces as hosts (scripts/slurm_node). Each
-// case runs inside a network namespace of its own (scripts/isolated).
+// Missions over several hosts as jobs of SLURM (scripts/run --slurm), with network namespaces as hosts
+// (scripts/slurm_node). Each case runs inside a network namespace of its own (scripts/isolated).
 #include <chrono>
 #include <csignal>
 #include <cstdio>

@@ -58,7 +58,8 @@ TEST(Isolated, WithoutACommandItPrintsItsUse) {
   EXPECT_THAT(process.output(), HasSubstr("./scripts/isolated COMMAND"));
 }
 
-// Programs that build, install or start something: found first in PATH, each leaves its name in `called` and fails.
+// Programs that build, install or start something: found first in PATH, each leaves its name in `called` and
+// fails.
 class Stubs {
  public:
   Stubs() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether what is saved by parts counts its changes: bytes that differ from those of the last look have another number.
+// Whether what is saved by parts counts its changes: bytes that differ from those of the last look have
+// another number.
 #pragma once
 
 #include <cstdint>

@@ -91,7 +91,8 @@ void lose_names(const std::string& path) {
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   const std::size_t heap = bytes.find("HEAP");
   check(heap != std::string::npos, path);
-  // Signature and version, size of the names, first free place, address (HDF5 File Format Specification, III.D).
+  // Signature and version, size of the names, first free place, address (HDF5 File Format Specification,
+  // III.D).
   constexpr std::size_t kAddress = 24;
   const std::string none(8, '\xff');
   file.clear();

@@ -30,14 +30,15 @@ struct ChannelFile {
 // A file of zeros of these sizes.
 ChannelFile channel_file(std::size_t instants, std::size_t receivers, std::size_t delays);
 
-// Where files are written: a folder of this process alone, as tests run at the same time. It ends with a slash.
+// Where files are written: a folder of this process alone, as tests run at the same time. It ends with a
+// slash.
 std::string channel_file_folder();
 
 // Writes the file into the folder of temporary files; returns its path.
 std::string write_channel_file(const ChannelFile& file, const std::string& name);
 
-// Changes a file so that its first group states no address of the names in it: libhdf5 1.10 follows it all the
-// same (H5HL_protect), and the process dies.
+// Changes a file so that its first group states no address of the names in it: libhdf5 1.10 follows it all
+// the same (H5HL_protect), and the process dies.
 void lose_names(const std::string& path);
 
 }  // namespace halocline::testing

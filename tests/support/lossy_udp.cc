@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A network that loses, doubles and overtakes datagrams, for programs that know nothing of it: loaded before the C
-// library (LD_PRELOAD), it stands in for sendto and sendmsg on datagram sockets. For machines whose kernel has no
-// netem; what LCM sends goes through sendmsg and sendto alone.
+// A network that loses, doubles and overtakes datagrams, for programs that know nothing of it: loaded before
+// the C library (LD_PRELOAD), it stands in for sendto and sendmsg on datagram sockets. For machines whose
+// kernel has no netem; what LCM sends goes through sendmsg and sendto alone.
 //
-// HALOCLINE_UDP_LOSS, _DOUBLING, _REORDERING: shares from 0 to 1. An overtaken datagram is sent after the next two.
+// HALOCLINE_UDP_LOSS, _DOUBLING, _REORDERING: shares from 0 to 1. An overtaken datagram is sent after the
+// next two.
 #include <cstdint>
 #include <cstdlib>
 #include <mutex>

@@ -80,7 +80,8 @@ int Process::wait(std::chrono::milliseconds limit) {
 
 double Process::processor_s() {
   if (!running()) return processor_s_;
-  // proc(5): the fields behind the name in parentheses begin with the third; utime and stime are the 14th and 15th.
+  // proc(5): the fields behind the name in parentheses begin with the third; utime and stime are the 14th and
+  // 15th.
   std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
   std::string line;
   std::getline(file, line);

@@ -10,10 +10,12 @@
 
 namespace halocline::testing {
 
-// Limit after which a test takes what it waits for as hung. It bounds no speed: a busy machine may need most of it.
+// Limit after which a test takes what it waits for as hung. It bounds no speed: a busy machine may need most
+// of it.
 constexpr std::chrono::seconds kHangLimit{300};
 
-// A program running beside the test, its standard output and error kept. Ended by SIGKILL when it goes out of scope.
+// A program running beside the test, its standard output and error kept. Ended by SIGKILL when it goes out of
+// scope.
 class Process {
  public:
   // `command[0]` is a path; the others are its arguments.

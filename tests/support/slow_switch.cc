@@ -70,7 +70,8 @@ int open_device(const std::string& name) {
   all.mr_type = PACKET_MR_PROMISC;
   if (setsockopt(device, SOL_PACKET, PACKET_ADD_MEMBERSHIP, &all, sizeof all) != 0)
     fail("promiscuous " + name);
-  // Virtual cables leave check sums and cutting up to a card that is not there: what is to be done goes along.
+  // Virtual cables leave check sums and cutting up to a card that is not there: what is to be done goes
+  // along.
   const int with_head = 1;
   if (setsockopt(device, SOL_PACKET, PACKET_VNET_HDR, &with_head, sizeof with_head) != 0)
     fail("head " + name);

@@ -68,8 +68,8 @@ Vec3 place_after(Fleet& fleet, int ms) {
   return fleet.state_at(0, at_ms(ms)).position_ned_m;
 }
 
-// Where the current is the same everywhere and changes evenly with time, a vehicle that starts with it is carried by its
-// integral, exactly.
+// Where the current is the same everywhere and changes evenly with time, a vehicle that starts with it is
+// carried by its integral, exactly.
 TEST(FleetInAnOcean, AFieldThatChangesWithTimeCarriesAVehicleAlong) {
   const auto field = field_of({0, 200}, [](double time, double, double, double) {
     return NorthEast{0.25 + time / 400, 0.125 - time / 800};
@@ -95,8 +95,9 @@ TEST(FleetInAnOcean, AFieldOfDepthIsTheTableOfDepths) {
   EXPECT_LT((place_after(in_field, 60'000) - place_after(by_depth, 60'000)).norm(), tolerance(1e-9));
 }
 
-// In an eddy that turns like a solid, a body that starts with the water stays with it: a quarter of a turn in pi / 2 omega, at
-// its distance. Its hull, which does not turn, has another added mass along than across; drag makes up for the difference.
+// In an eddy that turns like a solid, a body that starts with the water stays with it: a quarter of a turn in
+// pi / 2 omega, at its distance. Its hull, which does not turn, has another added mass along than across;
+// drag makes up for the difference.
 TEST(FleetInAnOcean, ADrifterGoesRoundWithAnEddy) {
   constexpr double kOmega = 2 * std::numbers::pi / 1200;
   const auto field = field_of({0}, [](double, double, double north, double east) {

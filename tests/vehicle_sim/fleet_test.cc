@@ -112,8 +112,8 @@ TEST(Fleet, TheCurrentCarriesAVehicleThatDrifts) {
   EXPECT_NEAR(fleet.state_at(0, at_ms(10'000)).position_ned_m.x(), 5, tolerance(1e-9));
 }
 
-// Where the current is the same everywhere, the path is that in still water plus the integral of the current: between
-// two steps it changes evenly, so the integral is the trapezoids'. Rounding over 60 s of path.
+// Where the current is the same everywhere, the path is that in still water plus the integral of the current:
+// between two steps it changes evenly, so the integral is the trapezoids'. Rounding over 60 s of path.
 TEST(Fleet, ACurrentThatChangesWithTimeOnlyCarriesThePathAlong) {
   FleetSettings settings;
   settings.current.tide = {.amplitude_mps = 0.8, .period_s = 50, .phase_rad = 0.3, .toward_rad = 1};

@@ -62,7 +62,8 @@ void answer(SensorTick& tick) {
   }
 }
 
-// How often each kind measured, until `end`, and all numbers of all Doppler logs and depths by vehicle and instant.
+// How often each kind measured, until `end`, and all numbers of all Doppler logs and depths by vehicle and
+// instant.
 struct Record {
   std::array<int, 4> jobs = {};  // SENSORS, GPS, DVL, sonar
   std::map<std::pair<std::size_t, std::int64_t>, std::array<double, 3>> dvl, basic;

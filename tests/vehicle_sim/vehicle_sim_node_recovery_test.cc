@@ -16,7 +16,8 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-// Turns in a changed current with a leak, is killed after 3 s and comes back after `gap_ms`; 0: is never killed.
+// Turns in a changed current with a leak, is killed after 3 s and comes back after `gap_ms`; 0: is never
+// killed.
 class KilledVehicleSim : public VehicleSimNodeTest {
  protected:
   void run(std::int64_t gap_ms) {

@@ -54,8 +54,8 @@ struct Seen {
   double allowed_m = 0;  // beside the bound
 };
 
-// At each true state: the error of the reckoning from the last state published `delay` ago or earlier, the greatest, and
-// what its place may be off beyond the bound, |v - u| (T + delay), likewise.
+// At each true state: the error of the reckoning from the last state published `delay` ago or earlier, the
+// greatest, and what its place may be off beyond the bound, |v - u| (T + delay), likewise.
 Seen seen_by_receiver(const std::vector<vehicle_state_t>& truth,
                       const std::vector<vehicle_state_t>& published, SimDuration period, SimDuration delay) {
   Seen seen;

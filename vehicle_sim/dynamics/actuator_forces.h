@@ -2,9 +2,9 @@
 // Forces of fins, propeller and thrusters, and how actuators follow their commands.
 //
 // Body frame about CO; N and N m; signs of VehicleState's ActuatorValues. Sources: Allen, Vorus and Prestero
-// 2000 and Fossen 2021, section 9.4 (published laws); Polhamus 1966, NASA TN D-3767 (FinLaw::kLocalFlow: the force of
-// a thin low fin stands across its chord). Left out: the propeller's race over the fins, interference of fin
-// and hull.
+// 2000 and Fossen 2021, section 9.4 (published laws); Polhamus 1966, NASA TN D-3767 (FinLaw::kLocalFlow: the
+// force of a thin low fin stands across its chord). Left out: the propeller's race over the fins,
+// interference of fin and hull.
 #pragma once
 
 #include <algorithm>
@@ -51,15 +51,16 @@ inline BodyForce rudder_force(const FinPair& fins, double density, const BodyVel
   return {f.along, f.across, 0, 0, 0, fins.x_m * f.across};
 }
 
-// The same turned into the vertical plane, w - x q for v + x r: Z and M = -x Z; positive deflection pitches the bow
-// down.
+// The same turned into the vertical plane, w - x q for v + x r: Z and M = -x Z; positive deflection pitches
+// the bow down.
 inline BodyForce stern_planes_force(const FinPair& fins, double density, const BodyVelocity& nu_r,
                                     double deflection_rad) {
   const FinForce f = fin_force(fins, density, nu_r.u, nu_r.w, nu_r.w - fins.x_m * nu_r.q, deflection_rad);
   return {f.along, 0, f.across, 0, -fins.x_m * f.across, 0};
 }
 
-// K_T n^2 and K_Q n^2, with the sign of the turn rate n: thrust is rho D^4, the shaft's torque rho D^5 times as much.
+// K_T n^2 and K_Q n^2, with the sign of the turn rate n: thrust is rho D^4, the shaft's torque rho D^5 times
+// as much.
 struct ThrusterLoad {
   double thrust = 0, torque = 0;
 };
@@ -84,7 +85,8 @@ inline ThrusterLoad thruster_load(const Thruster& t, const BodyVelocity& nu_r, d
   return {thrust, torque};
 }
 
-// The thrust on the hull and the part of the shaft's torque that turns it, with the shares of Thruster applied.
+// The thrust on the hull and the part of the shaft's torque that turns it, with the shares of Thruster
+// applied.
 inline BodyForce thruster_force(const Thruster& t, double density, const BodyVelocity& nu_r, double speed_mps,
                                 double turn_rate_hz) {
   const Axes direction = t.direction, position = t.position_m;
@@ -105,11 +107,12 @@ inline double shaft_power_w(const Thruster& t, double density, const BodyVelocit
 // The command held to the limits of the actuators. `command` finite.
 ActuatorValues limited(const ModelParameters& model, const ActuatorValues& command);
 
-// What a vehicle does without a pilot: propeller and thrusters stopped, fins amidships, a buoyancy engine at its greatest volume
-// and a moving mass aft, so that it climbs.
+// What a vehicle does without a pilot: propeller and thrusters stopped, fins amidships, a buoyancy engine at
+// its greatest volume and a moving mass aft, so that it climbs.
 ActuatorValues safe_state(const ModelParameters& model);
 
-// Rate of change of each actuator, per second: (limited command - value) / lag, of slow ones no faster than their rate.
+// Rate of change of each actuator, per second: (limited command - value) / lag, of slow ones no faster than
+// their rate.
 ActuatorValues actuator_rate(const ModelParameters& model, const ActuatorValues& value,
                              const ActuatorValues& limited_command);
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a vehicle moves by, as numbers: fins, propeller and thrusters, buoyancy engine, moving mass, drop weight.
+// What a vehicle moves by, as numbers: fins, propeller and thrusters, buoyancy engine, moving mass, drop
+// weight.
 //
-// Part of ModelParameters (vehicle_model.h), with its frame and units: body, from CO, SI and radians. The forces:
-// actuator_forces.h, and of ballast equations_of_motion.h.
+// Part of ModelParameters (vehicle_model.h), with its frame and units: body, from CO, SI and radians. The
+// forces: actuator_forces.h, and of ballast equations_of_motion.h.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +33,8 @@ enum class ThrusterInflow {
   kAxial,
 };
 
-// A fixed-pitch propeller or thruster; K_T and K_Q fall linearly with the advance number J = V_a / (|n| D) from their
-// value at J = 0 to that at advance_max.
+// A fixed-pitch propeller or thruster; K_T and K_Q fall linearly with the advance number J = V_a / (|n| D)
+// from their value at J = 0 to that at advance_max.
 struct Thruster {
   Vec3 position_m = Vec3::Zero();  // from CO
   Vec3 direction = Vec3::UnitX();  // of the force on the hull at positive speed; unit
@@ -67,14 +68,15 @@ struct SlowActuator {
   double lag_s = 1;  // above 0
 };
 
-// A bladder that oil is pumped in and out of: changes the volume, at constant mass. Volumes in m^3, beyond neutral.
+// A bladder that oil is pumped in and out of: changes the volume, at constant mass. Volumes in m^3, beyond
+// neutral.
 struct BuoyancyEngine {
   SlowActuator pump;  // limit 0: there is none
   Vec3 position_m = Vec3::Zero();
 };
 
-// A part of the body that is driven along its x axis; the body's numbers hold with it in its middle. Places in metres, positive
-// forward.
+// A part of the body that is driven along its x axis; the body's numbers hold with it in its middle. Places
+// in metres, positive forward.
 struct MovingMass {
   double mass_kg = 0;  // 0 or above; 0: there is none
   SlowActuator drive;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Velocities and forces along and about the body's axes as plain numbers, which a compiler keeps in registers.
+// Velocities and forces along and about the body's axes as plain numbers, which a compiler keeps in
+// registers.
 //
-// An Eigen vector whose coefficients are set one by one and then added as a whole goes through memory and waits there
-// for each coefficient; the right-hand side of a vehicle's motion took a third longer that way. Names are
-// those of SNAME 1950 (Fossen 2021, table 2.1). Frame: body, about CO, x forward, y starboard, z down. SI and
-// radians.
+// An Eigen vector whose coefficients are set one by one and then added as a whole goes through memory and
+// waits there for each coefficient; the right-hand side of a vehicle's motion took a third longer that way.
+// Names are those of SNAME 1950 (Fossen 2021, table 2.1). Frame: body, about CO, x forward, y starboard, z
+// down. SI and radians.
 #pragma once
 
 #include <cmath>

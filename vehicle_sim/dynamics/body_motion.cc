@@ -89,8 +89,8 @@ double inverse_mass_at(const Model& model, const VehicleState& pose, const Vec3&
   return along.dot(model.inverse_mass() * along);
 }
 
-// nu = nu_free + M^-1 J moves the vehicle to its pose; there the momentum M nu_free + J gives its velocity, with the
-// moment taken about the pose that was reached.
+// nu = nu_free + M^-1 J moves the vehicle to its pose; there the momentum M nu_free + J gives its velocity,
+// with the moment taken about the pose that was reached.
 VehicleState struck(const Model& model, const VehicleState& from, const VehicleState& free,
                     const Impulse& impulse, const Vec3& current_ned, double step_s) {
   const Impulse push = about(impulse, free.position_ned_m);

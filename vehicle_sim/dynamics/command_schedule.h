@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Schedule of a vehicle's commands: each holds from its own time on, until a later one, or until the time-out; then the
-// vehicle is in its safe state.
+// Schedule of a vehicle's commands: each holds from its own time on, until a later one, or until the
+// time-out; then the vehicle is in its safe state.
 //
-// Safe state (safe_state): a vehicle without a pilot slows down and drifts; one that is buoyant (the scenario's
-// buoyancy_over_weight above 1) or has a buoyancy engine comes up. A vehicle that was never commanded is in it too. The command at an instant does not depend on the order in which commands
-// with different times came.
+// Safe state (safe_state): a vehicle without a pilot slows down and drifts; one that is buoyant (the
+// scenario's buoyancy_over_weight above 1) or has a buoyancy engine comes up. A vehicle that was never
+// commanded is in it too. The command at an instant does not depend on the order in which commands with
+// different times came.
 #pragma once
 
 #include <cstddef>

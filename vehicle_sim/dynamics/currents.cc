@@ -42,8 +42,8 @@ OceanCurrent::OceanCurrent(const CurrentSettings& settings, std::uint64_t seed)
   check(settings_);
 }
 
-// A cos(2 pi t / T + phi) toward the azimuth, one tidal constituent; and a first-order Gauss-Markov process in north and
-// in east (Fossen 2021, section 10.3).
+// A cos(2 pi t / T + phi) toward the azimuth, one tidal constituent; and a first-order Gauss-Markov process
+// in north and in east (Fossen 2021, section 10.3).
 Vec3 OceanCurrent::changing_part(SimTime now) {
   const TidalCurrent& tide = settings_.tide;
   const double along = tide.amplitude_mps *
@@ -74,7 +74,8 @@ Vec3 OceanCurrent::at_depth(double depth_m) const {
           a.east_mps + share * (below->east_mps - a.east_mps), 0};
 }
 
-// Du/Dt = du/dt + (u . grad) u, by where the water is a step later: its pressure gradient carries what it displaces along.
+// Du/Dt = du/dt + (u . grad) u, by where the water is a step later: its pressure gradient carries what it
+// displaces along.
 WaterMotion motion_of(const ocean::OceanField& field, const Vec3& place, SimTime now, SimDuration step) {
   const Vec3 here = field.current_ned_mps(place, now.seconds());
   const Vec3 then = field.current_ned_mps(place + step.seconds() * here, (now + step).seconds());

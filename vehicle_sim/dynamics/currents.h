@@ -5,16 +5,18 @@
 // - uniform: steady, the same everywhere;
 // - by depth: a table of horizontal velocities, linear between its depths, constant beyond;
 // - tide: amplitude cos(2 pi t / period + phase) toward an azimuth (one constituent, rectilinear);
-// - random: a Gauss-Markov process in north and in east (core/gauss_markov.h), the same everywhere; its value at an
-//   instant depends on neither the step nor the order of evaluation;
-// - a field of place, depth and time (ocean/ocean_field.h), the same for every vehicle simulator that reads its file.
-// What acts on a vehicle within a step: the velocity where it is at the start of the step, changed evenly by the
-// acceleration. Uniform, tide and random carry a neutrally buoyant vehicle along exactly: the path is that in still
-// water plus the integral of the velocity. The parts by depth and by place act as relative velocity at CO, a
-// field also by the acceleration of the water there, so that it carries what starts with it round its eddies;
-// neglected are the shear over the hull (it would turn a pitched hull), and the change of the added mass's
-// momentum on the way through the shear (rate of place times the gradient, below 0.01 m/s^2 in the sea).
-// Source: Fossen 2021, section 10.3, for irrotational currents and first-order Gauss-Markov processes.
+// - random: a Gauss-Markov process in north and in east (core/gauss_markov.h), the same everywhere; its value
+//   at an instant depends on neither the step nor the order of evaluation;
+// - a field of place, depth and time (ocean/ocean_field.h), the same for every vehicle simulator that reads
+//   its file.
+// What acts on a vehicle within a step: the velocity where it is at the start of the step, changed evenly by
+// the acceleration. Uniform, tide and random carry a neutrally buoyant vehicle along exactly: the path is
+// that in still water plus the integral of the velocity. The parts by depth and by place act as relative
+// velocity at CO, a field also by the acceleration of the water there, so that it carries what starts with it
+// round its eddies; neglected are the shear over the hull (it would turn a pitched hull), and the change of
+// the added mass's momentum on the way through the shear (rate of place times the gradient, below 0.01 m/s^2
+// in the sea). Source: Fossen 2021, section 10.3, for irrotational currents and first-order Gauss-Markov
+// processes.
 #pragma once
 
 #include <cstdint>

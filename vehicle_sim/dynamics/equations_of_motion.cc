@@ -54,8 +54,8 @@ Axes turned_to_body(const WorldAxes& axes, const Vec3& v) {
   return v.x() * axes.north + v.y() * axes.east + v.z() * axes.down;
 }
 
-// nu_r = nu - (R^T v_c, 0), and the rate of the current in the turning body frame, R^T dv_c/dt - omega x v_c (Fossen 2021,
-// section 10.3).
+// nu_r = nu - (R^T v_c, 0), and the rate of the current in the turning body frame, R^T dv_c/dt - omega x v_c
+// (Fossen 2021, section 10.3).
 RelativeFlow relative_flow(const Model& model, const BodyVelocity& nu, const WorldAxes& axes,
                            const Water& water) {
   RelativeFlow flow;
@@ -101,9 +101,10 @@ BodyForce thrusters_force(const ModelParameters& p, const Numbers& state, const 
   return force;
 }
 
-// Buoyancy of floats, rho g V at their centroid c, and what the pressure of water that accelerates at a_w does beyond the
-// acceleration of the whole vehicle with it (relative_flow: m a_w at the centre of gravity): rho V a_w at c less m a_w there,
-// V and c of floats and body together. In waves much longer than the hull the sum is the force of Froude and Krylov.
+// Buoyancy of floats, rho g V at their centroid c, and what the pressure of water that accelerates at a_w
+// does beyond the acceleration of the whole vehicle with it (relative_flow: m a_w at the centre of gravity):
+// rho V a_w at c less m a_w there, V and c of floats and body together. In waves much longer than the hull
+// the sum is the force of Froude and Krylov.
 BodyForce floats_force(const Model& model, const WetFloats& wet, const WorldAxes& axes, const Water& water) {
   const ModelParameters& p = model.parameters();
   const double rho = p.water_density_kg_m3, g = p.gravity_m_s2;
@@ -141,8 +142,8 @@ BodyForce stern_force(const ModelParameters& p, const Numbers& state, const Rela
                         state.actuators.propeller_hz);
 }
 
-// -g(eta) = ((W - B) d, (W r_g - B r_b) x d) (Fossen 2021, section 4.1): weight at CG, buoyancy at CB; `down` = d is the
-// world's z axis in the body frame.
+// -g(eta) = ((W - B) d, (W r_g - B r_b) x d) (Fossen 2021, section 4.1): weight at CG, buoyancy at CB; `down`
+// = d is the world's z axis in the body frame.
 BodyForce restoring_force(const Model& model, const Axes& down, const Submergence& under) {
   const ModelParameters& p = model.parameters();
   const double weight = model.weight_n(), buoyancy = p.buoyancy_n * under.hull;
@@ -151,8 +152,8 @@ BodyForce restoring_force(const Model& model, const Axes& down, const Submergenc
           cross(weight * Axes(p.center_of_gravity_m) - buoyancy * center_of_buoyancy, down)};
 }
 
-// What the set points of a buoyancy engine and a moving mass add to these: rho g V up at its place, m g down for each metre that
-// the mass is off its middle.
+// What the set points of a buoyancy engine and a moving mass add to these: rho g V up at its place, m g down
+// for each metre that the mass is off its middle.
 BodyForce ballast_force(const ModelParameters& p, const ActuatorValues& actuators, const Axes& down,
                         double submerged_share) {
   const double lift_n = p.water_density_kg_m3 * p.gravity_m_s2 * actuators.buoyancy_m3 * submerged_share;
@@ -166,8 +167,9 @@ BodyForce total_coriolis_force(const Model& model, const BodyVelocity& nu_r) {
   return coriolis_force(model.rigid_body_mass(), nu_r) + roll_only_coriolis_force(p.added_mass, nu_r);
 }
 
-// M nu_r_dot = tau - C(nu_r) nu_r - D nu_r - g, nu_dot = nu_r_dot + the rate of the current (Fossen 2021, section 10.3; the
-// forces: hull_forces.h and actuator_forces.h). Forces of the water go with the share of the hull under it.
+// M nu_r_dot = tau - C(nu_r) nu_r - D nu_r - g, nu_dot = nu_r_dot + the rate of the current (Fossen 2021,
+// section 10.3; the forces: hull_forces.h and actuator_forces.h). Forces of the water go with the share of
+// the hull under it.
 BodyVelocity acceleration(const Model& model, const Numbers& state, const WorldAxes& axes,
                           const Water& water) {
   const ModelParameters& p = model.parameters();
@@ -269,8 +271,8 @@ StateRate rate_of_change(const Model& model, const VehicleState& state, const Ac
           rate.velocity.vector(), rate.actuators};
 }
 
-// y + h / 6 (k_1 + 2 k_2 + 2 k_3 + k_4), the classical method of Runge and Kutta; the quaternion is then brought back to
-// unit length.
+// y + h / 6 (k_1 + 2 k_2 + 2 k_3 + k_4), the classical method of Runge and Kutta; the quaternion is then
+// brought back to unit length.
 VehicleState rk4_step(const Model& model, const VehicleState& state, const ActuatorValues& command,
                       const Water& water, double step_s) {
   const ActuatorValues held = limited(model.parameters(), command);

@@ -45,7 +45,8 @@ Thruster thruster_at(const Vec3& position, const Vec3& direction) {
   return t;
 }
 
-// X_u = -k_1 m, Y_v = Z_w = -k_2 m, M_q = N_r = -k' I (Lamb 1932, sections 114 and 115); K_p by its share of I_x.
+// X_u = -k_1 m, Y_v = Z_w = -k_2 m, M_q = N_r = -k' I (Lamb 1932, sections 114 and 115); K_p by its share of
+// I_x.
 Vec6 added_mass_diagonal(double mass, const Vec3& inertia) {
   const LambFactors k = lamb_factors(kSemiAxial, kSemiTransverse);
   Vec6 diagonal;
@@ -54,8 +55,8 @@ Vec6 added_mass_diagonal(double mass, const Vec3& inertia) {
   return diagonal;
 }
 
-// D_kk = M_kk / T_k in surge, sway, heave and yaw; 2 zeta_k sqrt(W z_g M_kk) in roll and pitch (Fossen 2021, section 6.4:
-// damping from time constants and damping ratios).
+// D_kk = M_kk / T_k in surge, sway, heave and yaw; 2 zeta_k sqrt(W z_g M_kk) in roll and pitch (Fossen 2021,
+// section 6.4: damping from time constants and damping ratios).
 Damping damping(const Vec6& m, double weight) {
   Damping d;
   d.linear << m[0] / kSpeedTime, m[1] / kSpeedTime, m[2] / kSpeedTime,
@@ -74,7 +75,8 @@ ModelParameters hover_parameters() {
   p.water_density_kg_m3 = kDensity;
   p.gravity_m_s2 = kGravity;
   p.hull = {kLength, kDiameter};
-  // A solid spheroid as heavy as its water: m = 4/3 pi rho a b^2, I_x = 2/5 m b^2, I_y = I_z = m (a^2 + b^2) / 5.
+  // A solid spheroid as heavy as its water: m = 4/3 pi rho a b^2, I_x = 2/5 m b^2, I_y = I_z = m (a^2 + b^2)
+  // / 5.
   p.mass_kg = 4.0 / 3 * pi * kDensity * a * b * b;
   p.buoyancy_n = p.mass_kg * kGravity;
   p.center_of_gravity_m = {0, 0, kMetacentre};

@@ -8,8 +8,8 @@
 
 namespace halocline::vehicle_sim {
 
-// Kirchhoff's equations (Fossen 2021, eq. 3.46) with a = M_11 v + M_12 omega, h = M_21 v + M_22 omega, less the elements
-// of C that couple translation with pitch and yaw.
+// Kirchhoff's equations (Fossen 2021, eq. 3.46) with a = M_11 v + M_12 omega, h = M_21 v + M_22 omega, less
+// the elements of C that couple translation with pitch and yaw.
 BodyForce roll_only_coriolis_force(const Mat6& mass, const BodyVelocity& nu) {
   const Vec6 momentum = times(mass, nu);
   const Axes h = {momentum[3], momentum[4], momentum[5]};
@@ -18,8 +18,8 @@ BodyForce roll_only_coriolis_force(const Mat6& mass, const BodyVelocity& nu) {
   return {{0, a3 * nu.p, -a2 * nu.p}, cross(h, nu.angular()) + Axes(a2 * nu.w - a3 * nu.v, 0, 0)};
 }
 
-// L = 1/2 rho V_r^2 S C_L, C_L = C_La alpha; D = 1/2 rho V_r^2 S C_D, C_D = C_D0 + C_L^2 / (pi e A) (Fossen 2021, eq. 8.23
-// to 8.26); X = -D cos(alpha) + L sin(alpha), Z = -D sin(alpha) - L cos(alpha).
+// L = 1/2 rho V_r^2 S C_L, C_L = C_La alpha; D = 1/2 rho V_r^2 S C_D, C_D = C_D0 + C_L^2 / (pi e A) (Fossen
+// 2021, eq. 8.23 to 8.26); X = -D cos(alpha) + L sin(alpha), Z = -D sin(alpha) - L cos(alpha).
 BodyForce lift_drag_force(const LiftDrag& l, double density, const BodyVelocity& nu_r,
                           double relative_speed_mps) {
   if (l.law == LiftLaw::kBounded) return bounded_lift_force(l, density, nu_r);
@@ -48,8 +48,8 @@ BodyForce bounded_lift_force(const LiftDrag& l, double density, const BodyVeloci
   return {scale * (drag * u - slope * u * w * w), 0, z, 0, -l.x_m * z, 0};
 }
 
-// Y = -1/2 rho D C_d int |v + x r| (v + x r) dx, N likewise with x in the integral (Fossen 2021, eq. 6.91 and 6.92), as a
-// sum over strips; their common factor is applied in cross_flow_force.
+// Y = -1/2 rho D C_d int |v + x r| (v + x r) dx, N likewise with x in the integral (Fossen 2021, eq. 6.91 and
+// 6.92), as a sum over strips; their common factor is applied in cross_flow_force.
 BodyForce cross_flow_in_sway(const CrossFlow& c, const BodyVelocity& nu_r) {
   const double v = nu_r.v, r = nu_r.r;
   const bool odd = c.strips % 2 == 1;

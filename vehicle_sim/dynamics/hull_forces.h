@@ -47,23 +47,24 @@ inline BodyForce damping_force(const Damping& damping, const BodyVelocity& nu_r,
 }
 
 // Lift across and drag along the flow in the x-z plane (eq. 8.23 to 8.26). LiftLaw::kAngle: no moment; linear
-// in alpha = atan2(w, u) in [-pi, pi]; a w of -0 counts as +0. LiftLaw::kBounded: see bounded_lift_force. `density`
-// in kg/m^3.
+// in alpha = atan2(w, u) in [-pi, pi]; a w of -0 counts as +0. LiftLaw::kBounded: see bounded_lift_force.
+// `density` in kg/m^3.
 BodyForce lift_drag_force(const LiftDrag& lift_drag, double density, const BodyVelocity& nu_r,
                           double relative_speed_mps);
 
-// With w_l = w - x q at the place of the lift, V^2 = u^2 + w_l^2, sin(alpha) = w_l / V, cos(alpha) = u / V: lift
-// 1/2 rho S a V^2 sin(alpha) cos(alpha) across the flow, drag 1/2 rho S V^2 (C_D0 + k s / (1 + b s)) along it with
-// s = sin(alpha)^2, k = a^2 / (pi e AR), which holds at small angles, and b = k / broadside_drag - 1, so that
+// With w_l = w - x q at the place of the lift, V^2 = u^2 + w_l^2, sin(alpha) = w_l / V, cos(alpha) = u / V:
+// lift 1/2 rho S a V^2 sin(alpha) cos(alpha) across the flow, drag 1/2 rho S V^2 (C_D0 + k s / (1 + b s))
+// along it with s = sin(alpha)^2, k = a^2 / (pi e AR), which holds at small angles, and b = k /
+// broadside_drag - 1, so that
 //   X = -1/2 rho S (C_D V u - a u w_l^2 / V),   Z = -1/2 rho S (C_D V w_l + a u^2 w_l / V),   M = -x Z.
 // Lift does no work at x, drag takes energy at every angle.
 BodyForce bounded_lift_force(const LiftDrag& lift_drag, double density, const BodyVelocity& nu_r);
 
-// X = -1/2 rho S C_Da u |u|, and across the hull -1/2 rho S C_L |u| v_l with v_l the velocity across it at the place of
-// the lift, center_aft behind the middle as the hull moves (x_l = -sign(u) center_aft): the sin(alpha)
-// cos(alpha) law of a slender body (Allen and Perkins 1951, NACA 1048; Hoerner 1965, chapter 19, for
-// coefficient and place), which is bounded, and the same for both directions of the flow. Smooth where u changes its sign: |u|
-// x_l = -center_aft u.
+// X = -1/2 rho S C_Da u |u|, and across the hull -1/2 rho S C_L |u| v_l with v_l the velocity across it at
+// the place of the lift, center_aft behind the middle as the hull moves (x_l = -sign(u) center_aft): the
+// sin(alpha) cos(alpha) law of a slender body (Allen and Perkins 1951, NACA 1048; Hoerner 1965, chapter 19,
+// for coefficient and place), which is bounded, and the same for both directions of the flow. Smooth where u
+// changes its sign: |u| x_l = -center_aft u.
 inline BodyForce body_lift_force(const BodyLift& b, double density, const BodyVelocity& nu_r) {
   const double u = nu_r.u, v = nu_r.v, w = nu_r.w, q = nu_r.q, r = nu_r.r, x = b.center_aft_m;
   const double scale = -0.5 * density * b.reference_area_m2, lift = scale * b.lift_slope_per_rad;

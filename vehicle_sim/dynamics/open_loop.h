@@ -2,8 +2,8 @@
 // A vehicle run along a schedule of commands and sampled: what the reference trajectories are made of.
 //
 // Solves equations_of_motion.h by steps on the grid of `step` from time 0, cut where a command or a sample
-// falls between. The vehicle is free: no ground. A weight is gone from the step after its release on. Given the same run the same numbers come out. Pure; any
-// number of threads.
+// falls between. The vehicle is free: no ground. A weight is gone from the step after its release on. Given
+// the same run the same numbers come out. Pure; any number of threads.
 #pragma once
 
 #include <stdexcept>
@@ -48,8 +48,9 @@ class Diverged : public std::runtime_error {
   SimTime at_;
 };
 
-// One sample at 0 and one each period to the end of the duration. Commands are held to the model's limits: see
-// without_limits. Throws InvalidArgument where a field is out of its range, Diverged where there is no more result.
+// One sample at 0 and one each period to the end of the duration. Commands are held to the model's limits:
+// see without_limits. Throws InvalidArgument where a field is out of its range, Diverged where there is no
+// more result.
 std::vector<OpenLoopSample> run_open_loop(const Model& model, const OpenLoopRun& run);
 
 // The same vehicle with actuators without limits (fins to a right angle).

@@ -43,9 +43,9 @@ Mat6 added_mass(double mass, const Vec3& inertia) {
   return diagonal.asDiagonal();
 }
 
-// D_kk = M_kk / T_k: surge, sway, heave and yaw by time constants. D_kk = 2 zeta_k w_k M_kk: roll and pitch by their
-// damping ratios at the natural frequencies w_k = sqrt(W z_g / M_kk) (the published program, after Fossen 2021,
-// section 6.4).
+// D_kk = M_kk / T_k: surge, sway, heave and yaw by time constants. D_kk = 2 zeta_k w_k M_kk: roll and pitch
+// by their damping ratios at the natural frequencies w_k = sqrt(W z_g / M_kk) (the published program, after
+// Fossen 2021, section 6.4).
 Damping damping(const Mat6& m, double weight) {
   const double roll_frequency = std::sqrt(weight * kMetacentre / m(3, 3));
   const double pitch_frequency = std::sqrt(weight * kMetacentre / m(4, 4));
@@ -57,8 +57,8 @@ Damping damping(const Mat6& m, double weight) {
   return d;
 }
 
-// C_La = pi A / (1 + sqrt(1 + (A / 2)^2)), A = b^2 / S: Helmbold's wing of low aspect ratio; C_D0 from the frontal to the
-// reference area.
+// C_La = pi A / (1 + sqrt(1 + (A / 2)^2)), A = b^2 / S: Helmbold's wing of low aspect ratio; C_D0 from the
+// frontal to the reference area.
 LiftDrag lift_drag() {
   LiftDrag l;
   l.reference_area_m2 = kPlanformShare * kLength * kDiameter;

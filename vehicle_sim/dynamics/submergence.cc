@@ -26,8 +26,9 @@ constexpr double kRamp = 0.02;  // of the height: a bottom that dips in so far i
 constexpr double kMinUpright =
     0.05;  // cosine of the tilt, about 87 degrees: beyond, the hull lies on its side
 
-// Wet length of a column from its bottom up, 0 to its height. A point at r of the body frame lies below the surface by
-// f(r) = (down - slope) . r - surface_below_co; along the column, r = bottom - s z, f falls by (down - slope).z a metre.
+// Wet length of a column from its bottom up, 0 to its height. A point at r of the body frame lies below the
+// surface by f(r) = (down - slope) . r - surface_below_co; along the column, r = bottom - s z, f falls by
+// (down - slope).z a metre.
 double wet_length(double bottom_below_m, double upright, double height_m) {
   if (upright > kMinUpright) return std::clamp(bottom_below_m / upright, 0.0, height_m);
   if (upright < -kMinUpright)  // keel up: what is near the deck is wet
@@ -37,7 +38,8 @@ double wet_length(double bottom_below_m, double upright, double height_m) {
 
 }  // namespace
 
-// Area of a segment of the unit circle over pi, its chord at -s from the centre: 1 - (acos s - s sqrt(1 - s^2)) / pi.
+// Area of a segment of the unit circle over pi, its chord at -s from the centre: 1 - (acos s - s sqrt(1 -
+// s^2)) / pi.
 double submerged_share_of_circle(double depth_in_radii) {
   const double s = depth_in_radii;
   if (s >= 1) return 1;
@@ -45,8 +47,8 @@ double submerged_share_of_circle(double depth_in_radii) {
   return 1 - (elementary::acos(s) - s * std::sqrt(1 - s * s)) / std::numbers::pi;
 }
 
-// Sections at xi in (-1, 1) along the axis have the radius D/2 sqrt(1 - xi^2) and the volume 1 - xi^2; their sum by the
-// midpoint rule.
+// Sections at xi in (-1, 1) along the axis have the radius D/2 sqrt(1 - xi^2) and the volume 1 - xi^2; their
+// sum by the midpoint rule.
 Submergence submergence(const ModelParameters& model, const VehicleState& state, double surface_z_m,
                         const Vec3& slope) {
   const HullShape& hull = model.hull;
@@ -70,8 +72,8 @@ Submergence submergence(const ModelParameters& model, const VehicleState& state,
           wet_sum > 0 ? wet_moment / wet_sum : 0};
 }
 
-// V = sum a_i l_i, and its moment sum a_i l_i (bottom_i - l_i / 2 z); a_i = pi L B / 4 / 8. The columns at 1/sqrt(2) of the half
-// axes have the ellipse's second moments, A L^2 / 16 and A B^2 / 16.
+// V = sum a_i l_i, and its moment sum a_i l_i (bottom_i - l_i / 2 z); a_i = pi L B / 4 / 8. The columns at
+// 1/sqrt(2) of the half axes have the ellipse's second moments, A L^2 / 16 and A B^2 / 16.
 WetFloats wet_floats(const std::vector<Float>& floats, double surface_below_co_m, const Axes& down,
                      const Axes& slope) {
   const Axes below = down - slope;

@@ -149,8 +149,8 @@ Model::Model(ModelParameters parameters) : parameters_(std::move(parameters)) {
   if (parameters_.drop_weight.mass_kg > 0) Model{without_weight(parameters_)};  // must be possible, too
 }
 
-// A body less a part: m' = m - m_w, m' r' = m r - m_w r_w, I' = I - (m m_w / m') (d^2 1 - d d^T) with d = r_w - r, the parallel
-// axes of both about the new centre of gravity; a weight is a point.
+// A body less a part: m' = m - m_w, m' r' = m r - m_w r_w, I' = I - (m m_w / m') (d^2 1 - d d^T) with d = r_w
+// - r, the parallel axes of both about the new centre of gravity; a weight is a point.
 ModelParameters without_weight(ModelParameters p) {
   const DropWeight weight = p.drop_weight;
   if (weight.mass_kg == 0) return p;

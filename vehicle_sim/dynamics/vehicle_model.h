@@ -5,11 +5,11 @@
 // and Motion Control, 2nd ed. 2021, chapters 3, 6 and 8):
 //   M nu_dot = tau_actuators + tau_hull - C(nu_r) nu_r - D(nu_r) nu_r - g(eta),  nu_r = nu - nu_c.
 // Frame: body, origin CO at the hull's centre, x forward, y starboard, z down. 6-vectors are (surge, sway,
-// heave; roll, pitch, yaw). All SI and radians; propeller speed in revolutions per second (Hz). An effect whose
-// area or coefficient is 0 is absent. docs/vehicles.md describes each effect and the models made of them. Left out:
-// shift of added mass near the surface, fins' own added mass, propeller lateral forces, the propeller's race over
-// the fins, what a moving mass does to the mass matrix. Threads: a Model never changes; any number of threads may
-// read one.
+// heave; roll, pitch, yaw). All SI and radians; propeller speed in revolutions per second (Hz). An effect
+// whose area or coefficient is 0 is absent. docs/vehicles.md describes each effect and the models made of
+// them. Left out: shift of added mass near the surface, fins' own added mass, propeller lateral forces, the
+// propeller's race over the fins, what a moving mass does to the mass matrix. Threads: a Model never changes;
+// any number of threads may read one.
 #pragma once
 
 #include <array>
@@ -34,7 +34,8 @@ struct HullShape {
   double diameter_m = 0;  // above 0, at most the length
 };
 
-// A wall-sided hull that pierces the surface, besides what the body's buoyancy tells of: an upright elliptic cylinder.
+// A wall-sided hull that pierces the surface, besides what the body's buoyancy tells of: an upright elliptic
+// cylinder.
 struct Float {
   Vec3 bottom_m = Vec3::Zero();  // middle of its bottom, from CO
   double length_m = 0;           // along x, above 0
@@ -73,8 +74,9 @@ struct Damping {
 };
 
 enum class LiftLaw {
-  kAngle,  // of alpha itself, as published with `remus100-pvs`: jumps in reverse flow
-  kBounded,  // of sin(alpha) cos(alpha) and sin(alpha)^2 in the flow at x_m: the same at small angles, smooth at all
+  kAngle,    // of alpha itself, as published with `remus100-pvs`: jumps in reverse flow
+  kBounded,  // of sin(alpha) cos(alpha) and sin(alpha)^2 in the flow at x_m: the same at small angles, smooth
+             // at all
 };
 
 // Lift and drag of the hull and its wings in the x-z plane, of the angle of attack alpha = atan2(w_r, u_r):

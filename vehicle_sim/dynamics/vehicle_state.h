@@ -18,10 +18,10 @@ namespace halocline::vehicle_sim {
 
 enum class DropWeightState : std::int64_t { kHeld, kReleased };  // as wide as a number: no padding
 
-// Fins, propeller and thrusters, as commanded or as they are. Positive rudder turns to starboard (positive yaw rate),
-// positive stern planes push the bow down, a positive propeller drives ahead, a positive thruster pushes the
-// hull along its direction, a positive volume of the buoyancy engine lifts it, a moving mass forward pitches the bow down. A
-// weight once released stays so, whatever is commanded.
+// Fins, propeller and thrusters, as commanded or as they are. Positive rudder turns to starboard (positive
+// yaw rate), positive stern planes push the bow down, a positive propeller drives ahead, a positive thruster
+// pushes the hull along its direction, a positive volume of the buoyancy engine lifts it, a moving mass
+// forward pitches the bow down. A weight once released stays so, whatever is commanded.
 struct ActuatorValues {
   double rudder_rad = 0;
   double stern_planes_rad = 0;
@@ -54,8 +54,8 @@ struct VehicleState {
 // The water round a vehicle over a step.
 struct Water {
   Vec3 current_ned_mps = Vec3::Zero();  // at the start of the step, uniform over the hull, finite
-  // z of the sea surface in the world frame, metres; minus infinity is water without a surface. Where the surface slopes: of
-  // its tangent plane at the vehicle, above or below the world's origin.
+  // z of the sea surface in the world frame, metres; minus infinity is water without a surface. Where the
+  // surface slopes: of its tangent plane at the vehicle, above or below the world's origin.
   double sea_surface_z_m = -std::numeric_limits<double>::infinity();
   Vec3 current_rate_ned_mps2 = Vec3::Zero();  // acceleration of the water during the step, finite
   Vec3 surface_slope = Vec3::Zero();          // dz/dnorth and dz/deast of the surface, and 0; finite

@@ -24,9 +24,9 @@ double uniform(std::uint64_t seed, const char* purpose, int component) {
                      .which = 0});
 }
 
-// JONSWAP: S(omega) ~ omega^-5 exp(-5/4 (omega_p / omega)^4) gamma^b, b = exp(-(omega - omega_p)^2 / (2 sigma^2
-// omega_p^2)), sigma = 0.07 below the peak and 0.09 above (Hasselmann et al. 1973); gamma = 1 is Pierson and
-// Moskowitz 1964.
+// JONSWAP: S(omega) ~ omega^-5 exp(-5/4 (omega_p / omega)^4) gamma^b, b = exp(-(omega - omega_p)^2 / (2
+// sigma^2 omega_p^2)), sigma = 0.07 below the peak and 0.09 above (Hasselmann et al. 1973); gamma = 1 is
+// Pierson and Moskowitz 1964.
 double spectrum(double omega, double peak, double gamma) {
   const double sigma = omega <= peak ? kNarrowBelow : kNarrowAbove;
   const double bell = elementary::exp(-elementary::pow((omega - peak) / (sigma * peak), 2) / 2);
@@ -72,8 +72,8 @@ WaveField::WaveField(const WaveSettings& s, std::uint64_t seed)
   }
 }
 
-// theta = k s - omega t + phi; v = a omega exp(-k d) (cos theta along, sin theta up), and its rate of change at a fixed
-// place (Faltinsen 1990, table 2.1).
+// theta = k s - omega t + phi; v = a omega exp(-k d) (cos theta along, sin theta up), and its rate of change
+// at a fixed place (Faltinsen 1990, table 2.1).
 WaterMotion WaveField::at(const Vec3& position_ned_m, double depth_m, SimTime now) const {
   const double along = north_ * position_ned_m.x() + east_ * position_ned_m.y(), t = now.seconds();
   const double depth = std::max(depth_m, 0.0);

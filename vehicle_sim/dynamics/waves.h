@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The orbital motion of the water under surface waves.
 //
-// Model: linear (Airy) waves on deep water, long-crested, a sum of components i of amplitude a, frequency omega,
-// wave number k = omega^2 / g, phase phi: elevation a cos(theta), theta = k s - omega t + phi with s along
-// the direction of travel; velocity a omega exp(-k d) (cos(theta) along, sin(theta) up) at depth d (Faltinsen
-// 1990, Sea Loads on Ships and Offshore Structures, table 2.1). A sea: JONSWAP (Hasselmann et al. 1973), with
-// peakedness 1 Pierson and Moskowitz 1964, scaled to its significant height; components of equal width of
-// frequency from half to four times the peak, each frequency drawn within its width and each phase drawn,
-// addressed by seed and component (core/random.h), so the sea does not repeat. Holds for steepness below
-// about 0.1 and water deeper than half a wavelength. Left out: spreading, drift, breaking, the bottom.
+// Model: linear (Airy) waves on deep water, long-crested, a sum of components i of amplitude a, frequency
+// omega, wave number k = omega^2 / g, phase phi: elevation a cos(theta), theta = k s - omega t + phi with s
+// along the direction of travel; velocity a omega exp(-k d) (cos(theta) along, sin(theta) up) at depth d
+// (Faltinsen 1990, Sea Loads on Ships and Offshore Structures, table 2.1). A sea: JONSWAP (Hasselmann et al.
+// 1973), with peakedness 1 Pierson and Moskowitz 1964, scaled to its significant height; components of equal
+// width of frequency from half to four times the peak, each frequency drawn within its width and each phase
+// drawn, addressed by seed and component (core/random.h), so the sea does not repeat. Holds for steepness
+// below about 0.1 and water deeper than half a wavelength. Left out: spreading, drift, breaking, the bottom.
 #pragma once
 
 #include <cstdint>
@@ -49,9 +49,9 @@ class WaveField {
 
   // `depth_m` below the still surface; what is above moves as the surface does.
   WaterMotion at(const Vec3& position_ned_m, double depth_m, SimTime now) const;
-  // How high the surface stands above the still one over that place; at a depth, the head of water whose pressure the waves
-  // add there: sum of a exp(-k d) cos(theta). Its rate is the water's velocity up, its slope the acceleration over -g
-  // (both at the surface).
+  // How high the surface stands above the still one over that place; at a depth, the head of water whose
+  // pressure the waves add there: sum of a exp(-k d) cos(theta). Its rate is the water's velocity up, its
+  // slope the acceleration over -g (both at the surface).
   double elevation_m(const Vec3& position_ned_m, double depth_m, SimTime now) const;
   // No elevation is higher or lower.
   double highest_m() const;

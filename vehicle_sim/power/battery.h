@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The battery of a vehicle: what is left in it, and what it was spent on.
 //
-// Model: energy_left = capacity - (hotel + shaft + transmit + receive), joules, since the start. All that is always on takes
-// constant power; the shafts take theirs over each physics step, that at its beginning (first order in the step); what a packet
-// takes counts as a whole, at the instant the channel server states and kEnergyLag later here: longer than a message takes, so that
-// the sum does not depend on when it came. Packets are added in the order of their instants, causes and amounts. When nothing is
-// left, nothing more is spent on hotel and shaft; what is left then lies below 0 by what was under way at most. Left out: voltage,
+// Model: energy_left = capacity - (hotel + shaft + transmit + receive), joules, since the start. All that is
+// always on takes constant power; the shafts take theirs over each physics step, that at its beginning (first
+// order in the step); what a packet takes counts as a whole, at the instant the channel server states and
+// kEnergyLag later here: longer than a message takes, so that the sum does not depend on when it came.
+// Packets are added in the order of their instants, causes and amounts. When nothing is left, nothing more is
+// spent on hotel and shaft; what is left then lies below 0 by what was under way at most. Left out: voltage,
 // temperature, self-discharge, losses that grow with the current.
 #pragma once
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A Doppler velocity log of four beams in bottom track, and a forward sonar: sensors that send rays to the seabed.
+// A Doppler velocity log of four beams in bottom track, and a forward sonar: sensors that send rays to the
+// seabed.
 //
 // Doppler log: beam k points along b_k (unit, body frame); its speed is the instrument's velocity over ground
 // along it, s_k = b_k . (v + omega x r) (1 + scale) + bias + noise; the velocity is the least-squares

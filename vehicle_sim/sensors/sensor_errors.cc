@@ -41,7 +41,8 @@ bool drops_out(const SensorIdentity& sensor, std::int64_t sample, double probabi
          uniform_at(address_of(sensor, purpose_of("sensor-dropout"), sample, part)) < probability;
 }
 
-// W(t) = sum of z_i for i < floor(t), and (t - floor(t)) z_floor(t): a Wiener process sampled once a second, linear between.
+// W(t) = sum of z_i for i < floor(t), and (t - floor(t)) z_floor(t): a Wiener process sampled once a second,
+// linear between.
 double BiasWalk::at(SimTime when) {
   const double seconds = (when - SimTime()).seconds(), whole = std::floor(seconds);
   const auto second = static_cast<std::int64_t>(whole);

@@ -46,7 +46,8 @@ struct SensorIdentity {
   SensorKind kind = SensorKind::kDepth;
 };
 
-// How many whole periods (above 0) lie before `when`: what a sample of a sensor with this period is addressed by.
+// How many whole periods (above 0) lie before `when`: what a sample of a sensor with this period is addressed
+// by.
 std::int64_t sample_at(SimTime when, SimDuration period);
 
 // Standard normal; `axis` 0 to 1023 (axes, beams, rays).

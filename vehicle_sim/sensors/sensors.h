@@ -62,8 +62,8 @@ SensorReading measure_fixed(const VehicleState& state, const Water& water);
 // The altimeter's beam: the body's down axis in the world frame, unit.
 Vec3 altimeter_direction(const VehicleState& state);
 
-// The sensors of SENSORS with their errors. Holds what was measured last and the wandering biases; what it returns
-// depends on the instants of read(), in ascending order, and on nothing else.
+// The sensors of SENSORS with their errors. Holds what was measured last and the wandering biases; what it
+// returns depends on the instants of read(), in ascending order, and on nothing else.
 class SensorSuite {
  public:
   using Dead = std::array<bool, kSensorKinds.size()>;  // by SensorKind: true measures nothing

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A vehicle's USBL array: fixes from the true directions of arrival and the packets received.
 //
-// Model: the true direction of an arrival is in OUTCOME (elevation of the ray, azimuth of the straight line), which the
-// vehicle itself does not receive; RECEIVE shows that the packet is for it, and its travel time where that is known on
-// board. A fix is made when both have come and the attitude at the instant of the first bit is known: between two noted
-// poses it is interpolated along the shortest turn. Fixes leave in the order in which their second half came. What
-// waits for longer than kTimeout is forgotten.
+// Model: the true direction of an arrival is in OUTCOME (elevation of the ray, azimuth of the straight line),
+// which the vehicle itself does not receive; RECEIVE shows that the packet is for it, and its travel time
+// where that is known on board. A fix is made when both have come and the attitude at the instant of the
+// first bit is known: between two noted poses it is interpolated along the shortest turn. Fixes leave in the
+// order in which their second half came. What waits for longer than kTimeout is forgotten.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which of many vehicles may be near each other: the cheap first look before contacts are searched.
 //
-// Model: a list of pairs with a margin of their movement (Verlet 1967), made anew from columns of cells when any
-// vehicle has moved by half the margin. A list holds every pair that is within reach and few others, ordered by
-// their indices, so what is found does not depend on when it was made. Cost: N a step, N log N each few hundred
-// steps; many vehicles above one another in one column cost their number squared then.
+// Model: a list of pairs with a margin of their movement (Verlet 1967), made anew from columns of cells when
+// any vehicle has moved by half the margin. A list holds every pair that is within reach and few others,
+// ordered by their indices, so what is found does not depend on when it was made. Cost: N a step, N log N
+// each few hundred steps; many vehicles above one another in one column cost their number squared then.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,8 @@ class Neighbours {
  public:
   using Pair = std::pair<std::size_t, std::size_t>;  // first < second
 
-  // All pairs whose distance is at most `reach_m` (above 0), and some beyond; in ascending order. Positions finite.
+  // All pairs whose distance is at most `reach_m` (above 0), and some beyond; in ascending order. Positions
+  // finite.
   const std::vector<Pair>& within(double reach_m, const std::vector<Vec3>& positions);
 
  private:

@@ -35,8 +35,8 @@ double gap_at(const HullPose& a, const HullPose& b, const Places& p) {
          radius_at(b, p.second);
 }
 
-// Least gap with the first place held to `third`: the best of eight neighbours as long as one is better, then half
-// the step.
+// Least gap with the first place held to `third`: the best of eight neighbours as long as one is better, then
+// half the step.
 Places closest_places(const HullPose& a, const HullPose& b, const AxisSegment& third) {
   Places best{(third.low + third.high) / 2, 0};
   double min_gap = gap_at(a, b, best);

@@ -234,7 +234,8 @@ Vec3 VehicleWorld::end_of(const std::optional<std::size_t>& vehicle, const Vec3&
   return state.position_ned_m + state.orientation * attached_at_m;
 }
 
-// Pairs in ascending order, then tethers: the order of ODE's joints, and with it the result, is that of the indices.
+// Pairs in ascending order, then tethers: the order of ODE's joints, and with it the result, is that of the
+// indices.
 void VehicleWorld::find_links(double step_s) {
   if (vehicles_.size() > 1) find_meetings(step_s);
   find_taut_tethers(step_s);

@@ -23,9 +23,9 @@
 // round: it holds its two ends within its length, pulls and never pushes, weighs nothing, has no drag and
 // does not stretch.
 //
-// Left out: soft sediment, the changed added mass near the ground and near others. Coordinates are local to the
-// scenario: ODE's steps lose 1e-5 m far from the origin (1e6 m). Threads: one world in one thread at a time;
-// any number of worlds in as many threads, with equal results.
+// Left out: soft sediment, the changed added mass near the ground and near others. Coordinates are local to
+// the scenario: ODE's steps lose 1e-5 m far from the origin (1e6 m). Threads: one world in one thread at a
+// time; any number of worlds in as many threads, with equal results.
 #pragma once
 
 #include <cstddef>
@@ -91,11 +91,12 @@ class VehicleWorld {
   const VehicleState& state(std::size_t index) const { return vehicles_[index].state; }
   const Model& model(std::size_t index) const { return *vehicles_[index].model; }
 
-  // Where the vehicles are and what the last step did; not their models, commands and water, which are set anew.
+  // Where the vehicles are and what the last step did; not their models, commands and water, which are set
+  // anew.
   void archive(Archive& a);
 
-  // Adds a tether between vehicles that are there already and returns its index. It may be stretched at first: its
-  // ends then approach at up to 0.2 m/s.
+  // Adds a tether between vehicles that are there already and returns its index. It may be stretched at
+  // first: its ends then approach at up to 0.2 m/s.
   std::size_t add(const Tether& tether);
 
   // How far apart a tether's ends are, and its pull in the last step, newtons, 0 or above.

@@ -14,8 +14,8 @@ namespace {
 constexpr double kTouching = 1e-9;  // m: nearer than that to a facet is on it
 constexpr double kMargin = 1e-7;    // m: added to bounds of depth
 
-// sin(x) to 1e-16 by its series for |x| up to 0.3, which is more than half of any bend but those of a wide crease
-// angle.
+// sin(x) to 1e-16 by its series for |x| up to 0.3, which is more than half of any bend but those of a wide
+// crease angle.
 double sine_of_bend(double x) {
   if (std::abs(x) > 0.3) return elementary::sin(x);
   constexpr double k3 = 1.0 / 6, k5 = k3 / 20, k7 = k5 / 42, k9 = k7 / 72, k11 = k9 / 110;
@@ -23,7 +23,8 @@ double sine_of_bend(double x) {
   return x * (1 - y * (k3 - y * (k5 - y * (k7 - y * (k9 - y * k11)))));
 }
 
-// The arc of a step stays above z + slope * (way): curving up above its tangent, curving down above its chord.
+// The arc of a step stays above z + slope * (way): curving up above its tangent, curving down above its
+// chord.
 double deepest_slope(double curvature, const ArcPoint& s, const ArcStep& step) {
   if (curvature > 0 && step.dr > 0) return (step.z - s.z) / step.dr;
   return curvature == 0 && step.z == s.z ? 0 : s.sine * s.per_xi / s.c;
@@ -35,8 +36,8 @@ double bow_of(double curvature, const ArcStep& step) {
   return curvature > 0 && step.dr > 0 ? curvature / 2 : 0;
 }
 
-// Where the ray's circle meets the facet's line y = d + b x, x and y from the ray along r and down. With kappa
-// the curvature, kappa (x^2 + y^2) / 2 = cos y - sin x, so A x^2 + B x + C = 0:
+// Where the ray's circle meets the facet's line y = d + b x, x and y from the ray along r and down. With
+// kappa the curvature, kappa (x^2 + y^2) / 2 = cos y - sin x, so A x^2 + B x + C = 0:
 //   A = kappa (1 + b^2) / 2,  B = kappa d b + sin - b cos,  C = kappa d^2 / 2 - d cos.
 bool solve_facet(double curvature, const Facet& facet, const ArcPoint& s, bool on_it, double until,
                  double& dr) {
@@ -51,8 +52,8 @@ bool solve_facet(double curvature, const Facet& facet, const ArcPoint& s, bool o
     const double a2 = curvature * (1 + b * b) / 2, b2 = curvature * d * b + st - ct * b;
     const double c2 = curvature * d * d / 2 - ct * d, disc = b2 * b2 - 4 * a2 * c2;
     const double root = disc >= 0 ? std::sqrt(disc) : -1, bottom = b2 + root;
-    // The root at which the ray goes down through the line. Below the line drawn on beyond its facet (before a
-    // crest), a ray that bends down passes it upwards first.
+    // The root at which the ray goes down through the line. Below the line drawn on beyond its facet (before
+    // a crest), a ray that bends down passes it upwards first.
     if (root < 0) return false;
     x = bottom > 0 ? -2 * c2 / bottom : c2 > 0 && a2 > 0 ? (root - b2) / (2 * a2) : -1;
   }
@@ -69,7 +70,8 @@ bool find_hit(double curvature, const BottomProfile& profile, const ArcPoint& s,
   const std::vector<Facet>& facets = profile.facets();
   const std::vector<double>& blocks = profile.block_shallowest_m();
   const double end = s.r + until, slope = deepest_slope(curvature, s, step), bow = bow_of(curvature, step);
-  // The deepest that the arc can be after `way`; a line or curving down, so deepest at an end of any interval.
+  // The deepest that the arc can be after `way`; a line or curving down, so deepest at an end of any
+  // interval.
   const auto deepest = [&](double way) { return s.z + way * (slope - bow * (step.dr - way)) + kMargin; };
   const auto below = [&](double shallowest, double r0, double r1) {  // the arc cannot reach down there
     return std::max(deepest(std::max(r0 - s.r, 0.0)), deepest(std::min(r1, end) - s.r)) < shallowest;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One step of a ray within layered water, and where it meets a bottom profile: what both ray tracers share.
 //
-// Model: acoustics/rays/arc_tracer.h. A step goes to the next knot of the water or through a turn back to the same
-// depth; before that the ray may meet the bottom. Nothing here knows of ray tubes.
+// Model: acoustics/rays/arc_tracer.h. A step goes to the next knot of the water or through a turn back to the
+// same depth; before that the ray may meet the bottom. Nothing here knows of ray tubes.
 //
 // Free functions on values: calls may overlap between threads.
 #pragma once
@@ -46,8 +46,8 @@ inline ArcStep next_step(const RayWater& water, const ArcPoint& s) {
   const bool down = s.sine > 0 || (s.sine == 0 && g <= 0);
   const std::size_t knot = down ? s.layer + 1 : s.layer;
   const double c = water.speeds_mps()[knot], z = water.depths_m()[knot];
-  // Snell: cos = xi c at the knot. To it dr = |dz| xi (c1 + c2) / (s1 + s2); through a turn dr = 2 s1 / (xi |g|)
-  // (arc of a circle of radius 1 / (xi |g|)).
+  // Snell: cos = xi c at the knot. To it dr = |dz| xi (c1 + c2) / (s1 + s2); through a turn dr = 2 s1 / (xi
+  // |g|) (arc of a circle of radius 1 / (xi |g|)).
   const double cosine = s.xi * c, steep = std::abs(s.sine);
   if (cosine < 1 && (steep > 0 || g != 0)) {
     const double sine = std::sqrt((1 - cosine) * (1 + cosine));
@@ -58,17 +58,19 @@ inline ArcStep next_step(const RayWater& water, const ArcPoint& s) {
   return {2 * steep * s.per_xi / std::abs(g), s.z, -s.sine, true, down};
 }
 
-// The change of a ray's angle along its way within its layer, rad/m: an arc of a circle has the same throughout.
+// The change of a ray's angle along its way within its layer, rad/m: an arc of a circle has the same
+// throughout.
 inline double curvature_of(const RayWater& water, const ArcPoint& at) {
   return -at.xi * water.gradients_per_s()[at.layer];
 }
 
-// Whether the bottom is met within `until` m of range, before `step` along an arc of that curvature ends; where, if so.
+// Whether the bottom is met within `until` m of range, before `step` along an arc of that curvature ends;
+// where, if so.
 [[nodiscard]] bool find_hit(double curvature, const BottomProfile& profile, const ArcPoint& at,
                             const ArcStep& step, double until, ArcHit& hit);
 
-// What a ray does at a facet. The direction that reflects is the facet's own or, where it is bent and that throws no
-// ray into it, the bent one; `bend_per_m` is its change along the facet.
+// What a ray does at a facet. The direction that reflects is the facet's own or, where it is bent and that
+// throws no ray into it, the bent one; `bend_per_m` is its change along the facet.
 struct FacetBounce {
   double sine, cosine;          // of the grazing angle to what reflects
   double out_sine, out_cosine;  // of the angle in which the ray leaves

@@ -16,10 +16,12 @@ using std::numbers::pi;
 
 constexpr double kThinnestLayer = 1e-9;    // m
 constexpr double kMinSquaredSine = 1e-28;  // keeps a ray that just grazes finite
-// Of x of turning_field.h, from an end of the link to a boundary: nearer, rays are left as they are by and by.
+// Of x of turning_field.h, from an end of the link to a boundary: nearer, rays are left as they are by and
+// by.
 constexpr double kNearBoundary = 1, kEndReach = 2;
 
-// Snell's law: with cos = xi c and xi = cos* / c*, sin^2 = ((c* - c)(c* + c) + sin*^2 c^2) / c*^2, sin* at the barrier.
+// Snell's law: with cos = xi c and xi = cos* / c*, sin^2 = ((c* - c)(c* + c) + sin*^2 c^2) / c*^2, sin* at
+// the barrier.
 struct SineAt {
   double barrier, inverse_barrier_squared, squared_sine;
   // Below 0 where the ray turns before.

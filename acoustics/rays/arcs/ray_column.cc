@@ -27,7 +27,8 @@ void RayColumn::set(double xi) {
     const double cosine = xi * speed[i], square = (1 - cosine) * (1 + cosine);
     sine[i] = std::sqrt(square > 0 ? square : 0.0);
   }
-  // dr = K xi / (s1 + s2) and d(dr)/dxi = K / ((s1 + s2) s1 s2), K = h (c1 + c2), as in acoustics/math/arc_math.h.
+  // dr = K xi / (s1 + s2) and d(dr)/dxi = K / ((s1 + s2) s1 s2), K = h (c1 + c2), as in
+  // acoustics/math/arc_math.h.
   for (std::size_t i = 0; i < layers; ++i) {  // meaningless, and never read, where the ray turns
     const double product = sine[i] * sine[i + 1];
     slope[i] = weight[i] / ((sine[i] + sine[i + 1]) * product);
@@ -44,8 +45,8 @@ void RayColumn::sum_excursion() {
     slope += slope_[knot - 1];
   }
   excursion_.turns = knot > 0;
-  if (excursion_
-          .turns) {  // the arc through the turn: sin / (xi |g|) to its vertex, -1 / (g xi^2 sin) its derivative
+  if (excursion_.turns) {  // the arc through the turn: sin / (xi |g|) to its vertex, -1 / (g xi^2 sin) its
+                           // derivative
     const double g = std::abs(water_.gradients_per_s()[knot - 1]);
     range += sine_[knot] / (xi_ * g);
     slope -= 1 / (g * xi_ * xi_ * sine_[knot]);

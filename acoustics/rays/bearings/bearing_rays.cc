@@ -30,7 +30,8 @@ constexpr double kTurned = 1;    // rad between the phases of two rays: beyond, 
 
 double mixed(double a, double b, double share) { return a + share * (b - a); }
 
-// No narrower than at a fold. tube_slope(0)^6 = 0.25 d2u^4 / (omega dp)^2 tells without roots where that is far from so.
+// No narrower than at a fold. tube_slope(0)^6 = 0.25 d2u^4 / (omega dp)^2 tells without roots where that is
+// far from so.
 double held_wide(double slope, const Fold& fold, double frequency_hz) {
   const double square = slope * slope, bent = fold.curvature * fold.curvature;
   const double turned = 2 * pi * frequency_hz * fold.slowness_slope;
@@ -165,7 +166,8 @@ Arrival BearingRays::between(const Range& range, std::size_t b, double target, d
   return path;
 }
 
-// Of the rays `b` and the one before it, between which zeta turns: as a parabola about the turn (acoustics/math/fold_field.h).
+// Of the rays `b` and the one before it, between which zeta turns: as a parabola about the turn
+// (acoustics/math/fold_field.h).
 void BearingRays::add_fold(const Range& range, std::size_t b, double target, double frequency_hz,
                            std::vector<Arrival>& paths) {
   const Ray &one = range.rays[b - 1], &other = range.rays[b];

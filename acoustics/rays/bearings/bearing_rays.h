@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rays of one bearing, traced once for receivers at many ranges and depths: for maps, whose links need not be exact one by one.
+// The rays of one bearing, traced once for receivers at many ranges and depths: for maps, whose links need
+// not be exact one by one.
 //
-// Method: one even fan, ten times as close as that a search begins with, is traced past all ranges. The paths of a receiver are
-// interpolated between the two rays of one history on both sides of each of its images in unfolded depth zeta
-// (acoustics/rays/arc_tracer.h): launch angle and delay by cubics of zeta with the slopes of both rays,
+// Method: one even fan, ten times as close as that a search begins with, is traced past all ranges. The paths
+// of a receiver are interpolated between the two rays of one history on both sides of each of its images in
+// unfolded depth zeta (acoustics/rays/arc_tracer.h): launch angle and delay by cubics of zeta with the slopes
+// of both rays,
 //   d theta / d zeta = 1 / (d zeta / d theta),  d delay / d zeta = +-sin / c,
-// the spreading by the slope of the former, 1 / A^2 ~ |d zeta / d theta|, at least a fifth and at most five times that between the two
-// rays; all else is linear. Where two neighbours differ in their history, each serves the images within one step of it on the side of the
-// other.
+// the spreading by the slope of the former, 1 / A^2 ~ |d zeta / d theta|, at least a fifth and at most five
+// times that between the two rays; all else is linear. Where two neighbours differ in their history, each
+// serves the images within one step of it on the side of the other.
 //
-// Left out: paths that lie between rays further apart, windows of diffuse sound, waves beyond folds. Water that changes along the link
-// is not known to it: such links are searched one by one, as are those at ranges that it was not made for.
-// Error beside profile_rays(): tests/acoustics/rays/bearings/bearing_rays_test.cc.
+// Left out: paths that lie between rays further apart, windows of diffuse sound, waves beyond folds. Water
+// that changes along the link is not known to it: such links are searched one by one, as are those at ranges
+// that it was not made for. Error beside profile_rays(): tests/acoustics/rays/bearings/bearing_rays_test.cc.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lockstep steps per second: a conductor and N participants, each a process of its own, over udpm on loopback.
+// Lockstep steps per second: a conductor and N participants, each a process of its own, over udpm on
+// loopback.
 //
 // All participants are due at every step and publish one vehicle state each, which the conductor puts in
-// order; none subscribes to another (a received message costs its bytes in the grant). The first argument is N, the
-// second the share of datagrams that each participant and the conductor drop, in percent. scripts/bench provides a
-// private bus.
+// order; none subscribes to another (a received message costs its bytes in the grant). The first argument is
+// N, the second the share of datagrams that each participant and the conductor drop, in percent.
+// scripts/bench provides a private bus.
 #include <csignal>
 #include <cstdint>
 #include <memory>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What rows of link tables cost beside their paths: predictions of all rates of a row, for the rows of 60 s of scenarios.
+// What rows of link tables cost beside their paths: predictions of all rates of a row, for the rows of 60 s
+// of scenarios.
 #include <memory>
 #include <string>
 #include <utility>

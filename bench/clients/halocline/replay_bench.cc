@@ -62,7 +62,8 @@ void read_log(benchmark::State& state) {
 }
 BENCHMARK(read_log)->Unit(benchmark::kMillisecond);
 
-// Every vehicle lies still, publishes its state five times a second and broadcasts once a second for a minute.
+// Every vehicle lies still, publishes its state five times a second and broadcasts once a second for a
+// minute.
 Recording chatter(int vehicles) {
   Recording recording;
   recording.end = SimTime::from_seconds(60);

@@ -35,7 +35,8 @@ struct PlaceFix {
   double deviation_m = 0;
 };
 
-// `attitude` and `own_z_m` of the vehicle at the reception. Empty where the sound came from straight above or below.
+// `attitude` and `own_z_m` of the vehicle at the reception. Empty where the sound came from straight above or
+// below.
 std::optional<PlaceFix> place_by_beacon(const AcousticFixRules& rules, const Vec3& beacon_ned_m,
                                         const BeaconMeasurement& measured, const EulerAngles& attitude,
                                         double own_z_m);

@@ -51,8 +51,8 @@ class Navigator {
 
   // Samples come in order of time; one that is not later than the last is ignored.
   void add(const NavigationSample& sample);
-  // A position measured at the latest sample, or at `time_s`; `deviation_m` of each axis, above 0. One from before
-  // the history is ignored.
+  // A position measured at the latest sample, or at `time_s`; `deviation_m` of each axis, above 0. One from
+  // before the history is ignored.
   void fix(double north_m, double east_m, double deviation_m);
   void fix(double north_m, double east_m, double deviation_m, double time_s);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle with a modem, of LCM and the message types alone. It circles, announces its modem, sends packets, and prints what
-// becomes of them and what it receives. By hand, from the root of the tree (docs/extending.md has the same in other languages):
+// A vehicle with a modem, of LCM and the message types alone. It circles, announces its modem, sends packets,
+// and prints what becomes of them and what it receives. By hand, from the root of the tree (docs/extending.md
+// has the same in other languages):
 //
 //   $ mkdir -p build/mine && lcm-gen --cpp --cpp-std c++11 --cpp-hpath build/mine lcmtypes/*.lcm
 //   $ g++ -std=c++17 -I build/mine clients/examples/cpp/foreign_vehicle.cc -llcm -o build/mine/vehicle_cpp

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pure ALOHA (Abramson 1970): a frame is transmitted at once, or when the own transmission under way has ended.
+// Pure ALOHA (Abramson 1970): a frame is transmitted at once, or when the own transmission under way has
+// ended.
 //
-// With Poisson arrivals of G packets per packet's duration at a common receiver, no capture: S = G exp(-2 G) (Abramson 1970).
+// With Poisson arrivals of G packets per packet's duration at a common receiver, no capture: S = G exp(-2 G)
+// (Abramson 1970).
 #include <memory>
 #include <utility>
 

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ALOHA with collision avoidance (Chirdchoo, Soh and Chua 2007): a vehicle knows how long sound takes between all vehicles, and learns of
-// each packet that it overhears who sent it and for whom. It so knows when sound is wherever it is to be received, and sends
-// nothing that would meet it there.
+// ALOHA with collision avoidance (Chirdchoo, Soh and Chua 2007): a vehicle knows how long sound takes between
+// all vehicles, and learns of each packet that it overhears who sent it and for whom. It so knows when sound
+// is wherever it is to be received, and sends nothing that would meet it there.
 //
-// A packet from i to j whose last bit arrives here at e left i at e - t_i - L, with t_i the travel time to here and L its
-// duration; it sounds at k from then + t_ik on, for L. A frame to d of duration P is not sent at t where
+// A packet from i to j whose last bit arrives here at e left i at e - t_i - L, with t_i the travel time to
+// here and L its duration; it sounds at k from then + t_ik on, for L. A frame to d of duration P is not sent
+// at t where
 //   i = d: d transmits while the frame would arrive, [t + t_d, t + t_d + P)
 //   any:   the packet sounds at d then, or the frame would sound at j (not 0) while j receives the packet
-// It is tried again after a random wait, `tries` times in all. What is sent so late that its header is not received yet
-// collides all the same: the protocol gains where sound takes long against headers, and from vehicles on the way of others' sound.
-// Without a header of its own (header_bits of [modem]) a packet is known at its last bit.
+// It is tried again after a random wait, `tries` times in all. What is sent so late that its header is not
+// received yet collides all the same: the protocol gains where sound takes long against headers, and from
+// vehicles on the way of others' sound. Without a header of its own (header_bits of [modem]) a packet is
+// known at its last bit.
 #include <algorithm>
 #include <cstdint>
 #include <memory>

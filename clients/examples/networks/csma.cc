@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Non-persistent carrier sense multiple access (Kleinrock and Tobagi 1975): a frame is transmitted when no carrier is sensed; else the
-// channel is sensed again after a random wait, `tries` times in all.
+// Non-persistent carrier sense multiple access (Kleinrock and Tobagi 1975): a frame is transmitted when no
+// carrier is sensed; else the channel is sensed again after a random wait, `tries` times in all.
 //
-// With a, the travel time over the packet's duration, and G attempts per packet's duration: S = G exp(-a G) / (G (1 + 2 a) +
-// exp(-a G)), all vehicles at the travel time a from each other. Carrier is the modem's: the sound of others above its level.
+// With a, the travel time over the packet's duration, and G attempts per packet's duration: S = G exp(-a G) /
+// (G (1 + 2 a) + exp(-a G)), all vehicles at the travel time a from each other. Carrier is the modem's: the
+// sound of others above its level.
 #include <memory>
 #include <utility>
 

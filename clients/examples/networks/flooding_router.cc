@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flooding: every vehicle passes every packet on once, after a random wait (clients/traffic/relay.h has the model).
+// Flooding: every vehicle passes every packet on once, after a random wait (clients/traffic/relay.h has the
+// model).
 #include <algorithm>
 #include <cstdint>
 #include <memory>

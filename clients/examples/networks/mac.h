@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Medium access control: when a vehicle transmits the frames that wait in its queue.
 //
-// A protocol is a class with attempt(), which is called when the first frame is due, and what else it needs of what the modem
-// receives and notices. Frames are transmitted one after the other, first in first out; one that comes while kMaxWaiting wait is
-// dropped. Values in, values out: the node (network_node.h) passes messages and time, all of it by the
-// vehicle's clock.
+// A protocol is a class with attempt(), which is called when the first frame is due, and what else it needs
+// of what the modem receives and notices. Frames are transmitted one after the other, first in first out; one
+// that comes while kMaxWaiting wait is dropped. Values in, values out: the node (network_node.h) passes
+// messages and time, all of it by the vehicle's clock.
 #pragma once
 
 #include <cstddef>

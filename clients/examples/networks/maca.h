@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MACA (Karn 1990): a short request to send, the receiver's short leave to send, then the data; who overhears them is silent meanwhile.
+// MACA (Karn 1990): a short request to send, the receiver's short leave to send, then the data; who overhears
+// them is silent meanwhile.
 //
-// The first byte of each of its packets tells them apart. A request that is not answered within `handshake` is repeated after a
-// random wait, `tries` times in all. Who overhears a request is silent for `handshake`, who overhears a leave for `exchange`: the
-// one time holds the request, the leave and twice the greatest travel time, the other the data and twice the greatest travel time. The modem has
-// to be promiscuous. Frames to all are sent without a handshake. Left out: acknowledgement.
+// The first byte of each of its packets tells them apart. A request that is not answered within `handshake`
+// is repeated after a random wait, `tries` times in all. Who overhears a request is silent for `handshake`,
+// who overhears a leave for `exchange`: the one time holds the request, the leave and twice the greatest
+// travel time, the other the data and twice the greatest travel time. The modem has to be promiscuous. Frames
+// to all are sent without a handshake. Left out: acknowledgement.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sections [network] and [vehicle.network] of a scenario file: protocols and offered load of the example networks.
+// The sections [network] and [vehicle.network] of a scenario file: protocols and offered load of the example
+// networks.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +54,8 @@ struct NetworkConfig {
 
 void visit(bus::ConfigVisitor& v, NetworkConfig& config);
 
-// The id of a member; kBroadcastId for "all" and "". Throws InvalidArgument for a name that the scenario lacks.
+// The id of a member; kBroadcastId for "all" and "". Throws InvalidArgument for a name that the scenario
+// lacks.
 std::int32_t id_of(const NetworkConfig& config, const std::string& name);
 
 }  // namespace halocline::networks

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the example protocols for the vehicles of a scenario, on top of the modem library: each offers packets at random instants, a router
-// says to whom they go, a MAC when they are transmitted.
+// Runs the example protocols for the vehicles of a scenario, on top of the modem library: each offers packets
+// at random instants, a router says to whom they go, a MAC when they are transmitted.
 //
 // Protocols run in the vehicle's own time (clients/clocks/vehicle_time.h): what the modem says is told to
 // them by the vehicle's clock, and their deadlines are turned into simulation time. Packets are offered as a

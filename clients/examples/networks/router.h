@@ -44,7 +44,8 @@ class Router {
   RouterPort port_;
 };
 
-// Of the vehicle `own_id`; `next_hop`: the neighbour that all packets go to; 0: they go to their destinations directly.
+// Of the vehicle `own_id`; `next_hop`: the neighbour that all packets go to; 0: they go to their destinations
+// directly.
 std::unique_ptr<Router> make_static_router(RouterPort port, std::int32_t own_id, std::int32_t next_hop);
 std::unique_ptr<Router> make_flooding_router(RouterPort port, std::int32_t own_id, const NetworkRules& rules,
                                              std::uint64_t seed);

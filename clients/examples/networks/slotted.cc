@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MACs whose frames leave at the begin of a slot: slotted ALOHA (Roberts 1975) in any slot, TDMA in the vehicle's own.
+// MACs whose frames leave at the begin of a slot: slotted ALOHA (Roberts 1975) in any slot, TDMA in the
+// vehicle's own.
 //
 // Slots begin at multiples of `slot`, by the vehicle's clock. A slot that began more than a tenth of it ago,
 // because the clock was set ahead or the step came late, is left out: its end would not hold the packet.

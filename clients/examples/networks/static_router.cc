@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Static routing: each vehicle hands all packets to one neighbour, as in a tree towards a sink; without one, to their destinations.
+// Static routing: each vehicle hands all packets to one neighbour, as in a tree towards a sink; without one,
+// to their destinations.
 #include <algorithm>
 #include <cstdint>
 #include <memory>

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// T-Lohi, conservative and unsynchronised (Syed, Ye and Heidemann 2008): vehicles contend for the channel with tones; who hears no
-// other's tone in a contention round sends its data.
+// T-Lohi, conservative and unsynchronised (Syed, Ye and Heidemann 2008): vehicles contend for the channel
+// with tones; who hears no other's tone in a contention round sends its data.
 //
-// A round begins with the own tone, a short packet, and lasts R = `contention`, at least the tone and twice the greatest
-// travel time T. Other tones are heard as carrier. A vehicle that heard some in its round counts them, n, and waits a random number of
-// 0 to n rounds before it contends again. One that hears a tone while it does not contend is out of the frame: it
-// waits until data have been received (the modem has to be promiscuous), or for kFrameRounds without another tone.
+// A round begins with the own tone, a short packet, and lasts R = `contention`, at least the tone and twice
+// the greatest travel time T. Other tones are heard as carrier. A vehicle that heard some in its round counts
+// them, n, and waits a random number of 0 to n rounds before it contends again. One that hears a tone while
+// it does not contend is out of the frame: it waits until data have been received (the modem has to be
+// promiscuous), or for kFrameRounds without another tone.
 //
-// One winner. Let X hear nothing in the round that its tone at time 0 begins, and Y send a tone at s >= 0, the sound taking d <= T between
-// them. If s < d, X hears that tone at s + d < 2 T, within its round. If s >= d, Y heard X's tone and is silent for R from
-// then on, when X's data arrive. So no data collide where all vehicles hear each other. At the best, one vehicle
-// alone, the utilisation is t_data / (t_data + R + kGap).
+// One winner. Let X hear nothing in the round that its tone at time 0 begins, and Y send a tone at s >= 0,
+// the sound taking d <= T between them. If s < d, X hears that tone at s + d < 2 T, within its round. If s >=
+// d, Y heard X's tone and is silent for R from then on, when X's data arrive. So no data collide where all
+// vehicles hear each other. At the best, one vehicle alone, the utilisation is t_data / (t_data + R + kGap).
 //
-// Tones that overlap are one carrier: a carrier of the duration c counts as c / t_tone, rounded up. So n is never more than there were, less
-// where tones fall together, as where a receiver of tones counts detections; fewer rounds to choose from cost repeated contentions, not data.
-// Who has sent data leaves the
+// Tones that overlap are one carrier: a carrier of the duration c counts as c / t_tone, rounded up. So n is
+// never more than there were, less where tones fall together, as where a receiver of tones counts detections;
+// fewer rounds to choose from cost repeated contentions, not data. Who has sent data leaves the
 // others kGap to contend first. Frames to all are sent as those to one.
 #include <algorithm>
 #include <cmath>

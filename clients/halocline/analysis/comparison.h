@@ -79,7 +79,8 @@ class Comparison {
 
 // For a person: totals, transitions, what moved, and the first changed packets.
 void print(std::ostream& out, const Comparison& comparison);
-// One object: totals, "transitions", "moved", and "rows": every changed packet with the numbers of both outcomes.
+// One object: totals, "transitions", "moved", and "rows": every changed packet with the numbers of both
+// outcomes.
 std::string to_json(const Comparison& comparison);
 // One row a packet and receiver, changed or not.
 void print_csv(std::ostream& out, const Comparison& comparison);

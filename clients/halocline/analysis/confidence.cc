@@ -16,7 +16,8 @@
 namespace halocline::clients {
 namespace {
 
-// In doubles throughout: tables that Boost fills at start-up in long doubles overflow under valgrind, which has none.
+// In doubles throughout: tables that Boost fills at start-up in long doubles overflow under valgrind, which
+// has none.
 using Doubles = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 using Normal = boost::math::normal_distribution<double, Doubles>;
 using StudentsT = boost::math::students_t_distribution<double, Doubles>;

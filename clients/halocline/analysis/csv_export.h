@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Turns a log into CSV: a file for each channel family, a row for each message.
 //
-// The columns are event (its number in the log), stamp_us, channel, then the message's fields. A field that is a
-// fixed array has a column for each element (position_ned_m_0, ...); a message with lists (the peers of a link
-// table, the layers of a profile) has a row for each element, its other fields repeated. Payloads are hexadecimal.
-// Numbers are written in the shortest form that reads back as the same double.
+// The columns are event (its number in the log), stamp_us, channel, then the message's fields. A field that
+// is a fixed array has a column for each element (position_ned_m_0, ...); a message with lists (the peers of
+// a link table, the layers of a profile) has a row for each element, its other fields repeated. Payloads are
+// hexadecimal. Numbers are written in the shortest form that reads back as the same double.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct ExportResult {
   std::int64_t undecodable = 0;                      // on our channels, but no sound message
 };
 
-// Exports the events whose channel matches `channel_pattern` (a regular expression of RE2 for the whole name; empty:
-// all) into `folder`, which is made when it is missing; files of an earlier export are removed. Throws
+// Exports the events whose channel matches `channel_pattern` (a regular expression of RE2 for the whole name;
+// empty: all) into `folder`, which is made when it is missing; files of an earlier export are removed. Throws
 // InvalidArgument for a bad pattern, std::runtime_error when a file cannot be written.
 ExportResult export_csv(LogReader& log, const std::string& folder, const std::string& channel_pattern = "");
 

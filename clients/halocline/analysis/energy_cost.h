@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a byte costs in joules, by the modem that sent it and the distance: of vehicles with batteries.
 //
-// Counted are outcomes at the packet's destination, or at each possible receiver where it went to all: the energy of the transmission, whole
-// for each, that of the reception, and the payload where it was received. Distances are in octaves: up to 250 m, to 500 m, to 1000 m,
-// and so on.
+// Counted are outcomes at the packet's destination, or at each possible receiver where it went to all: the
+// energy of the transmission, whole for each, that of the reception, and the payload where it was received.
+// Distances are in octaves: up to 250 m, to 500 m, to 1000 m, and so on.
 #pragma once
 
 #include <cstdint>

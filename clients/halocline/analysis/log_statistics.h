@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Statistics of a run, counted from its messages: for the end of `halocline run` and for `halocline log info`.
+// Statistics of a run, counted from its messages: for the end of `halocline run` and for `halocline log
+// info`.
 #pragma once
 
 #include <array>

@@ -22,8 +22,8 @@ struct MissionLog {
   bool is_whole = true;              // as report_damage has it
 };
 
-// Reads the logs (the parts of one, in order) twice: for the times, then for all. Where they do not hold the scenario its
-// text is taken from the configuration beside the first. Throws as LogReader.
+// Reads the logs (the parts of one, in order) twice: for the times, then for all. Where they do not hold the
+// scenario its text is taken from the configuration beside the first. Throws as LogReader.
 MissionLog read_mission(const std::vector<std::string>& logs, MissionLimits limits = {});
 
 // The configuration that the run of these logs recorded: in them, or else beside the first. Throws

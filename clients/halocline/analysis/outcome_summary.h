@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The packet outcomes of a run: one for every packet at every possible receiver, counted by outcome, pair and time.
+// The packet outcomes of a run: one for every packet at every possible receiver, counted by outcome, pair and
+// time.
 //
-// Counted from the OUTCOMEs of a log; each (packet, receiver) counts once, however often its outcome stands in the
-// log (a recorder may receive a repetition). Counted by what their paths were computed with as well: packets of one
-// run differ in it where the seabed was not known to some. Vehicles go by the names of their STATE channels, or by their ids
-// where no state was recorded.
+// Counted from the OUTCOMEs of a log; each (packet, receiver) counts once, however often its outcome stands
+// in the log (a recorder may receive a repetition). Counted by what their paths were computed with as well:
+// packets of one run differ in it where the seabed was not known to some. Vehicles go by the names of their
+// STATE channels, or by their ids where no state was recorded.
 #pragma once
 
 #include <compare>

@@ -97,8 +97,8 @@ struct Collector {
   }
 };
 
-// Stamps with those that break the order replaced: the longest ascending selection stays (patience sorting); and what
-// lies more than a day behind the last of it.
+// Stamps with those that break the order replaced: the longest ascending selection stays (patience sorting);
+// and what lies more than a day behind the last of it.
 std::vector<std::int64_t> in_order(const std::vector<std::int64_t>& stamps) {
   std::vector<std::size_t> tails, before(stamps.size());  // tails[n]: last of the best selection of n + 1
   for (std::size_t i = 0; i < stamps.size(); ++i) {

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The messages of a recorded log that are replayed: states, transmissions, modems and changes of the environment, each
-// at its time.
+// The messages of a recorded log that are replayed: states, transmissions, modems and changes of the
+// environment, each at its time.
 //
-// With `what` kWithEquipment also GPS, BATTERY and SENSORS, by which the clocks, batteries and propellers of vehicles go.
+// With `what` kWithEquipment also GPS, BATTERY and SENSORS, by which the clocks, batteries and propellers of
+// vehicles go.
 //
 // Answers in the log (LINKS, RECEIPT, OUTCOME, ...) are not replayed. Times depend on the recorder:
 //
-// - A lockstep run stamps its log with simulation time: messages are played at their stamps, in their order. A stamp
-//   that breaks their order was damaged and counts as the one before it.
-// - Any other log (lcm-logger's, one recorded at sea) goes by the messages' own utime: STATE, MODEM, LISTEN and
-//   SET_ENVIRONMENT when they hold, SEND when it starts. A utime more than 30 days from the median of all states' comes
-//   from another clock (or from none: 0): such a message is played at the latest valid utime that the log had reached.
-//   When no state has a time, all go by the stamps.
-// - Such a log whose first message is later than a day (Unix time, a machine's uptime) is shifted: its first whole second
-//   becomes 0, `zero` is what it was, and every utime of what is played shifts with it.
+// - A lockstep run stamps its log with simulation time: messages are played at their stamps, in their order.
+//   A stamp that breaks their order was damaged and counts as the one before it.
+// - Any other log (lcm-logger's, one recorded at sea) goes by the messages' own utime: STATE, MODEM, LISTEN
+//   and SET_ENVIRONMENT when they hold, SEND when it starts. A utime more than 30 days from the median of all
+//   states' comes from another clock (or from none: 0): such a message is played at the latest valid utime
+//   that the log had reached. When no state has a time, all go by the stamps.
+// - Such a log whose first message is later than a day (Unix time, a machine's uptime) is shifted: its first
+//   whole second becomes 0, `zero` is what it was, and every utime of what is played shifts with it.
 //
-// Fields that a foreign vehicle leaves out are filled in: a vehicle_id or source_id of 0 is the scenario's for that name,
-// otherwise the least that is free; an orientation of all zeros is level and towards north. Modems are the
-// scenario's, its standard one for other names. All of it is counted.
+// Fields that a foreign vehicle leaves out are filled in: a vehicle_id or source_id of 0 is the scenario's
+// for that name, otherwise the least that is free; an orientation of all zeros is level and towards north.
+// Modems are the scenario's, its standard one for other names. All of it is counted.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where commands leave what they make: the files of a run, and the rule that no command replaces what is there unasked.
+// Where commands leave what they make: the files of a run, and the rule that no command replaces what is
+// there unasked.
 #pragma once
 
 #include <string>
@@ -27,15 +28,16 @@ struct Outputs {
   bool may_replace = false;
 };
 
-// Throws InvalidArgument where one of `outputs` holds something already and may not be replaced, and always where it is
-// one of `inputs`, the files that the command reads. Devices and pipes may be written, and what is empty.
+// Throws InvalidArgument where one of `outputs` holds something already and may not be replaced, and always
+// where it is one of `inputs`, the files that the command reads. Devices and pipes may be written, and what
+// is empty.
 void require_free(const Outputs& outputs, const std::vector<std::string>& inputs = {});
 
 // The log of this name and the parts of it that are there (rotated logs have several).
 std::vector<std::string> files_of_log(const std::string& path);
 
-// A new folder for the results of a run: `base`, or "base-2", "base-3", ..., the first that is not there yet. Throws
-// std::runtime_error when it cannot be made.
+// A new folder for the results of a run: `base`, or "base-2", "base-3", ..., the first that is not there yet.
+// Throws std::runtime_error when it cannot be made.
 std::string make_new_folder(const std::string& base);
 
 // The log of a run's folder: of `path` where that is a folder, otherwise `path` as it is. Throws

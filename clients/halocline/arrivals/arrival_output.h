@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrivals as people and programs read them: a table, CSV with the columns of the reference arrivals, or JSON.
+// Arrivals as people and programs read them: a table, CSV with the columns of the reference arrivals, or
+// JSON.
 #pragma once
 
 #include <iosfwd>
@@ -37,11 +38,11 @@ struct LinkArrivals {
   std::optional<DelaySpreads> spreads = {};  // with known modems
 };
 
-// CSV: one row a path: src_depth_m, rcv_depth_m, rcv_range_m, index (by delay, from 0), delay_s, amplitude (re 1 m,
-// without absorption), phase_deg (0..360), launch_angle_deg, arrival_angle_deg (positive down), n_surface, n_bottom,
-// n_caustic, path_length_m, absorption_db, surface_loss_db, bottom_loss_db, diffuse (1: not one path, but the many weak
-// ones of a window of angles, by their power); with known modems also level_db and doppler_factor. A link without a path
-// has no row.
+// CSV: one row a path: src_depth_m, rcv_depth_m, rcv_range_m, index (by delay, from 0), delay_s, amplitude
+// (re 1 m, without absorption), phase_deg (0..360), launch_angle_deg, arrival_angle_deg (positive down),
+// n_surface, n_bottom, n_caustic, path_length_m, absorption_db, surface_loss_db, bottom_loss_db, diffuse (1:
+// not one path, but the many weak ones of a window of angles, by their power); with known modems also
+// level_db and doppler_factor. A link without a path has no row.
 // JSON: a list of links, each with its solver, shadow (true or false), summary and paths, by the same
 // names; without a path its cause: shadow, blocked, too weak or too steep.
 // Level of a path: received, dB re 1 uPa, where the modems are known, else dB re the source level.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sea of a search for eigenrays, from options of the command line and tables (CSV): water, bottom, surface, links.
+// The sea of a search for eigenrays, from options of the command line and tables (CSV): water, bottom,
+// surface, links.
 //
 // Files, with the column names of the reference arrivals (other columns are ignored):
-//   water   depth_m, sound_speed_mps (linear between rows, taken as it is), or temperature and salinity, or a grid:
-//           whatever acoustics/sea/profile_reader.h reads; or the name of a built-in profile
+//   water   depth_m, sound_speed_mps (linear between rows, taken as it is), or temperature and salinity, or a
+//           grid: whatever acoustics/sea/profile_reader.h reads; or the name of a built-in profile
 //   bottom  range_m, depth_m: the profile along the link, ranges rising from the source
 //   links   src_depth_m, rcv_depth_m, rcv_range_m
 // Units here are those that users write; they turn into SI at this edge.

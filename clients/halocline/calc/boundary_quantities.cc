@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Quantities of the sea's boundaries: reflection at the bottom, loss at the surface, its waves and their roughness.
+// Quantities of the sea's boundaries: reflection at the bottom, loss at the surface, its waves and their
+// roughness.
 #include <numbers>
 #include <string>
 #include <string_view>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The calculator behind `halocline calc`: a table in, the same table with computed columns appended out.
 //
-// Rows keep their order, columns their text. A result whose column is already there is written as `computed_<name>`,
-// so that a reference table comes back with both side by side. Numbers are written in the shortest form that reads
-// back as the same double. Every bad cell is reported with line, column and what is allowed, all in one run, and then
-// nothing is written. Values beyond the range for which a formula was published are computed all the same; one line of
-// messages says so.
+// Rows keep their order, columns their text. A result whose column is already there is written as
+// `computed_<name>`, so that a reference table comes back with both side by side. Numbers are written in the
+// shortest form that reads back as the same double. Every bad cell is reported with line, column and what is
+// allowed, all in one run, and then nothing is written. Values beyond the range for which a formula was
+// published are computed all the same; one line of messages says so.
 //
 //   std::istringstream in("T_degC,S_ppt,depth_m\n25,35,1000\n");
 //   const int code = run_calc({.quantity = "sound-speed"}, in, std::cout, std::cerr);
@@ -30,7 +30,8 @@ inline constexpr int kCalcBadRequest = 2;  // the options: no such quantity, mod
 [[nodiscard]] int run_calc(const CalcOptions& options, std::istream& in, std::ostream& out,
                            std::ostream& err);
 
-// Names of all quantities, and the models of one (empty when there is no such quantity): for help and completion.
+// Names of all quantities, and the models of one (empty when there is no such quantity): for help and
+// completion.
 std::vector<std::string> quantity_names();
 std::vector<std::string> model_names(const std::string& quantity);
 

@@ -31,9 +31,9 @@ InputColumn shipping_column();   // default 0.5
 InputColumn wind_column();       // default 0
 InputColumn latitude_column();   // default 45
 
-// The five values that absorption may depend on, in the order T_degC, S_ppt, depth_m, P_atm, pH, and the water they
-// make. A formula reads the columns it knows of: Fisher and Simmons have no salinity and no pH, Thorp nothing at all.
-// P_atm, where it is not given, follows from depth_m at 45 degrees.
+// The five values that absorption may depend on, in the order T_degC, S_ppt, depth_m, P_atm, pH, and the
+// water they make. A formula reads the columns it knows of: Fisher and Simmons have no salinity and no pH,
+// Thorp nothing at all. P_atm, where it is not given, follows from depth_m at 45 degrees.
 std::vector<InputColumn> absorbing_water_columns(acoustics::AbsorptionModel model);
 acoustics::AbsorbingWater to_absorbing_water(const std::vector<double>& values, std::size_t first);
 

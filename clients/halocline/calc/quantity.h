@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What `halocline calc` can compute: a description of every quantity, its formulas and its columns.
 //
-// A quantity has one or more forms, one a formula (`--model`). A form names the columns it reads, with unit and
-// allowed range, those it may do without, and the columns it writes; names are those of the reference tables,
-// units in them (kHz, degC, dB re 1 uPa ...): this is the edge where they turn into SI.
+// A quantity has one or more forms, one a formula (`--model`). A form names the columns it reads, with unit
+// and allowed range, those it may do without, and the columns it writes; names are those of the reference
+// tables, units in them (kHz, degC, dB re 1 uPa ...): this is the edge where they turn into SI.
 #pragma once
 
 #include <functional>

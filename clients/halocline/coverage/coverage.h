@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How well a vehicle or a place is heard over an area, at several depths: a map of links from one end.
 //
-// Model: each cell and depth is the link from `from` to a receiver with the scenario's modem at rest in the middle of the cell,
-// computed as `halocline link` does (scenario/link_surveyor.h). Over terrain each cell has a bottom profile, and links may share rays
-// (RaySharing): the depths of a cell, or the cells of a bearing, of which there are so many that neighbours are a cell apart at the
-// furthest corner. Where the water depends on depth alone and the terrain is level, links of one range are the same, and those
-// of ranges within a cell are interpolated where that is verified (sampling.h).
+// Model: each cell and depth is the link from `from` to a receiver with the scenario's modem at rest in the
+// middle of the cell, computed as `halocline link` does (scenario/link_surveyor.h). Over terrain each cell
+// has a bottom profile, and links may share rays (RaySharing): the depths of a cell, or the cells of a
+// bearing, of which there are so many that neighbours are a cell apart at the furthest corner. Where the
+// water depends on depth alone and the terrain is level, links of one range are the same, and those of ranges
+// within a cell are interpolated where that is verified (sampling.h).
 //
-// Error beside `link`. Over level ground, of what is asked for: delivery 0.002, level 0.03 dB, delay 0.3 us as the tolerance of the
-// interpolation. Over terrain none, unless rays are shared: by depths then that of paths (acoustics/rays/column_rays.h), but for one cell
-// in some hundred where one of two searches misses a path at a fold or the edge of a shadow; by bearings what
-// acoustics/rays/bearings/bearing_rays.h leaves out, and the terrain within half a cell. tests/clients/halocline/coverage has what 1000 random
-// cells differ by.
+// Error beside `link`. Over level ground, of what is asked for: delivery 0.002, level 0.03 dB, delay 0.3 us
+// as the tolerance of the interpolation. Over terrain none, unless rays are shared: by depths then that of
+// paths (acoustics/rays/column_rays.h), but for one cell in some hundred where one of two searches misses a
+// path at a fold or the edge of a shadow; by bearings what acoustics/rays/bearings/bearing_rays.h leaves out,
+// and the terrain within half a cell. tests/clients/halocline/coverage has what 1000 random cells differ by.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +41,8 @@ struct QuantityMeaning {
   const char* meaning;  // what it is
 };
 const QuantityMeaning& meaning_of(CoverageQuantity quantity);
-// "delivery,snr". Throws InvalidArgument, with what is allowed, for other names, for none and for one named twice.
+// "delivery,snr". Throws InvalidArgument, with what is allowed, for other names, for none and for one named
+// twice.
 std::vector<CoverageQuantity> quantities_of(const std::string& names);
 
 // Square cells about a middle, which is a corner of four; `depths_m` below the sea surface, rising.
@@ -62,7 +64,8 @@ std::vector<double> depths_of(const std::string& text);
 
 struct Coverage {
   CoverageArea area;
-  // Of each depth, row by row from the south, each from the west. NaN where there is no known seabed or no water.
+  // Of each depth, row by row from the south, each from the west. NaN where there is no known seabed or no
+  // water.
   std::vector<std::vector<double>> delivery, level_db, delay_s;
   double noise_level_db = 0;  // over the band of the modem
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps of coverage as GeoTIFF and as contours in GeoJSON, through GDAL. Part of the module halocline_coverage_files.so, which only
-// coverage_files.cc loads.
+// Maps of coverage as GeoTIFF and as contours in GeoJSON, through GDAL. Part of the module
+// halocline_coverage_files.so, which only coverage_files.cc loads.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

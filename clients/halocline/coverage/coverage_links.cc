@@ -15,8 +15,8 @@
 namespace halocline::clients {
 namespace {
 
-// The first and the last of so many, then the middles of what lies between, of halves, of quarters: paths are interpolated between
-// those of depths above and below.
+// The first and the last of so many, then the middles of what lies between, of halves, of quarters: paths are
+// interpolated between those of depths above and below.
 std::vector<std::size_t> ends_first(std::size_t count) {
   if (count == 0) return {};
   std::vector<std::size_t> order{0};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Links from one end to receivers with the scenario's modem, wherever they are: what maps and tracks of coverage are made of.
+// Links from one end to receivers with the scenario's modem, wherever they are: what maps and tracks of
+// coverage are made of.
 #pragma once
 
 #include <cstddef>
@@ -26,9 +27,11 @@ namespace halocline::clients {
 
 // What links share of their rays over terrain.
 enum class RaySharing {
-  kNone,    // each has a search of its own, as `halocline link`
-  kDepths,  // depths of a place have one, and paths between depths are interpolated where that is verified (acoustics/rays/column_rays.h)
-  kBearings  // places of a bearing have one fan, along whose bearing the bottom is taken (acoustics/rays/bearings/bearing_rays.h)
+  kNone,     // each has a search of its own, as `halocline link`
+  kDepths,   // depths of a place have one, and paths between depths are interpolated where that is verified
+             // (acoustics/rays/column_rays.h)
+  kBearings  // places of a bearing have one fan, along whose bearing the bottom is taken
+             // (acoustics/rays/bearings/bearing_rays.h)
 };
 
 class CoverageLinks {
@@ -40,7 +43,8 @@ class CoverageLinks {
   };
   explicit CoverageLinks(const Scene& scene);
 
-  // Calls item(surveyor, i) for each i below `count`; `threads`, of which each has a surveyor, take every so many of them.
+  // Calls item(surveyor, i) for each i below `count`; `threads`, of which each has a surveyor, take every so
+  // many of them.
   void share(int threads, std::size_t count,
              const std::function<void(LinkSurveyor&, std::size_t)>& item) const;
   // Whether the water changes from place to place.
@@ -52,8 +56,8 @@ class CoverageLinks {
   void survey(const Vec3& to_ned_m, channel_server::SeabedMap& seabed) const;
   // The bottom to a place that was surveyed; null where links are straight.
   LinkSurveyor::Seabed bottom(const Vec3& to_ned_m, const channel_server::SeabedMap& seabed) const;
-  // Links to receivers above and below one place at each z of `z_m`, rising. Calls may overlap between threads, each with a surveyor
-  // and a line of its own; null: none are shared.
+  // Links to receivers above and below one place at each z of `z_m`, rising. Calls may overlap between
+  // threads, each with a surveyor and a line of its own; null: none are shared.
   std::vector<Sample> links(LinkSurveyor& surveyor, const Vec3& place_ned_m, const std::vector<double>& z_m,
                             const LinkSurveyor::Seabed& seabed, channel_server::SharedLine* line) const;
   // The same where no other place shares rays: its depths do, unless nothing is to be shared.

@@ -22,7 +22,8 @@ struct TrackPlace {
   double time_s = 0, north_m = 0, east_m = 0;
 };
 
-// A table of columns time_s, north_m and east_m (core/csv_table.h). Throws InvalidArgument with everything that is wrong.
+// A table of columns time_s, north_m and east_m (core/csv_table.h). Throws InvalidArgument with everything
+// that is wrong.
 std::vector<TrackPlace> read_track(const std::string& path);
 
 // Where a vehicle of the scenario goes: the scenario is run for it.
@@ -36,14 +37,16 @@ struct DepthChoice {
   Sample sample = {};  // there
 };
 
-// Each place has a bearing of its own, so that its depths alone share rays. At each place which of the depths, below the surface, hears `from` best, over the scenario's bottom.
+// Each place has a bearing of its own, so that its depths alone share rays. At each place which of the
+// depths, below the surface, hears `from` best, over the scenario's bottom.
 std::vector<DepthChoice> best_depths(const ScenarioConfig& config,
                                      const std::shared_ptr<const bathymetry::Terrain>& terrain,
                                      const LinkSurveyEnd& from, const std::vector<TrackPlace>& track,
                                      const std::vector<double>& depths_m, int threads,
                                      RaySharing sharing = RaySharing::kNone);
 
-// Columns time_s, north_m, east_m, best_depth_m, delivery, level_db, delay_s; empty cells where there is no water.
+// Columns time_s, north_m, east_m, best_depth_m, delivery, level_db, delay_s; empty cells where there is no
+// water.
 std::string track_csv(const std::vector<DepthChoice>& choices, const std::vector<double>& depths_m);
 
 // Best depth and delivery there against time. Throws as write_plot (plot/plot.h).

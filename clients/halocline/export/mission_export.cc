@@ -67,8 +67,8 @@ std::vector<SimTime> times_received(const MissionStore& mission) {
   return all;
 }
 
-// None from a minute after the last of what was received to the period of the next: a state a year later adds no
-// scenes of a year.
+// None from a minute after the last of what was received to the period of the next: a state a year later adds
+// no scenes of a year.
 void add_scenes(const MissionStore& mission, std::uint16_t channel, std::vector<Writing>& all) {
   constexpr SimDuration kPeriod = SimDuration::from_milliseconds(500);
   constexpr SimDuration kLongestSilence = SimDuration::from_milliseconds(60'000);

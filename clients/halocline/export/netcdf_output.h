@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A netCDF-4 file that is being written, through netCDF's C library: for modules that have it.
 //
-// It is made in memory and written by close(): HDF5 reports a full disk, and crashes when the file is closed after that.
+// It is made in memory and written by close(): HDF5 reports a full disk, and crashes when the file is closed
+// after that.
 #pragma once
 
 #include <cstddef>

@@ -159,7 +159,8 @@ class ChartScript {
 
 }  // namespace
 
-// In gnuplot's single-quoted strings nothing is special but the quote, which is doubled, and the end of the line.
+// In gnuplot's single-quoted strings nothing is special but the quote, which is doubled, and the end of the
+// line.
 std::string gnuplot_text(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {

@@ -5,10 +5,10 @@
 //   plot.charts[0].series.push_back({.title = "paths", .style = Series::kStems, .x = delays, .y = levels});
 //   write_plot(plot, "arrivals.svg");
 //
-// Charts stand one below the other. Stems rise from the chart's lower edge (levels in dB have no zero to rise from),
-// bars from 0; bars of several series stand side by side. Texts are taken as they are: no markup. gnuplot is
-// started without a shell and reads its commands from a file of ours without a name; texts enter them as
-// single-quoted strings, in which gnuplot expands nothing.
+// Charts stand one below the other. Stems rise from the chart's lower edge (levels in dB have no zero to rise
+// from), bars from 0; bars of several series stand side by side. Texts are taken as they are: no markup.
+// gnuplot is started without a shell and reads its commands from a file of ours without a name; texts enter
+// them as single-quoted strings, in which gnuplot expands nothing.
 #pragma once
 
 #include <stdexcept>
@@ -50,8 +50,8 @@ struct NoGnuplot : std::runtime_error {
       : std::runtime_error("plots need gnuplot, which is not installed: apt-get install gnuplot-nox") {}
 };
 
-// Runs commands, with data between them as gnuplot takes it from its standard input; returns what they write to the
-// standard output. Throws NoGnuplot; std::runtime_error when gnuplot fails, with its output.
+// Runs commands, with data between them as gnuplot takes it from its standard input; returns what they write
+// to the standard output. Throws NoGnuplot; std::runtime_error when gnuplot fails, with its output.
 std::string run_gnuplot(const std::string& commands);
 // Replaces `file`, a .png or .svg, by the picture that the commands draw, when it is whole. Throws as above.
 void run_gnuplot(const std::string& commands, const std::string& file);

@@ -22,7 +22,8 @@ std::string step_text(double seconds);  // "30 s", "10 min", "2 h"
 // The least of 1, 2, 5, 10, 20, 30 s, ... of minutes and hours that is `least_s` or more.
 double round_time_step(double least_s);
 
-// The axis of a chart over time: from `begin` to `end`, in seconds, with tics at round instants in the unit that fits.
+// The axis of a chart over time: from `begin` to `end`, in seconds, with tics at round instants in the unit
+// that fits.
 struct TimeAxis {
   double begin_s = 0, end_s = 1, step_s = 1;
   double unit_s = 1;  // seconds, minutes or hours

@@ -10,8 +10,8 @@ namespace halocline::clients {
 
 inline constexpr std::size_t kDepthStrips = 12;  // vehicles at most: those that moved the most
 
-// SVG elements, one below the other; empty where no vehicle moved. Each line has at most 600 points, extremes kept.
-// Throws as run_gnuplot (plot.h).
+// SVG elements, one below the other; empty where no vehicle moved. Each line has at most 600 points, extremes
+// kept. Throws as run_gnuplot (plot.h).
 std::string depth_chart(const MissionStore& mission);
 
 // False where it lies far below every vehicle, so that no strip would show both.

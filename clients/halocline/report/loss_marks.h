@@ -10,8 +10,9 @@
 
 namespace halocline::clients {
 
-// SVG elements. Losses that would lie upon each other are one mark: one for each class of outcomes in a square of 14 pixels, or
-// of more where there would be more than 200 marks. A mark links to the row of its first packet that the table of losses lists.
+// SVG elements. Losses that would lie upon each other are one mark: one for each class of outcomes in a
+// square of 14 pixels, or of more where there would be more than 200 marks. A mark links to the row of its
+// first packet that the table of losses lists.
 std::string loss_marks(const MissionStore& mission, const PacketLinks& links, const Picture& chart);
 
 }  // namespace halocline::clients

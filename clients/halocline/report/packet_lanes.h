@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time line of packets: a lane a vehicle, transmissions as bars, receptions at their travel time, the cause of each loss
-// under the pointer. Written as SVG directly: gnuplot writes no text for a pointer to rest on.
+// The time line of packets: a lane a vehicle, transmissions as bars, receptions at their travel time, the
+// cause of each loss under the pointer. Written as SVG directly: gnuplot writes no text for a pointer to rest
+// on.
 #pragma once
 
 #include <string>
@@ -18,8 +19,8 @@ struct PacketLanes {
   std::string note;  // a sentence on what is left out; empty: nothing
 };
 
-// All of it where it fits, else the stretch of time that holds the most outcomes of as many as fit. Adds the marks that it
-// draws to `links`.
+// All of it where it fits, else the stretch of time that holds the most outcomes of as many as fit. Adds the
+// marks that it draws to `links`.
 PacketLanes packet_lanes(const MissionStore& mission, PacketLinks& links);
 
 }  // namespace halocline::clients

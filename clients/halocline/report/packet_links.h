@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a packet a page shows where, so that the places link to each other: its mark in the chart and on the time line, and
-// its row in the table of losses.
+// What of a packet a page shows where, so that the places link to each other: its mark in the chart and on
+// the time line, and its row in the table of losses.
 #pragma once
 
 #include <cstddef>

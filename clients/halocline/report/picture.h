@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures by gnuplot for a page: axes, images and curves whose colours follow the page's scheme, and a known place of every
-// coordinate, so that marks with texts of their own can be drawn over them.
-// gnuplot has no mark in the shape of a bow tie and writes no text for a pointer to rest on, so such marks are ours
-// (`overlay`).
+// Pictures by gnuplot for a page: axes, images and curves whose colours follow the page's scheme, and a known
+// place of every coordinate, so that marks with texts of their own can be drawn over them.
+// gnuplot has no mark in the shape of a bow tie and writes no text for a pointer to rest on, so such marks
+// are ours (`overlay`).
 #pragma once
 
 #include <string>
@@ -33,7 +33,8 @@ struct Picture {
   }
 };
 
-// " lc rgb '...'" of a colour of the page: ink, quiet, line, accent, ground, ground-edge, contour, v-0 to v-7 (vehicle_style.h).
+// " lc rgb '...'" of a colour of the page: ink, quiet, line, accent, ground, ground-edge, contour, v-0 to v-7
+// (vehicle_style.h).
 std::string ink(std::string_view variable);
 
 // The SVG element. Throws as run_gnuplot (plot.h).

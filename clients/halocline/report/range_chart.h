@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Share of packets received against range, with its 95 % confidence interval (Wilson) and the prediction of the link tables.
+// Share of packets received against range, with its 95 % confidence interval (Wilson) and the prediction of
+// the link tables.
 #pragma once
 
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The report: one static HTML page with everything in it, about one log or about two side by side.
 //
-// It loads nothing and runs no script. Pictures of axes and curves are by gnuplot; where that is not installed the page has the
-// others and names what is missing. Its size is bounded (3 MB for one
+// It loads nothing and runs no script. Pictures of axes and curves are by gnuplot; where that is not
+// installed the page has the others and names what is missing. Its size is bounded (3 MB for one
 // log, whatever it holds): each section states what it leaves out.
 #pragma once
 

@@ -26,7 +26,8 @@ struct SeabedRaster {
 // `share` from 0, shallow, to 1, deep.
 std::array<std::uint8_t, 3> deep_colour(double share);
 
-// Between posts the seabed is a bicubic surface (Catmull and Rom 1974), beside posts without terrain a bilinear one.
+// Between posts the seabed is a bicubic surface (Catmull and Rom 1974), beside posts without terrain a
+// bilinear one.
 SeabedRaster seabed_raster(const MissionTerrain& terrain, const MapExtent& extent, std::size_t width,
                            std::size_t height);
 

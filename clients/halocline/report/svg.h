@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces of SVG and HTML as text.
 //
-// Colours are CSS variables and classes (page_style.cc), so that a picture follows the light and the dark scheme of the page. A
-// mark of an outcome is a symbol in mark_definitions(), coloured by its class.
+// Colours are CSS variables and classes (page_style.cc), so that a picture follows the light and the dark
+// scheme of the page. A mark of an outcome is a symbol in mark_definitions(), coloured by its class.
 #pragma once
 
 #include <string>

@@ -14,8 +14,8 @@ inline constexpr std::size_t kMatrixVehicles = 24;  // at most, those met first
 // Who received whom: share, counts and the median SNR of every pair; empty without outcomes.
 std::string link_matrix(const MissionStore& mission);
 
-// Every outcome by its cause, with counts and shares, and the packets that were refused; empty without either.
-// A cause links to its first packet among those lost.
+// Every outcome by its cause, with counts and shares, and the packets that were refused; empty without
+// either. A cause links to its first packet among those lost.
 std::string outcome_table(const MissionStore& mission, const PacketLinks& links);
 
 // One row a packet that was lost or refused, with a sentence; empty when there is none.

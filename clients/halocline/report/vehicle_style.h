@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The look of a vehicle: one colour, the same in every picture of a page, and from the ninth vehicle on a dash as well.
+// The look of a vehicle: one colour, the same in every picture of a page, and from the ninth vehicle on a
+// dash as well.
 //
-// Eight colours for a light page and eight for a dark one. Each stands out from its paper (contrast 3 or more), and any two
-// differ by 0.1 or more in OKLab (Ottosson 2020), for normal eyes and for each of the three kinds of colour blindness (Machado,
-// Oliveira and Fernandes 2009, severity 1).
+// Eight colours for a light page and eight for a dark one. Each stands out from its paper (contrast 3 or
+// more), and any two differ by 0.1 or more in OKLab (Ottosson 2020), for normal eyes and for each of the
+// three kinds of colour blindness (Machado, Oliveira and Fernandes 2009, severity 1).
 #pragma once
 
 #include <array>

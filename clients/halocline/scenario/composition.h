@@ -44,8 +44,8 @@ struct ScenarioConfig {
 void visit(bus::ConfigVisitor& v, ScenarioConfig& config);
 
 // Throws bus::ConfigErrors with everything that is wrong with the file: in its sections, between them, and
-// keys that no program reads. What takes the terrain is left out; so are missions and traffic where the scenario stands for
-// its water alone, as for a link or the replay of a log.
+// keys that no program reads. What takes the terrain is left out; so are missions and traffic where the
+// scenario stands for its water alone, as for a link or the replay of a log.
 enum class ScenarioUse { kRun, kWater };
 ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides,
                              ScenarioUse use = ScenarioUse::kRun);
@@ -80,8 +80,9 @@ class Composition {
   // from `recorded`.
   enum Kind { kRun, kReplay };
 
-  // Sessions are made of the scenario's seed and the nodes' names. `recorded` steps where the vehicle simulator
-  // would; it must outlive the composition. The terrain is made unless it is given. `make_sound`: for doors of waveforms.
+  // Sessions are made of the scenario's seed and the nodes' names. `recorded` steps where the vehicle
+  // simulator would; it must outlive the composition. The terrain is made unless it is given. `make_sound`:
+  // for doors of waveforms.
   Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded = nullptr,
               std::optional<bathymetry::PreparedTerrain> terrain = {},
               const modem_gateway::SoundFieldMaker& make_sound = {});

@@ -15,7 +15,8 @@ std::string_view name_of(channel_server::Multipath multipath);          // "unli
 std::string_view name_of(channel_server::PathState state);              // "open", "shadow", ...
 std::string_view name_of(channel_server::PropagationUsed propagation);  // "straight", "rays", ...
 
-// An object with the numbers of the budget, the path and the forecast, names with units; no line break at the end.
+// An object with the numbers of the budget, the path and the forecast, names with units; no line break at the
+// end.
 std::string to_json(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkSurvey& answer);
 
 }  // namespace halocline::clients

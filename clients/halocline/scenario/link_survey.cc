@@ -95,7 +95,8 @@ acoustics::Arrivals measured_arrivals(const channel_server::Reception& reception
   return arrivals;
 }
 
-// The one straight path as an arrival: what the transmission loss holds besides absorption and beams is spreading.
+// The one straight path as an arrival: what the transmission loss holds besides absorption and beams is
+// spreading.
 acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
                                      const acoustics::Transducers& beams) {
   const acoustics::LinkBudget& budget = reception.budget;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One link of a scenario between two points, computed here and now: budget, paths, and whether the bottom sends
-// echoes.
+// One link of a scenario between two points, computed here and now: budget, paths, and whether the bottom
+// sends echoes.
 //
 // The same computation as that of the scenario's channel server (link_surveyor.h), with echo_survey.h over
 // the scenario's terrain where sound goes straight.
@@ -40,8 +40,9 @@ struct LinkSurvey {
   std::vector<std::string> notes;  // formulas taken beyond the range they were published for
 };
 
-// An end by the name of a vehicle of the scenario (where it starts, with its modem) or by "north,east,down" in metres
-// (with the standard modem). Throws InvalidArgument when `text` is neither, or lies above the surface.
+// An end by the name of a vehicle of the scenario (where it starts, with its modem) or by "north,east,down"
+// in metres (with the standard modem). Throws InvalidArgument when `text` is neither, or lies above the
+// surface.
 LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text);
 
 // "1,2,3" as three numbers; throws InvalidArgument, naming `what`, when `text` is something else.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What arrives over links of a scenario, and what they deliver: for one link or for many, as at simulation time 0.
+// What arrives over links of a scenario, and what they deliver: for one link or for many, as at simulation
+// time 0.
 //
 // The same prediction as that of the run: the propagation is the channel server's
 // (channel_server/water_model.h), with measured channels and changes of the environment, the noise is that of

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The progress of a run on stderr: one line that is rewritten on a terminal, and a new line every four seconds
-// elsewhere.
+// The progress of a run on stderr: one line that is rewritten on a terminal, and a new line every four
+// seconds elsewhere.
 #pragma once
 
 #include <cstdio>

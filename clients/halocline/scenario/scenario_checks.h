@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks of sense: what each section allows and the whole scenario cannot mean.
 //
-// What is surely wrong is refused in `file`, and thrown by its check_findings() with all else; what may be meant is
-// warned of. The sections check their own keys (visit); here is what takes several of them, a model, or the terrain.
+// What is surely wrong is refused in `file`, and thrown by its check_findings() with all else; what may be
+// meant is warned of. The sections check their own keys (visit); here is what takes several of them, a model,
+// or the terrain.
 //
-// Refused: traffic that no modem carries, a pilot whose steering the model lacks or whose speed it does not hold, more
-// vehicles than are followed, names of no vehicle, a profile that cannot be read, a start out of the water
-// (vehicle_sim/start_checks.h), a waypoint, or a whole survey or circle, under ground or in the air.
-// Warned of: keys without effect (ConfigVisitor::when), modems that never receive each other, places that look
-// like degrees, packets that last longer than their period or their slot, times of protocols that the
-// distances do not allow, a terrain with posts without depth, missions that leave the terrain or whose tracks
-// the ground cuts.
+// Refused: traffic that no modem carries, a pilot whose steering the model lacks or whose speed it does not
+// hold, more vehicles than are followed, names of no vehicle, a profile that cannot be read, a start out of
+// the water (vehicle_sim/start_checks.h), a waypoint, or a whole survey or circle, under ground or in the
+// air. Warned of: keys without effect (ConfigVisitor::when), modems that never receive each other, places
+// that look like degrees, packets that last longer than their period or their slot, times of protocols that
+// the distances do not allow, a terrain with posts without depth, missions that leave the terrain or whose
+// tracks the ground cuts.
 #pragma once
 
 #include <cmath>

@@ -3,10 +3,11 @@
 //
 // Columns written: t (s), x_n y_e z_d (m, NED of the body's origin), phi theta psi (rad), u v w (m/s) and
 // p q r (rad/s) (body, over ground), cmd_rudder cmd_stern cmd_rpm and act_rudder act_stern act_rpm (rad,
-// rpm), then for each thruster of the model cmd_thruster_<i>_rpm and act_thruster_<i>_rpm, of a buoyancy engine
-// cmd_buoyancy_m3 and act_buoyancy_m3, of a moving mass cmd_moving_mass_m and act_moving_mass_m, of a drop weight
-// weight_released (0 or 1). Twelve digits. A command stands in the row of the instant from which it holds, as given. psi counts whole turns on unless it
-// is wrapped to -pi to pi. The water has no bottom, and a
+// rpm), then for each thruster of the model cmd_thruster_<i>_rpm and act_thruster_<i>_rpm, of a buoyancy
+// engine cmd_buoyancy_m3 and act_buoyancy_m3, of a moving mass cmd_moving_mass_m and act_moving_mass_m, of a
+// drop weight weight_released (0 or 1). Twelve digits. A command stands in the row of the instant from which
+// it holds, as given. psi counts whole turns on unless it is wrapped to -pi to pi. The water has no bottom,
+// and a
 // surface, at rest, where one is given.
 #pragma once
 
@@ -42,7 +43,8 @@ std::vector<vehicle_sim::ScheduledCommand> read_schedule(std::istream& in,
 void write_samples(std::ostream& out, const std::vector<vehicle_sim::OpenLoopSample>& samples,
                    const vehicle_sim::ModelParameters& model, bool wrap_yaw);
 
-// All of it: reads, runs and writes. Returns the exit code; throws InvalidArgument for what the user got wrong.
+// All of it: reads, runs and writes. Returns the exit code; throws InvalidArgument for what the user got
+// wrong.
 [[nodiscard]] int replay_vehicle(const VehicleReplay& replay);
 
 }  // namespace halocline::clients

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a vehicle was at any time of a recorded run, smoothly: between two states by the cubic that has their positions and
-// velocities, beyond the first and the last along a straight line.
+// Where a vehicle was at any time of a recorded run, smoothly: between two states by the cubic that has their
+// positions and velocities, beyond the first and the last along a straight line.
 #pragma once
 
 #include <map>

@@ -18,8 +18,9 @@ struct ProgramEnd {
   bool stopped = false;
 };
 
-// Runs one program to its end. When `should_stop` becomes true it gets SIGTERM, after ten seconds SIGKILL, and
-// `stopped` is true. The program does not outlive the calling thread or process: it then gets SIGKILL from the kernel.
+// Runs one program to its end. When `should_stop` becomes true it gets SIGTERM, after ten seconds SIGKILL,
+// and `stopped` is true. The program does not outlive the calling thread or process: it then gets SIGKILL
+// from the kernel.
 ProgramEnd run_program(const ProgramRun& run, const std::function<bool()>& should_stop);
 
 }  // namespace halocline::clients

@@ -2,13 +2,13 @@
 // The results of one run that a sweep keeps.
 //
 // A packet counts at a receiver that it was addressed to (or sent to all); those merely overheard count among
-// the outcomes only. Delays are travel times of the first significant path of what was delivered; latency goes
-// from the first bit that left to the last that arrived. Throughput counts the payload bits that reached
-// their destinations. Load and use of the channel are those of textbooks, G and S: the durations of the packets
-// sent, and of those received by the one vehicle that they were addressed to, over the run. Numbers of a network are
-// of NETWORK_EVENTs, from the offer to the delivery; its load is the packets offered times the longest duration of a
-// packet sent, which is that of their data. Percentiles are the least value that at least that share of the sample
-// does not exceed (nearest rank).
+// the outcomes only. Delays are travel times of the first significant path of what was delivered; latency
+// goes from the first bit that left to the last that arrived. Throughput counts the payload bits that reached
+// their destinations. Load and use of the channel are those of textbooks, G and S: the durations of the
+// packets sent, and of those received by the one vehicle that they were addressed to, over the run. Numbers
+// of a network are of NETWORK_EVENTs, from the offer to the delivery; its load is the packets offered times
+// the longest duration of a packet sent, which is that of their data. Percentiles are the least value that at
+// least that share of the sample does not exceed (nearest rank).
 #pragma once
 
 #include <array>

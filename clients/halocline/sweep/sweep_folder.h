@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where a sweep keeps its runs: OUT/plan.toml, OUT/runs/<identity>/, and the gathered tables.
 //
-// A run's folder is named by what it computes: the XXH3 hash (64 bits) of its effective configuration and of this
-// program's version. So a run that is done stays done when a sweep is started again, or with more values, seeds or
-// axes; and is done anew when the scenario changes. Files that the scenario names (terrain,
-// profiles) are not part of the hash. result.json is written last, and moved into place whole: a folder without it
-// is a run that did not finish. So is one whose result.json does not have the check sum in result.xxh3 (XXH3 of the folder's name and of
-// it): it was damaged or edited, or is that of another run.
+// A run's folder is named by what it computes: the XXH3 hash (64 bits) of its effective configuration and of
+// this program's version. So a run that is done stays done when a sweep is started again, or with more
+// values, seeds or axes; and is done anew when the scenario changes. Files that the scenario names (terrain,
+// profiles) are not part of the hash. result.json is written last, and moved into place whole: a folder
+// without it is a run that did not finish. So is one whose result.json does not have the check sum in
+// result.xxh3 (XXH3 of the folder's name and of it): it was damaged or edited, or is that of another run.
 #pragma once
 
 #include <optional>

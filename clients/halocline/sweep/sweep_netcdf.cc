@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The results of a sweep as netCDF-4, through netCDF's C library. Part of the module halocline_sweep_netcdf.so, which
-// only sweep_summary.cc loads.
+// The results of a sweep as netCDF-4, through netCDF's C library. Part of the module
+// halocline_sweep_netcdf.so, which only sweep_summary.cc loads.
 #include <cmath>
 #include <limits>
 #include <optional>

@@ -52,7 +52,8 @@ struct SweepRun {
 // The `index`-th run, below plan.runs().
 SweepRun run_of(const SweepPlan& plan, std::size_t index);
 
-// "environment.wind_mps=2,6,12"; commas within quotes and brackets do not part values. Throws InvalidArgument.
+// "environment.wind_mps=2,6,12"; commas within quotes and brackets do not part values. Throws
+// InvalidArgument.
 SweepAxis parse_axis(const std::string& text);
 // "1..20" or "1,5,9..12": ascending, each once, 0 to 9e15. Throws InvalidArgument.
 std::vector<std::int64_t> parse_seeds(const std::string& text);

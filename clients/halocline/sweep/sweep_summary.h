@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The results of a sweep, point by point, with confidence intervals.
 //
-// Shares of packets (delivery, outcomes) pool the packets of all seeds and carry Wilson's interval, which takes
-// packets as independent; packets of one run share water and paths, so it is too narrow where runs differ
-// much. The interval of the mean over runs (Student's t, and of shares one within 0 to 1: confidence.h; runs
-// independent by their seeds) does not depend on that: compare the two.
+// Shares of packets (delivery, outcomes) pool the packets of all seeds and carry Wilson's interval, which
+// takes packets as independent; packets of one run share water and paths, so it is too narrow where runs
+// differ much. The interval of the mean over runs (Student's t, and of shares one within 0 to 1:
+// confidence.h; runs independent by their seeds) does not depend on that: compare the two.
 #pragma once
 
 #include <array>
@@ -50,12 +50,13 @@ struct SweepResults {
 SweepResults summed_up(const SweepPlan& plan, std::vector<std::optional<RunMetrics>> runs,
                        std::vector<std::string> folders);
 
-// Tables in a folder: points.csv (a row a point), pairs.csv (a row a point and pair), runs.csv (a row a run). Each
-// written whole, then moved into place. Throws std::runtime_error when one cannot be.
+// Tables in a folder: points.csv (a row a point), pairs.csv (a row a point and pair), runs.csv (a row a run).
+// Each written whole, then moved into place. Throws std::runtime_error when one cannot be.
 void write_csvs(const SweepResults& results, const std::string& folder);
 
-// The same numbers as netCDF-4, by the CF conventions: a dimension an axis, then seed, outcome, pair and bound
-// (low, high). A point without results holds NaN. The first call loads netCDF. Throws std::runtime_error.
+// The same numbers as netCDF-4, by the CF conventions: a dimension an axis, then seed, outcome, pair and
+// bound (low, high). A point without results holds NaN. The first call loads netCDF. Throws
+// std::runtime_error.
 void write_netcdf(const SweepResults& results, const std::string& path);
 
 // What the module halocline_sweep_netcdf.so exports as halocline_write_sweep_netcdf.

@@ -21,7 +21,8 @@ namespace {
 
 using acoustics::Samples;
 
-// Five frames are a tenth of a second: with a period of STATE of 0.1 s the receiver is known when the last of them arrives.
+// Five frames are a tenth of a second: with a period of STATE of 0.1 s the receiver is known when the last of
+// them arrives.
 constexpr int kFrames = 5;
 // Samples to either side of a block by which its filters reach beyond it: 512, 255 and 16.
 constexpr std::ptrdiff_t kMargin = 1024;

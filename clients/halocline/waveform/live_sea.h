@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sound between vehicles while a scenario runs, as `halocline waveform` finds it afterwards.
 //
-// Model: that of received_waveform.h, block by block. The paths of a sound on its way are searched every kFrame of its departure, with
-// the ends where their latest STATEs have them; the same paths whatever the blocks are. Sampling rates of sender and receiver may
-// differ: what lies above 0.45 of the receiver's rate is filtered away.
-// Against received_waveform(): absorption over the band is by the way's length when the sound begins. Where STATEs come more
-// seldom than every 0.1 s, a vehicle goes straight on from the last. Water is that of the scenario and its changes, not of SET_ENVIRONMENT.
+// Model: that of received_waveform.h, block by block. The paths of a sound on its way are searched every
+// kFrame of its departure, with the ends where their latest STATEs have them; the same paths whatever the
+// blocks are. Sampling rates of sender and receiver may differ: what lies above 0.45 of the receiver's rate
+// is filtered away.
+// Against received_waveform(): absorption over the band is by the way's length when the sound begins. Where
+// STATEs come more seldom than every 0.1 s, a vehicle goes straight on from the last. Water is that of the
+// scenario and its changes, not of SET_ENVIRONMENT.
 #pragma once
 
 #include <cstddef>

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a hydrophone of a scenario records while others transmit waveforms.
 //
-// Each sender's sound goes along the paths of its link to the receiver, as packets' does (scenario_links.h): with the ends where a
-// recorded run had them, the receiver when the sound arrives; with their phases, and their fading at the arrival of the first by the
-// model (acoustics/fading/link_fading.h) or a measured channel; delayed, turned and summed by acoustics/waveform/moving_link.h. To that
-// comes the noise of the sea and of vehicles (recorded_noise.h). All draws are those of the scenario's seed: the same file every time.
+// Each sender's sound goes along the paths of its link to the receiver, as packets' does (scenario_links.h):
+// with the ends where a recorded run had them, the receiver when the sound arrives; with their phases, and
+// their fading at the arrival of the first by the model (acoustics/fading/link_fading.h) or a measured
+// channel; delayed, turned and summed by acoustics/waveform/moving_link.h. To that comes the noise of the sea
+// and of vehicles (recorded_noise.h). All draws are those of the scenario's seed: the same file every time.
 //
-// Levels. A sine of amplitude 1 in a sender's samples has the source level (rms, dB re 1 uPa at 1 m). Received pressure p becomes
-// the sample 10^(sensitivity / 20) p, p in uPa: at -190 dB re 1/uPa a sine of amplitude 1 has 187 dB re 1 uPa.
-// Left out: a path's own echoes beyond those that the scenario's model of propagation finds.
+// Levels. A sine of amplitude 1 in a sender's samples has the source level (rms, dB re 1 uPa at 1 m).
+// Received pressure p becomes the sample 10^(sensitivity / 20) p, p in uPa: at -190 dB re 1/uPa a sine of
+// amplitude 1 has 187 dB re 1 uPa. Left out: a path's own echoes beyond those that the scenario's model of
+// propagation finds.
 #pragma once
 
 #include <string>
@@ -37,7 +39,8 @@ struct WaveformRules {
   bool has_noise = true;
 };
 
-// Of one rate. Throws InvalidArgument where senders' rates differ, a vehicle is not of the scenario, or has no state.
+// Of one rate. Throws InvalidArgument where senders' rates differ, a vehicle is not of the scenario, or has
+// no state.
 acoustics::Samples received_waveform(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain,
                                      const Recording& run, const std::vector<SentWaveform>& sent,
                                      const WaveformRules& rules);

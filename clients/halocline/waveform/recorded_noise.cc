@@ -63,7 +63,8 @@ void add_rates(const Recording& run, channel_server::VehicleNoise& noise) {
   }
 }
 
-// How much louder a vehicle is at an instant than at its reference, of the amplitude: the power grows by its sixth power.
+// How much louder a vehicle is at an instant than at its reference, of the amplitude: the power grows by its
+// sixth power.
 std::function<double(SimTime)> loudness_of(const NoiseOf& noise, const channel_server::VehicleNoise& rates,
                                            const VehicleTrack& track) {
   return [&noise, &rates, &track](SimTime at) {
@@ -126,7 +127,8 @@ void add_vehicle_noise(const ScenarioConfig& config, ScenarioLinks& links, const
       add(own, sound);
       continue;
     }
-    // What arrives in the span has left before it by what sound takes, at 1400 m/s at the slowest, and half a second of echoes.
+    // What arrives in the span has left before it by what sound takes, at 1400 m/s at the slowest, and half a
+    // second of echoes.
     const SimTime begin = SimTime::from_seconds(sound.begin_s);
     const double range_m =
         (track.at(begin).position_ned_m - VehicleTrack(run, receiver).at(begin).position_ned_m).norm();

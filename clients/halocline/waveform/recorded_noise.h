@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a hydrophone of a scenario records where nobody transmits: the sea's noise, and that of vehicles.
 //
-// The sea's is shaped over the whole band of the samples, with its slow variation and its bursts (acoustics/noise/noise_variation.h).
-// Vehicles that make noise (channel_server/vehicles/vehicle_noise.h) are as loud as they are fast, at each instant: the receiver's own
-// is heard directly, that of others along the paths of their links to it. Draws are addressed by sample: the same noise every time.
+// The sea's is shaped over the whole band of the samples, with its slow variation and its bursts
+// (acoustics/noise/noise_variation.h). Vehicles that make noise (channel_server/vehicles/vehicle_noise.h) are
+// as loud as they are fast, at each instant: the receiver's own is heard directly, that of others along the
+// paths of their links to it. Draws are addressed by sample: the same noise every time.
 #pragma once
 
 #include <string>

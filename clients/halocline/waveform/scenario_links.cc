@@ -29,7 +29,8 @@ ScenarioConfig with_own_searches(ScenarioConfig config) {
   return config;
 }
 
-// As the paths fade at the arrival of the first: by the model, or as the measured channel whose taps they are.
+// As the paths fade at the arrival of the first: by the model, or as the measured channel whose taps they
+// are.
 std::vector<PathGain> gains_of(const Reception& reception, const acoustics::FadingModel& model,
                                const acoustics::FadingLink& pair, SimTime departure,
                                const acoustics::Modem& modem) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The links between the vehicles of a recorded run: what arrives of a sound that one of them makes.
 //
-// Paths are searched for every kFrame of the departure, every search anew: a cell that shares one would step. The gains of paths are
-// those of a modem's band; absorption at other frequencies than its centre is that of the way of the first significant path, half way
-// between the depths of the ends.
+// Paths are searched for every kFrame of the departure, every search anew: a cell that shares one would step.
+// The gains of paths are those of a modem's band; absorption at other frequencies than its centre is that of
+// the way of the first significant path, half way between the depths of the ends.
 #pragma once
 
 #include <algorithm>
@@ -67,11 +67,11 @@ class ScenarioLinks {
   // Of what leaves between those times.
   Way between(const std::string& from, const acoustics::Modem& sender, const std::string& to, double begin_s,
               double end_s);
-  // The next so many frames, with what they begin at: the same paths as between() finds, however they are taken. Of states that the run
-  // holds by now.
+  // The next so many frames, with what they begin at: the same paths as between() finds, however they are
+  // taken. Of states that the run holds by now.
   Way extend(LinkProgress& progress, int frames);
-  // A filter of linear phase: what absorption takes of a frequency beyond what it takes of the band's centre, in the water at that
-  // instant. Nothing above `highest_hz` passes.
+  // A filter of linear phase: what absorption takes of a frequency beyond what it takes of the band's centre,
+  // in the water at that instant. Nothing above `highest_hz` passes.
   std::vector<double> absorption_taps(const Way& way, SimTime at, double rate_hz,
                                       double highest_hz = std::numeric_limits<double>::infinity()) const;
   // Adds what arrives by it of a sound, pressure at 1 m.

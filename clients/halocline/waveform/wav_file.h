@@ -8,11 +8,13 @@
 
 namespace halocline::clients {
 
-// A file of one channel in any format that libsndfile reads (WAV, FLAC, ...), full scale 1; begin_s is 0. Throws InvalidArgument, with
-// the path, where it cannot be read, has several channels or no sample, or holds a number that is none.
+// A file of one channel in any format that libsndfile reads (WAV, FLAC, ...), full scale 1; begin_s is 0.
+// Throws InvalidArgument, with the path, where it cannot be read, has several channels or no sample, or holds
+// a number that is none.
 acoustics::Samples read_sound(const std::string& path);
 
-// A WAV file of 32-bit floating-point samples; throws InvalidArgument, with the path, where it cannot be written.
+// A WAV file of 32-bit floating-point samples; throws InvalidArgument, with the path, where it cannot be
+// written.
 void write_wav(const std::string& path, const acoustics::Samples& sound);
 
 }  // namespace halocline::clients

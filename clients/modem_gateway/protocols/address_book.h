@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Addresses of modems of one kind, as their protocol has them, and the vehicles that carry them.
 //
-// Packets of the simulation bear ids of vehicles; hosts know addresses, which a host may set for its own modem. One book serves all doors
-// of a kind in a gateway, so that a new address holds for those who send to it. A vehicle without a given address has its id as
-// its address.
+// Packets of the simulation bear ids of vehicles; hosts know addresses, which a host may set for its own
+// modem. One book serves all doors of a kind in a gateway, so that a new address holds for those who send to
+// it. A vehicle without a given address has its id as its address.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +41,8 @@ class AddressBook {
   std::map<std::int32_t, std::int32_t> vehicles_;   // by address
 };
 
-// Takes "name=address name=address" into the book. Throws InvalidArgument for another text, for a vehicle that is not among
-// `vehicles`, and for an address that two have.
+// Takes "name=address name=address" into the book. Throws InvalidArgument for another text, for a vehicle
+// that is not among `vehicles`, and for an address that two have.
 void assign_addresses(AddressBook& book, std::string_view text, const std::vector<NamedVehicle>& vehicles);
 
 }  // namespace halocline::modem_gateway

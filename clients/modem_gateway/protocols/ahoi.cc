@@ -2,8 +2,8 @@
 // ahoi modem (Hamburg University of Technology): binary frames on a serial line.
 //
 //   10 02 content 10 03, a byte 10 of the content doubled
-//   content: source, destination, type, status, sequence number, length, payload; of what was received a footer of 6: power, rssi, bit
-//   errors, gain mean, least, greatest
+//   content: source, destination, type, status, sequence number, length, payload; of what was received a
+//   footer of 6: power, rssi, bit errors, gain mean, least, greatest
 //
 // Types 0 to 7E are data, 7F acknowledgements, 80 to FD commands. The modem answers each frame of the host at
 // once: FF confirms, FE refuses what is malformed, an unknown command, more than 126 bytes (type and sequence

@@ -16,7 +16,8 @@ std::vector<std::string_view> words_of(std::string_view text);
 // What stands between separators, empty fields included: one more than there are separators.
 std::vector<std::string_view> fields_of(std::string_view text, char separator);
 
-// A decimal number that is all of the text and lies within the bounds; a sign + is allowed. None for anything else.
+// A decimal number that is all of the text and lies within the bounds; a sign + is allowed. None for anything
+// else.
 std::optional<std::int64_t> integer_in(std::string_view text, std::int64_t lowest, std::int64_t highest);
 std::optional<double> number_in(std::string_view text, double lowest, double highest);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nanomodem v3 (Newcastle University; sold as Delphis Succorfish): ASCII, commands framed by length, no line ends needed.
+// Nanomodem v3 (Newcastle University; sold as Delphis Succorfish): ASCII, commands framed by length, no line
+// ends needed.
 //
 //   $?             #A007V52428        address, supply (units of 15 V / 65536)
 //   $A007          #A007              sets the address

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every modem protocol of the gateway is: a state machine between the bytes of a host and the happenings of one modem.
+// What every modem protocol of the gateway is: a state machine between the bytes of a host and the happenings
+// of one modem.
 //
-// Pure: bytes and messages of the bus come in by calls, bytes and packets go out through a ProtocolPort, the time is given. So a protocol
-// is tested without sockets and without a simulator. It is told everything in the order in which it happened, and never calls back into
-// a call of its own: what a send() leads to comes later.
+// Pure: bytes and messages of the bus come in by calls, bytes and packets go out through a ProtocolPort, the
+// time is given. So a protocol is tested without sockets and without a simulator. It is told everything in
+// the order in which it happened, and never calls back into a call of its own: what a send() leads to comes
+// later.
 //
 // A protocol of one's own: docs/modem_gateway.md.
 #pragma once
@@ -49,7 +51,8 @@ class ProtocolPort {
   virtual SimTime clock_at(SimTime time) const = 0;
   // The instant at which it shows that.
   SimTime instant_of(SimTime reading) const;
-  // To one host, or to all that are connected. What does not fit into the buffer of a host that does not read is dropped whole.
+  // To one host, or to all that are connected. What does not fit into the buffer of a host that does not read
+  // is dropped whole.
   virtual void write(ClientId client, std::string_view bytes) = 0;
   // By UDP, to a port of the machine that a host is on.
   virtual void send_datagram(ClientId /*client*/, std::uint16_t /*port*/, std::string_view /*bytes*/) {}
@@ -82,7 +85,8 @@ class ProtocolPort {
   // The latest state of the vehicle, and of its battery where it has one; null before the first.
   virtual const vehicle_state_t* state() const = 0;
   virtual const vehicle_battery_t* battery() const = 0;
-  // Asks for the paths of sound from a vehicle to this one, as they are now: on_paths(). False for a vehicle that is not known.
+  // Asks for the paths of sound from a vehicle to this one, as they are now: on_paths(). False for a vehicle
+  // that is not known.
   virtual bool ask_paths(std::int32_t from_vehicle) = 0;
   // For a person who watches: what a host did that is no protocol of this modem.
   virtual void note(std::string_view event, std::string_view details) = 0;

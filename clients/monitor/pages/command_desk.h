@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands and messages from pages to vehicles, checked as the bus checks them. Pure: steady time is passed in.
+// Commands and messages from pages to vehicles, checked as the bus checks them. Pure: steady time is passed
+// in.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,8 @@ class CommandDesk {
   // `session` differs for each start of the program.
   CommandDesk(std::int64_t session, Post post) : session_(session), post_(std::move(post)) {}
 
-  // Repeats a command for a while; a new one for the vehicle takes its place. Throws InvalidArgument for one that cannot be.
+  // Repeats a command for a while; a new one for the vehicle takes its place. Throws InvalidArgument for one
+  // that cannot be.
   void command(const clients::MissionStore& mission, const nlohmann::json& request);
   // Publishes one SEND at `now`. Throws likewise.
   void send(const clients::MissionStore& mission, const nlohmann::json& request, SimTime now, Sent sent);

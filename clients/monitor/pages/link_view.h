@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One link in detail: the query for its paths, and what a page is shown of the reply (README.md, `link`). Pure.
+// One link in detail: the query for its paths, and what a page is shown of the reply (README.md, `link`).
+// Pure.
 #pragma once
 
 #include <optional>

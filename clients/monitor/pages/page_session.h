@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one page is shown by itself: positions, packets, links and the state, each when it changed and no faster than the
-// connection takes it. Pure: messages go to an outbox, steady time is passed in.
+// What one page is shown by itself: positions, packets, links and the state, each when it changed and no
+// faster than the connection takes it. Pure: messages go to an outbox, steady time is passed in.
 #pragma once
 
 #include <cstddef>
@@ -30,11 +30,12 @@ class PageSession {
   // `source` must outlive it.
   PageSession(const Source& source, bool may_command, Outbox outbox);
 
-  // What is due at `steady_s`. Nothing that comes many times a second unless `idle`: the connection has sent everything.
+  // What is due at `steady_s`. Nothing that comes many times a second unless `idle`: the connection has sent
+  // everything.
   void tick(double steady_s, bool idle, PacketIndex& packets);
 
-  // Requests that change what is shown: watch, play, pause, speed, seek, live. False for another one. Throws InvalidArgument
-  // for one that cannot be.
+  // Requests that change what is shown: watch, play, pause, speed, seek, live. False for another one. Throws
+  // InvalidArgument for one that cannot be.
   [[nodiscard]] bool take(const nlohmann::json& request);
 
   SimTime at() const { return playback_.at(); }

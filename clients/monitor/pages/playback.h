@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The instant that a connection shows: it follows the newest message, plays at a speed, or stands. Pure: steady time is passed
-// in, in seconds.
+// The instant that a connection shows: it follows the newest message, plays at a speed, or stands. Pure:
+// steady time is passed in, in seconds.
 #pragma once
 
 #include "core/sim_time.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Queries to a channel server and a bathymetry service that are under way: repeated each second, given up after kPatience_s. A
-// reply is matched by the request's number. Pure: steady time is passed in.
+// Queries to a channel server and a bathymetry service that are under way: repeated each second, given up
+// after kPatience_s. A reply is matched by the request's number. Pure: steady time is passed in.
 #pragma once
 
 #include <cstdint>

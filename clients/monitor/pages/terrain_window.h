@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A window of the terrain in the detail that a page wants, from the bathymetry service: in as many queries as it takes.
+// A window of the terrain in the detail that a page wants, from the bathymetry service: in as many queries as
+// it takes.
 #pragma once
 
 #include <functional>
@@ -20,8 +21,8 @@ DepthGrid terrain_window_in(const nlohmann::json& request);
 void collect_terrain(QueryDesk& queries, const DepthGrid& window,
                      const std::function<void(const DepthGrid* grid, const std::string& problem)>& done);
 
-// The whole terrain at 97 x 97 posts at most, as TERRAIN has it, for who came after that was published. `done` is not called
-// when the service does not answer.
+// The whole terrain at 97 x 97 posts at most, as TERRAIN has it, for who came after that was published.
+// `done` is not called when the service does not answer.
 void collect_overview(QueryDesk& queries, const std::function<void(const terrain_tile_t& overview)>& done);
 
 }  // namespace halocline::monitor

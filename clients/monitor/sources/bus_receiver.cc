@@ -20,7 +20,8 @@ namespace halocline::monitor {
 namespace {
 
 constexpr std::int64_t kNoTime = INT64_MIN;
-// Messages that come within so long are taken off the bus together, which costs less; LCM holds them meanwhile.
+// Messages that come within so long are taken off the bus together, which costs less; LCM holds them
+// meanwhile.
 constexpr int kTurnMs = 10;
 constexpr int kRetryMs = 2000;
 constexpr std::size_t kMaxPosted = 1000;

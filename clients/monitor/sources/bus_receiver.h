@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The thread that receives every message of a bus, and publishes what is posted to it. It waits for nobody: messages
-// go into a hand-over of bounded size. A bus that cannot be opened is tried again.
+// The thread that receives every message of a bus, and publishes what is posted to it. It waits for nobody:
+// messages go into a hand-over of bounded size. A bus that cannot be opened is tried again.
 #pragma once
 
 #include <atomic>

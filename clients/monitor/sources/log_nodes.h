@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A channel server and a bathymetry service for a log, made of its configuration: they answer LINK_QUERY and TERRAIN_QUERY, as
-// those of the run would have. They run in a thread of their own, on a bus within the process.
+// A channel server and a bathymetry service for a log, made of its configuration: they answer LINK_QUERY and
+// TERRAIN_QUERY, as those of the run would have. They run in a thread of their own, on a bus within the
+// process.
 //
-// Ends of links are positions with the modems that the configuration gives the named vehicles. The water is that of
-// the configuration's begin, until SET_ENVIRONMENT is posted.
+// Ends of links are positions with the modems that the configuration gives the named vehicles. The water is
+// that of the configuration's begin, until SET_ENVIRONMENT is posted.
 #pragma once
 
 #include <atomic>
@@ -31,7 +32,8 @@ class LogNodes {
 
   // Publishes on their bus.
   void post(const std::string& channel, bus::Bytes bytes);
-  // What they published since the last call: replies to any client, SCENARIO and TERRAIN; and MODEM of each vehicle.
+  // What they published since the last call: replies to any client, SCENARIO and TERRAIN; and MODEM of each
+  // vehicle.
   std::vector<BusMessage> take() { return handover_.take(); }
 
   bool is_ready() const { return is_ready_; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of modems beyond the messages: those that a configuration gives the vehicles, and what SINR a modem needs.
+// What is known of modems beyond the messages: those that a configuration gives the vehicles, and what SINR a
+// modem needs.
 #pragma once
 
 #include <map>
@@ -23,12 +24,14 @@ namespace halocline::monitor {
 // a generic one of its levels, band and rate: its framing is left out.
 modem_config_t modem_message(const channel_server::VehicleModem& modem, SimTime from);
 
-// MODEM of each of these vehicles, as a configuration (TOML, as SCENARIO has it) gives it. None of one that cannot be read.
+// MODEM of each of these vehicles, as a configuration (TOML, as SCENARIO has it) gives it. None of one that
+// cannot be read.
 std::vector<BusMessage> modems_in(const std::string& configuration, std::span<const std::string> vehicles,
                                   SimTime from);
 
-// Of modems, the SINR at which half of their packets arrive without fading, dB: acoustics/modem/half_delivery.h, for 32
-// bytes as in link_t.delivery_probability, or the modem's most. Each is computed once.
+// Of modems, the SINR at which half of their packets arrive without fading, dB:
+// acoustics/modem/half_delivery.h, for 32 bytes as in link_t.delivery_probability, or the modem's most. Each
+// is computed once.
 class ModemThresholds {
  public:
   // None for a modem without one, or that cannot be.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the monitor's messages come from: a bus or a log. Used by one thread; a bus is received by another behind it.
+// Where the monitor's messages come from: a bus or a log. Used by one thread; a bus is received by another
+// behind it.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +48,8 @@ class Source {
   virtual SourceState state() const = 0;
   // Publishes a query, or a command; on the bus, or to the nodes that answer for a log.
   virtual void post(const std::string& channel, bus::Bytes bytes) = 0;
-  // What was received since the last call on channels whose messages are for this program alone (set_replies).
+  // What was received since the last call on channels whose messages are for this program alone
+  // (set_replies).
   virtual std::vector<BusMessage> take_replies() = 0;
   virtual void set_replies(std::function<bool(std::string_view channel)> is_reply) = 0;
   // Whether queries are answered for the present alone, by name.

@@ -17,9 +17,9 @@ struct WebAnswer {
   std::string cookie = {};
 };
 
-// The answer to a request for a file in `folder`: the file; or why not, as `access` allows. Links that lead out of the folder
-// are not followed. Without a bundle `/` is a page that names the command that builds it, without the token one with a form for
-// it.
+// The answer to a request for a file in `folder`: the file; or why not, as `access` allows. Links that lead
+// out of the folder are not followed. Without a bundle `/` is a page that names the command that builds it,
+// without the token one with a form for it.
 WebAnswer answer_to(const WebAccess& access, const std::string& folder, std::string_view method,
                     const WebRequest& request);
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Who may reach the monitor's web server, and which file a request names. Pure: no socket, no file.
 //
-// The server runs beside a browser that shows pages of strangers. A stranger's page can send requests to 127.0.0.1, and by
-// naming its own host 127.0.0.1 (DNS rebinding) even reads the answers. So a request names this server in Host, and
-// one that a page made names this server, or one that was allowed, in Origin (RFC 6454). Where others reach
-// the address, a token is demanded as well, which takes the place of the check of Host.
+// The server runs beside a browser that shows pages of strangers. A stranger's page can send requests to
+// 127.0.0.1, and by naming its own host 127.0.0.1 (DNS rebinding) even reads the answers. So a request names
+// this server in Host, and one that a page made names this server, or one that was allowed, in Origin (RFC
+// 6454). Where others reach the address, a token is demanded as well, which takes the place of the check of
+// Host.
 #pragma once
 
 #include <cstdint>
@@ -47,10 +48,12 @@ std::string url_of(const WebAccess& access);
 
 // The path of a target without its query.
 std::string_view path_of(std::string_view target);
-// The file within the bundle, relative; empty for a path that no bundle has (.., hidden files, control characters).
+// The file within the bundle, relative; empty for a path that no bundle has (.., hidden files, control
+// characters).
 std::optional<std::string> bundle_file(std::string_view target);
 std::string_view mime_type(std::string_view file);
-// Names with a hash of their contents (assets/index-B3x_9aQk.js) never change; others are revalidated each time.
+// Names with a hash of their contents (assets/index-B3x_9aQk.js) never change; others are revalidated each
+// time.
 std::string_view cache_control(std::string_view file);
 
 // The first protocol of a list "a, b" that is in `known`; empty when none is.

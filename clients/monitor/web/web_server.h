@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // HTTP and WebSocket for the monitor's page: files of the bundle, and connections at /ws.
 //
-// One thread: callbacks come from run_for(), and everything is called from the thread that calls it. Nothing here waits for a
-// client: what is sent is queued. Bounds, so that no client costs more than its share:
+// One thread: callbacks come from run_for(), and everything is called from the thread that calls it. Nothing
+// here waits for a client: what is sent is queued. Bounds, so that no client costs more than its share:
 //
 // - at most kMaxTransports TCP connections and kMaxConnections WebSockets; more are refused (503);
 // - headers to 16 kB, requests without a body, messages to kMaxMessageBytes; ten seconds for a request;
-// - a client that leaves kMaxQueuedBytes unread, or reads nothing for kMaxStall, is dropped, as is one that does not
-//   answer pings for 20 s;
-// - a client whose message was not taken (WebHandlers::received) is read no further until resume(), nor one that leaves
-//   much unread: a flood waits in its own socket.
+// - a client that leaves kMaxQueuedBytes unread, or reads nothing for kMaxStall, is dropped, as is one that
+//   does not answer pings for 20 s;
+// - a client whose message was not taken (WebHandlers::received) is read no further until resume(), nor one
+//   that leaves much unread: a flood waits in its own socket.
 #pragma once
 
 #include <chrono>
@@ -69,7 +69,8 @@ class WebServer {
   virtual std::size_t queued_bytes() const = 0;
 };
 
-// Listens. Throws InvalidArgument when the address cannot be had, and for one that others reach without a token.
+// Listens. Throws InvalidArgument when the address cannot be had, and for one that others reach without a
+// token.
 std::unique_ptr<WebServer> open_web_server(const WebServer::Options& options, WebHandlers handlers);
 
 }  // namespace halocline::monitor

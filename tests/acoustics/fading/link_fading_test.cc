@@ -45,8 +45,8 @@ double kolmogorov(std::vector<double> samples, const std::function<double(double
   return distance * std::sqrt(n);
 }
 
-// Of the amplitude of a steady part of power c and complex Gaussian noise of power d: integral of Rice's density
-// 2 r / d exp(-(r^2 + c) / d) I0(2 r sqrt(c) / d), by Simpson's rule.
+// Of the amplitude of a steady part of power c and complex Gaussian noise of power d: integral of Rice's
+// density 2 r / d exp(-(r^2 + c) / d) I0(2 r sqrt(c) / d), by Simpson's rule.
 double rice(double c, double d, double r) {
   constexpr int kSteps = 400;
   const auto density = [&](double x) {
@@ -99,7 +99,8 @@ TEST(LinkFading, LargeScaleFadingLeavesTheMeanPowerAndHasItsDeviation) {
     level += 20 * std::log10(x) / links;
     squares += std::pow(20 * std::log10(x), 2) / links;
   }
-  // Power of a log-normal: relative deviation sqrt(exp((0.23 sigma)^2) - 1) = 0.78, of 20 000: 3.3 times 0.0055.
+  // Power of a log-normal: relative deviation sqrt(exp((0.23 sigma)^2) - 1) = 0.78, of 20 000: 3.3 times
+  // 0.0055.
   EXPECT_NEAR(power, 1, 0.019);
   EXPECT_NEAR(level, -1.036, 3.3 * 3 / std::sqrt(links));
   EXPECT_NEAR(std::sqrt(squares - level * level), 3, 3.3 * 3 / std::sqrt(2.0 * links));

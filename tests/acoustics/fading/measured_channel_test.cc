@@ -70,7 +70,8 @@ TEST(MeasuredChannel, InItsOwnBandHasTheTapsOfTheRecord) {
   EXPECT_NEAR(std::abs(values[1] - std::polar(0.5, pi / 2 + 2 * pi * 0.0006)), 0, 1e-6);
 }
 
-// Mean over the band of |1 + a exp(-j 2 pi (f - fc) tau)|^2 = 1 + a^2 + 2 a sinc(B tau) cos(2 pi (f0 - fc) tau).
+// Mean over the band of |1 + a exp(-j 2 pi (f - fc) tau)|^2 = 1 + a^2 + 2 a sinc(B tau) cos(2 pi (f0 - fc)
+// tau).
 TEST(MeasuredChannel, InANarrowerBandHasTheMeanPowerOfThatBand) {
   const double a = 0.8, tau_s = 1 / 5000.0;
   const ChannelRecord record = record_of(3, 30, [&](std::size_t, std::size_t k) {
@@ -80,7 +81,8 @@ TEST(MeasuredChannel, InANarrowerBandHasTheMeanPowerOfThatBand) {
     const double x = pi * band.width_hz() * tau_s;
     const double expected =
         1 + a * a + 2 * a * std::sin(x) / x * std::cos(2 * pi * (band.centre_hz() - 25'000) * tau_s);
-    // Of a sharp tap, what is left out before the first tap, beyond the sinc's end and below 0.1 % takes 3 % at most.
+    // Of a sharp tap, what is left out before the first tap, beyond the sinc's end and below 0.1 % takes 3 %
+    // at most.
     const double loss_db = 10 * std::log10(expected / MeasuredChannel(record, band).power());
     EXPECT_GT(loss_db, 0);
     EXPECT_LT(loss_db, 0.13);

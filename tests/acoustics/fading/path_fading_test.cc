@@ -16,7 +16,8 @@ FadingModel fading_sea() { return {.enabled = true}; }
 
 double squared_sine(double degrees) { return std::pow(std::sin(to_radians(degrees)), 2); }
 
-// Rayleigh parameters and spreads worked out by hand from Gamma = 2 k 0.22 U^2 / (4 g) sin(theta), three digits.
+// Rayleigh parameters and spreads worked out by hand from Gamma = 2 k 0.22 U^2 / (4 g) sin(theta), three
+// digits.
 struct RoughSurface {
   double frequency_hz, wind_mps, grazing_deg, gamma, spread_hz;
 };

@@ -46,7 +46,8 @@ TEST(Reverberation, HoldsThePowerOfItsClosedForm) {
               1, 2e-3);  // of the power beyond 30 dB of decay: 1e-3 / x
 }
 
-// Lambert's angles below the critical one meet the bottom 1500 (2/3) sqrt(0.28) / 5 = 105.8 times a second: 1 dB each.
+// Lambert's angles below the critical one meet the bottom 1500 (2/3) sqrt(0.28) / 5 = 105.8 times a second: 1
+// dB each.
 TEST(Reverberation, DecaysByTheStatedLossAtEachBounce) {
   EXPECT_NEAR(tail_decay_per_s(kLambert, kShallow) * 10 / std::numbers::ln10, 105.83, 0.01);
   // dI/dt = R exp(-b s) / sqrt(t^2 - t0^2) from 0.23 s on, by steps of 1 us.

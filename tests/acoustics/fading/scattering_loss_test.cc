@@ -25,7 +25,8 @@ RoughBounces bounces(int surface, int bottom, double degrees) {
   return {surface, bottom, surface * squared_sine(degrees), bottom * squared_sine(degrees)};
 }
 
-// One bounce at 10 degrees over medium sand: Gamma = 0.7273, of 1 - exp(-Gamma^2) = 0.4108 the share 1 / 1.1782^2 is lost.
+// One bounce at 10 degrees over medium sand: Gamma = 0.7273, of 1 - exp(-Gamma^2) = 0.4108 the share 1 /
+// 1.1782^2 is lost.
 TEST(ScatteringLoss, ABottomLosesWhatItScattersBeyondItsCriticalAngle) {
   EXPECT_NEAR(of_sand(), 1 - 1 / (1.1782 * 1.1782), 1e-4);
   EXPECT_EQ(trapped_share(*sediment("Clay")), 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Eigenrays through a smooth front that was sampled on the grid of an ocean field, against rays integrated through the front itself.
+// Eigenrays through a smooth front that was sampled on the grid of an ocean field, against rays integrated
+// through the front itself.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -31,8 +32,9 @@ using testing::tolerance;
 
 constexpr double kFrequency = 25'000, kBottom = 200;
 constexpr double kFront = 3000, kWidth = 800;  // along north
-// Levels of paths near a caustic are not compared: ray theory itself does not give them to 0.1 dB. The two rays of a fold, 4/3 x^(3/2)
-// apart in phase, have the amplitude of Airy's function but for 5 / (48 x^(3/2)) (Abramowitz and Stegun 10.4.60), 0.1 dB at 12 rad.
+// Levels of paths near a caustic are not compared: ray theory itself does not give them to 0.1 dB. The two
+// rays of a fold, 4/3 x^(3/2) apart in phase, have the amplitude of Airy's function but for 5 / (48 x^(3/2))
+// (Abramowitz and Stegun 10.4.60), 0.1 dB at 12 rad.
 constexpr double kLeastApartRad = 12;
 constexpr double kMeridionalRadius = 6'335'439.327;  // WGS 84, at the equator
 const FluidBottom kSand = fluid_bottom(1.9, 1650, 0.8);
@@ -85,7 +87,8 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-// Of the paths of one link within 30 dB of the strongest. Where two come to one of the front's own, the one launched nearest to it counts.
+// Of the paths of one link within 30 dB of the strongest. Where two come to one of the front's own, the one
+// launched nearest to it counts.
 void compare_link(const Environment& sea, const Vec3& from, const Vec3& to, const RayLink& link,
                   Errors& errors) {
   const LinkWater along = water_between(sea, from, to, kBottom, kFrequency, 0);

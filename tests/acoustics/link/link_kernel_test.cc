@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernel against LinkModel, which follows the formulas as they stand; link_budget_test.cc holds the physics.
+// The kernel against LinkModel, which follows the formulas as they stand; link_budget_test.cc holds the
+// physics.
 #include "acoustics/link/link_kernel.h"
 
 #include <algorithm>

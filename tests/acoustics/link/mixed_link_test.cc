@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy of links whose rays are mixed, against the integral over a channel of one speed and against every ray over rough
-// bottoms.
+// The energy of links whose rays are mixed, against the integral over a channel of one speed and against
+// every ray over rough bottoms.
 #include "acoustics/link/mixed_link.h"
 
 #include <algorithm>
@@ -33,7 +33,8 @@ double power_of(const std::vector<Arrival>& paths) {
 
 double decibels(double power) { return 10 * std::log10(power); }
 
-// In even water half a cycle is H cot(angle) long: the power is 2 / (r H) times the integral of R^(r tan(angle) / H).
+// In even water half a cycle is H cot(angle) long: the power is 2 / (r H) times the integral of R^(r
+// tan(angle) / H).
 TEST(MixedLink, OfOneSpeedIsTheIntegralOverTheChannel) {
   const RaySea sea = sea_of({{0, 1500}}, BottomProfile::flat(100), [](double) { return 0.0; });
   for (const double range : {2000.0, 5000.0, 10'000.0}) {
@@ -67,7 +68,8 @@ double mean_square_slope(const BottomProfile& bottom, double range_m) {
   return squares / count - sum / count * (sum / count);
 }
 
-// Of links 0.9 to 1.1 of the range long over rough bottoms with `relief` times 5 m: what mixed rays bring beside all rays.
+// Of links 0.9 to 1.1 of the range long over rough bottoms with `relief` times 5 m: what mixed rays bring
+// beside all rays.
 struct MeanError {
   double db = 0, rms_db = 0;
 };
@@ -101,7 +103,8 @@ MeanError error_over(double range_m, double relief, bool with_slopes) {
   return error;
 }
 
-// Over places; the mean of 40 is known within 0.25 dB, so that of a right model lies within 0.75 of 0 in 997 of 1000 draws.
+// Over places; the mean of 40 is known within 0.25 dB, so that of a right model lies within 0.75 of 0 in 997
+// of 1000 draws.
 TEST(MixedLink, IsOnTheMeanWhatEveryRayBringsOverRoughBottoms) {
   for (const double range : {2000.0, 3000.0, 4000.0}) {
     const MeanError error = error_over(range, 1, /*with_slopes=*/true);

@@ -17,7 +17,8 @@ using testing::tolerance;
 
 double angle_of(std::size_t ray, double width_rad) { return (static_cast<double>(ray) + 0.5) * width_rad; }
 
-// With cycles of one length Legendre's polynomial P2(cos(angle)) only fades, as exp(-12 s2 r / X); a level stays.
+// With cycles of one length Legendre's polynomial P2(cos(angle)) only fades, as exp(-12 s2 r / X); a level
+// stays.
 TEST(SlopeDiffusion, FadesAsLegendrePolynomialsDo) {
   constexpr std::size_t kRays = 90;
   constexpr double kWidth = std::numbers::pi / 2 / kRays, kCycle = 800, kSquare = 0.01, kRange = 4000;

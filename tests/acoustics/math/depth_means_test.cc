@@ -31,7 +31,8 @@ double mean(const DepthMeans& means, std::size_t property, double upper_m, doubl
 
 TEST(DepthMeans, AreThoseOfTheIntegral) {
   const DepthMeans means = exponentials();
-  // Half of the exponent's change over the tallest cell is h = 5 / 3: h^10 / (10! 2^9) = 9e-8; over the one above, 8e-11.
+  // Half of the exponent's change over the tallest cell is h = 5 / 3: h^10 / (10! 2^9) = 9e-8; over the one
+  // above, 8e-11.
   for (const double lower_m : {12.0, 59.0, 60.0, 61.0, 100.0, 160.0}) {
     EXPECT_NEAR(mean(means, 0, 3, lower_m) / exact_mean(3, lower_m), 1, tolerance(1e-8)) << lower_m;
   }

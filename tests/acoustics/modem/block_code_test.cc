@@ -44,7 +44,8 @@ unsigned trace(unsigned x) {
 }
 
 // The code is spanned by the words, over all x of the field of 64: 1, Tr(a x) for six independent a, and
-// Tr8(b x^9) for three independent b of the subfield of 8, where x^9 lies (MacWilliams and Sloane, chapter 9).
+// Tr8(b x^9) for three independent b of the subfield of 8, where x^9 lies (MacWilliams and Sloane, chapter
+// 9).
 TEST(BlockCode, Bch64WeightsAreThoseOfTheCodeWrittenOut) {
   std::vector<std::uint64_t> rows(10);
   for (unsigned x = 0; x < 64; ++x) {

@@ -113,8 +113,8 @@ TEST(ModemProfile, AChipAndAPatternBelongToHopping) {
   EXPECT_EQ(error_of("hop_count = 13\nchip_s = 0.01\nhop_clearing_s = 0.01"), "");
 }
 
-// Chip i of JANUS is on pair b (u + v b) mod 13, b = 2^(1 + i mod 12), u = 1 + i div 156, v = i div 12 (its reference
-// implementation).
+// Chip i of JANUS is on pair b (u + v b) mod 13, b = 2^(1 + i mod 12), u = 1 + i div 156, v = i div 12 (its
+// reference implementation).
 int janus_pair(int i) {
   int b = 1;
   for (int power = 0; power <= i % 12; ++power) b = 2 * b % 13;
@@ -176,7 +176,8 @@ TEST(ModemProfile, JanusBaselineAndCargoLastAsPublished) {
   }
 }
 
-// Of a published table of durations on the water: 1, 8, 16 and 29 bytes. The line of 976 bit/s runs below it at the long end.
+// Of a published table of durations on the water: 1, 8, 16 and 29 bytes. The line of 976 bit/s runs below it
+// at the long end.
 TEST(ModemProfile, InstantMessagesOfS2cLastAsPublished) {
   const Modem modem = modem_of("s2c-im");
   const std::vector<std::pair<std::size_t, double>> published{
@@ -280,10 +281,10 @@ double half_of_frames_db(const Modem& modem, std::int64_t frame_bits) {
   return low;
 }
 
-// WHOI's public simulation package (ros_acomms, packet performance) gives frame errors against the ratio: half of
-// the frames at -7.05 dB for rate 1 (between 72.7 % at -7.23 and 17 % at -6.85 dB) and at 3.87 dB for rate 5
-// (between 100 % at 3.10 and 13.5 % at 4.44 dB). 2 dB: whether its ratio is over 4 or 5 kHz (1 dB) is not stated,
-// and bits that err in clumps spoil fewer frames than as many single ones (0.4 dB at rate 5).
+// WHOI's public simulation package (ros_acomms, packet performance) gives frame errors against the ratio:
+// half of the frames at -7.05 dB for rate 1 (between 72.7 % at -7.23 and 17 % at -6.85 dB) and at 3.87 dB for
+// rate 5 (between 100 % at 3.10 and 13.5 % at 4.44 dB). 2 dB: whether its ratio is over 4 or 5 kHz (1 dB) is
+// not stated, and bits that err in clumps spoil fewer frames than as many single ones (0.4 dB at rate 5).
 TEST(ModemProfile, PskFramesFailWhereThePublishedCurvesSay) {
   EXPECT_NEAR(half_of_frames_db(modem_of("micromodem-psk-1"), 512), -7.05, 2);
   EXPECT_NEAR(half_of_frames_db(modem_of("micromodem-psk-5"), 2048), 3.87, 2);
@@ -302,7 +303,8 @@ TEST(ModemProfile, FasterRatesNeedMore) {
   }
 }
 
-// A vehicle may meet another at 2 m/s each in every profile; the reference receivers correct no more than 5 m/s.
+// A vehicle may meet another at 2 m/s each in every profile; the reference receivers correct no more than 5
+// m/s.
 TEST(ModemProfile, SubmarinesAreWithinTheDopplerTolerance) {
   for (const std::string& name : built_in_modems()) {
     const Modem modem = modem_of(name);

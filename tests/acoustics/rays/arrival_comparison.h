@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares the arrivals of a solver with those of a dense fan (tests/acoustics/rays/brute_fan.h), within 30 dB of the
-// strongest: delay 1 us, level 0.05 dB, phase 1 degree, angles 0.01 degrees; bundles launched within 0.02 degrees of
-// each other as their sum.
+// Compares the arrivals of a solver with those of a dense fan (tests/acoustics/rays/brute_fan.h), within 30
+// dB of the strongest: delay 1 us, level 0.05 dB, phase 1 degree, angles 0.01 degrees; bundles launched
+// within 0.02 degrees of each other as their sum.
 #pragma once
 
 #include <functional>
@@ -22,8 +22,8 @@ struct ComparisonCount {
 
 BruteArrival brute_of(const Arrival& arrival);
 
-// Fails the test for each arrival that `found` lacks of `expected` or has besides. What the fan has not resolved is
-// confirmed by `trace`, which returns the ray launched at an angle if it passes the receiver.
+// Fails the test for each arrival that `found` lacks of `expected` or has besides. What the fan has not
+// resolved is confirmed by `trace`, which returns the ray launched at an angle if it passes the receiver.
 void compare_arrivals(const std::string& where, const std::vector<BruteArrival>& found,
                       const std::vector<BruteArrival>& expected,
                       const std::function<std::optional<BruteArrival>(double)>& trace,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All rays of one link by a dense fan of plainly followed rays (tests/acoustics/rays/brute_ray.h): an independent
-// reference for tests, thousands of times slower than the solvers.
+// All rays of one link by a dense fan of plainly followed rays (tests/acoustics/rays/brute_ray.h): an
+// independent reference for tests, thousands of times slower than the solvers.
 //
 // Neighbours of the fan with one history of bounces whose depths at the receiver's range lie on both sides of
 // the receiver bracket a ray, which bisection finds. Between neighbours of different histories the fan is

@@ -3,11 +3,11 @@
 // tests.
 //
 // Written from the geometry alone and sharing no formula with the solvers: an arc leaves and meets a chord at
-// equal angles, so dr = dz (cos1 + cos2) / (sin1 + sin2); time along it is 2 asinh(|g| chord / (2 sqrt(c1 c2)))
-// / |g|; its first meeting with a facet is bracketed by the place where arc and facet are parallel and then
-// bisected. The ray tube (q, p) is Cerveny's dynamic ray tracing. On a `curved` bottom rays meet the straight
-// facets but are reflected as by normals that go evenly from point to point, at a point the mean of both
-// facets' directions, at the first and the last point that of the facet itself.
+// equal angles, so dr = dz (cos1 + cos2) / (sin1 + sin2); time along it is 2 asinh(|g| chord / (2 sqrt(c1
+// c2))) / |g|; its first meeting with a facet is bracketed by the place where arc and facet are parallel and
+// then bisected. The ray tube (q, p) is Cerveny's dynamic ray tracing. On a `curved` bottom rays meet the
+// straight facets but are reflected as by normals that go evenly from point to point, at a point the mean of
+// both facets' directions, at the first and the last point that of the facet itself.
 #pragma once
 
 #include <cstdint>

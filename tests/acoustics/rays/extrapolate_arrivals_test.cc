@@ -75,8 +75,8 @@ TEST(ExtrapolateArrivals, TheReverseLinkIsExtrapolatedAlike) {
   }
 }
 
-// Greatest error of a delay among paths away from folds, over random displacements of at most `size_m` in range and a
-// tenth of that in depth.
+// Greatest error of a delay among paths away from folds, over random displacements of at most `size_m` in
+// range and a tenth of that in depth.
 double worst_delay_s(const RaySea& sea, double size_m) {
   const auto draw = [](std::uint32_t who, std::uint64_t which) {
     return uniform_at({.seed = 3, .purpose = purpose_of("carry"), .who = who, .which = which});

@@ -38,8 +38,8 @@ struct Sea {
 
 class FanOverSeas : public ::testing::TestWithParam<Sea> {};
 
-// Both follow the same arcs and add in another order: 1e-7 m and 1e-7 of the slope is what rounding can do over some
-// kilometres, 1000 times what was seen (2.5e-11 m, 2e-12).
+// Both follow the same arcs and add in another order: 1e-7 m and 1e-7 of the slope is what rounding can do
+// over some kilometres, 1000 times what was seen (2.5e-11 m, 2e-12).
 TEST_P(FanOverSeas, RaysArriveAsByTheExactTracerWithTheSameEvents) {
   const auto& [name, knots, bottom, link] = GetParam();
   const RayWater water = water_of(knots);
@@ -89,7 +89,8 @@ TEST(FanTracer, ForgetsTheEventsOfRaysTracedSince) {
   EXPECT_EQ(quick.events_of(first).size(), first.events);
 }
 
-// d range / d xi of each layer against the difference of ranges: central differences of 1e-6 of xi err by 1e-9.
+// d range / d xi of each layer against the difference of ranges: central differences of 1e-6 of xi err by
+// 1e-9.
 TEST(RayColumn, RangeThroughALayerGrowsByItsSlope) {
   const RayWater water = water_of(kShelf);
   RayColumn column(water, 90, 119), before(water, 90, 119), after(water, 90, 119);

@@ -40,8 +40,8 @@ inline BottomProfile cosine_hill() {
   return BottomProfile(std::move(points));
 }
 
-// A bottom 150 m deep with a relief of 5 m rms: waves of 1 km to 62 m that are halved in length, as high as their length to
-// the power of 1.1, eight of each; sampled each 12.5 m.
+// A bottom 150 m deep with a relief of 5 m rms: waves of 1 km to 62 m that are halved in length, as high as
+// their length to the power of 1.1, eight of each; sampled each 12.5 m.
 inline BottomProfile rough_bottom(std::uint32_t seed, double to_m) {
   constexpr int kOctaves = 5, kWaves = 8;
   constexpr double kHurst = 1.1;

@@ -46,7 +46,8 @@ double level_without_bounces_db(const Arrivals& found) {
   return 10 * std::log10(sum);
 }
 
-// Of Munk's own profile c'' = 4 eps c1 / B^2 on the axis, so that the axial ray has the tube sin(kappa r) / kappa.
+// Of Munk's own profile c'' = 4 eps c1 / B^2 on the axis, so that the axial ray has the tube sin(kappa r) /
+// kappa.
 const double kMunkKappa = 2 * std::sqrt(0.00737) / 1300;
 double munk_axial_level_db(double range_m) {
   return 10 * std::log10(kMunkKappa / (range_m * std::sin(kMunkKappa * range_m)));
@@ -143,8 +144,8 @@ TEST(RoundedChannels, LeaveSharpKinksAsTheyAre) {
   EXPECT_EQ(rounded_channels(kThermocline, 1).size(), kThermocline.size());
 }
 
-// Rows of 2 km make families that end at a row before they reach their caustic: there each ray has the level of its
-// tube, whatever the frequency.
+// Rows of 2 km make families that end at a row before they reach their caustic: there each ray has the level
+// of its tube, whatever the frequency.
 TEST(Folds, ARayWithoutAPartnerKeepsTheLevelOfItsTube) {
   const std::vector<SpeedRow> rows = {{0, munk_sound_speed_mps(0)},
                                       {2000, munk_sound_speed_mps(2000)},

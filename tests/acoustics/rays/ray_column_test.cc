@@ -58,7 +58,8 @@ std::vector<double> depths_of_column(double deepest_m) {
   return depths;
 }
 
-// The strong paths are those of the single search, within what column_rays.h states; all together have the same power.
+// The strong paths are those of the single search, within what column_rays.h states; all together have the
+// same power.
 TEST_P(RayColumn, HasThePathsOfEachReceiverByItself) {
   const RaySea sea = sea_of_column(GetParam());
   ColumnRays column;

@@ -25,8 +25,8 @@ constexpr double kFrequency = 25'000;
 
 double decibels(double ratio) { return 20 * std::log10(ratio); }
 
-// A caustic of two rays that leave the source all but horizontally: by bottom alone, launched within 2 degrees. Lit where the
-// source is deeper.
+// A caustic of two rays that leave the source all but horizontally: by bottom alone, launched within 2
+// degrees. Lit where the source is deeper.
 struct Column {
   std::vector<SpeedRow> rows = {{0, 1530}, {15, 1530.4}, {30, 1510.7}, {50, 1504.6}, {100, 1505.5}};
   BottomProfile bottom = BottomProfile::flat(100);
@@ -73,7 +73,8 @@ TEST(FoldField, ItsSharesAreThoseOfAirysFunctions) {
 TEST(FoldField, ASingleRaysTubeGivesAirysLevel) {
   const Fold fold{1e5, 5e-4};
   const double length = fold.length_m(kFrequency);
-  // Two rays at the distance x L have |du| = sqrt(2 x L |d2u|), omega dt = (2/3) omega |dp| |d2u| (2 x L / |d2u|)^(3/2).
+  // Two rays at the distance x L have |du| = sqrt(2 x L |d2u|), omega dt = (2/3) omega |dp| |d2u| (2 x L /
+  // |d2u|)^(3/2).
   for (const double x : {0.5, 1.0, 3.0}) {
     const double time_s =
         2.0 / 3 * fold.slowness_slope * fold.curvature * std::pow(2 * x * length / fold.curvature, 1.5);
@@ -87,8 +88,8 @@ TEST(FoldField, ASingleRaysTubeGivesAirysLevel) {
 
 class Folds : public ::testing::TestWithParam<RaySolver> {};
 
-// Two rays at one place, no ray at another: from the amplitudes and the delays of the two follow where the caustic is and
-// how the field decays beyond it.
+// Two rays at one place, no ray at another: from the amplitudes and the delays of the two follow where the
+// caustic is and how the field decays beyond it.
 TEST_P(Folds, TheDarkSideFollowsFromTheRaysOfTheLitSide) {
   const std::vector<Arrival> lit = near_caustic(43.6, GetParam(), false);
   ASSERT_EQ(lit.size(), 2U);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the limits of the search keep and drop, links of hardly any range, and what rays note of their bounces.
+// What the limits of the search keep and drop, links of hardly any range, and what rays note of their
+// bounces.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -105,7 +106,8 @@ TEST(RayLimits, OnlyWhereNoRayArrivesIsAShadow) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------- hardly any range
+// ---------------------------------------------------------------------------------------------- hardly any
+// range
 
 TEST(RayLimits, WithinOneMetreTheDirectPathTakesItsTimeAtTheLevelOfOneMetre) {
   const BottomProfile slope({{0, 90}, {2000, 60}});

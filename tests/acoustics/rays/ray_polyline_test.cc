@@ -91,7 +91,8 @@ TEST(RayPolyline, OfImagesIsStraightFromBounceToBounce) {
   EXPECT_NEAR(way[1].depth_m, 0, tolerance(1e-5));
 }
 
-// In water of one gradient a ray is an arc of the circle of radius 1 / (xi g) about the depth where c would be 0.
+// In water of one gradient a ray is an arc of the circle of radius 1 / (xi g) about the depth where c would
+// be 0.
 TEST(RayPolyline, OfAConstantGradientLiesOnACircle) {
   constexpr double kGradient = 0.05, kSurfaceSpeed = 1480;
   const RaySea sea = sea_of({{0, kSurfaceSpeed},
@@ -119,8 +120,8 @@ TEST(RayPolyline, OfAConstantGradientLiesOnACircle) {
   }
 }
 
-// Any water over any bottom: the time along the drawn way is the delay of the path, which other code found. Rays that graze
-// the surface have another range as waves: their way is drawn longer or shorter.
+// Any water over any bottom: the time along the drawn way is the delay of the path, which other code found.
+// Rays that graze the surface have another range as waves: their way is drawn longer or shorter.
 class RayWays : public ::testing::TestWithParam<bool> {};
 TEST_P(RayWays, TakeAsLongAsTheirPaths) {
   const double share = GetParam() ? 1e-3 : 2e-5;

@@ -252,8 +252,8 @@ TEST(ProfileRays, AHillInTheWayCastsAShadow) {
 }
 
 TEST(ProfileRays, AnArcThatBendsDownOverACrestMeetsItsFarSide) {
-  // Where it starts the ray is below the far slope drawn on. Its radius is 1.5 km: highest over the crest, 3 m
-  // above it, it meets the far slope 150 m on.
+  // Where it starts the ray is below the far slope drawn on. Its radius is 1.5 km: highest over the crest, 3
+  // m above it, it meets the far slope 150 m on.
   const RaySea sea = sea_of({{0, 1600}, {300, 1300}}, BottomProfile({{0, 200}, {500, 100}, {1500, 130}}));
   const ProfiledSea profiled{sea.water, sea.bottom_profile, sea.bottom, sea.surface, sea.options};
   const double theta = -std::atan(500 / (1600.0 - 182));

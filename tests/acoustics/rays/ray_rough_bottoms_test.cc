@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays over rough bottoms, where they are too many to be found one by one: strong paths and levels against the search of
-// every ray.
+// Rays over rough bottoms, where they are too many to be found one by one: strong paths and levels against
+// the search of every ray.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Water that changes along the link: closed forms, the layered search, and rays integrated by Runge and Kutta.
+// Water that changes along the link: closed forms, the layered search, and rays integrated by Runge and
+// Kutta.
 #include "acoustics/sea/ray_section.h"
 
 #include <algorithm>
@@ -82,7 +83,8 @@ std::optional<Arrival> direct_of(const Arrivals& found) {
   return std::nullopt;
 }
 
-// c = c0 + g . x everywhere: t = acosh(1 + g^2 d^2 / (2 c1 c2)) / g (Jensen and others 2011, section 3.3, turned by an angle).
+// c = c0 + g . x everywhere: t = acosh(1 + g^2 d^2 / (2 c1 c2)) / g (Jensen and others 2011, section 3.3,
+// turned by an angle).
 TEST(RaySection, AGradientInAnyDirectionHasItsClosedForm) {
   std::mt19937 draw(7);
   std::uniform_real_distribution<double> share(0, 1);
@@ -122,7 +124,8 @@ void expect_same(const Arrivals& found, const Arrivals& expected, double delay_s
   }
 }
 
-// Over a bottom that changes, in water of one gradient: with columns alike, and with columns that differ by a nanometre a second.
+// Over a bottom that changes, in water of one gradient: with columns alike, and with columns that differ by a
+// nanometre a second.
 TEST(RaySection, IsTheLayeredSearchWhereTheWaterIsTheSame) {
   std::mt19937 draw(3);
   std::uniform_real_distribution<double> share(0, 1);
@@ -190,9 +193,9 @@ PiecewiseWater pieces_of(const Nodes& nodes) {
   return water;
 }
 
-// Through a front, over a bottom that slopes: all paths within 30 dB of the strongest. Of rays that all but graze a boundary
-// some do not come to the receiver when they are launched a nanoradian off; they are not compared. Where slopes are limited, which the
-// pieces leave out, rays differ by some 1e-7 s.
+// Through a front, over a bottom that slopes: all paths within 30 dB of the strongest. Of rays that all but
+// graze a boundary some do not come to the receiver when they are launched a nanoradian off; they are not
+// compared. Where slopes are limited, which the pieces leave out, rays differ by some 1e-7 s.
 TEST(RaySection, RandomLinksThroughAFrontAgreeWithRungeKutta) {
   std::mt19937 draw(11);
   std::uniform_real_distribution<double> share(0, 1);
@@ -231,8 +234,8 @@ TEST(RaySection, RandomLinksThroughAFrontAgreeWithRungeKutta) {
   EXPECT_LT(not_compared, compared / 200);
 }
 
-// Samples of a smooth front: delays and levels of all paths against those in the front itself. Half the spacing leaves an eighth of the
-// delay's error and a quarter of the level's.
+// Samples of a smooth front: delays and levels of all paths against those in the front itself. Half the
+// spacing leaves an eighth of the delay's error and a quarter of the level's.
 TEST(RaySection, ConvergesToTheFrontItSamples) {
   constexpr double kRange = 3000, kFront = 1500, kWidth = 600;
   const PiecewiseWater smooth{[](double, double) { return 0; },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays over bottoms of steep facets, where most rays turn back and those that arrive come through narrow windows,
-// against a dense fan of plainly followed rays.
+// Rays over bottoms of steep facets, where most rays turn back and those that arrive come through narrow
+// windows, against a dense fan of plainly followed rays.
 //
 // A short set runs by default; HALOCLINE_RAY_LINKS and HALOCLINE_RAY_FAN as in ray_random_links_test.cc.
 #include <algorithm>

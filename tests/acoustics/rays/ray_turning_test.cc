@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays that all but graze a boundary or turn beside a knot: the functions that give them the range of waves, and the field
-// about them against the integral over all waves.
+// Rays that all but graze a boundary or turn beside a knot: the functions that give them the range of waves,
+// and the field about them against the integral over all waves.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -75,8 +75,8 @@ TEST(TurningField, RaysAreTheirOwnFurtherAway) {
   EXPECT_NEAR(turning_at_knot(last).phase, 0, 1e-6);
 }
 
-// Water of 1 / c^2 = (1 + a z) / c0^2 below a surface, without a bottom. Each wave of horizontal number kappa is one of
-// Airy's functions, and the field their sum (Brekhovskikh and Godin 1999, chapter 3).
+// Water of 1 / c^2 = (1 + a z) / c0^2 below a surface, without a bottom. Each wave of horizontal number kappa
+// is one of Airy's functions, and the field their sum (Brekhovskikh and Godin 1999, chapter 3).
 constexpr double kSurfaceSpeed = 1513.5, kGradient = 0.11, kSlope = 2 * kGradient / kSurfaceSpeed;
 
 double pressure_of_waves(double source_m, double receiver_m, double range_m) {
@@ -115,7 +115,8 @@ double pressure_of_rays(double source_m, double receiver_m, double range_m) {
   return std::abs(sum);
 }
 
-// The last ray below the surface comes 1838 m far; the field there is 13 dB below that of the lit side, and 10 dB less 80 m on.
+// The last ray below the surface comes 1838 m far; the field there is 13 dB below that of the lit side, and
+// 10 dB less 80 m on.
 TEST(RayTurning, TheEdgeOfASurfaceShadowIsThatOfWaves) {
   for (double range = 1400; range <= 1920; range += 20) {
     const double off = decibels(pressure_of_rays(25, 37, range) / pressure_of_waves(25, 37, range));

@@ -106,9 +106,9 @@ int caustics_between(const RungeKuttaRay& a, const RungeKuttaRay& b) {
   return caustics;
 }
 
-// Near a fold the depth at the receiver is z_c + z'' u^2 / 2, u the launch angle off the caustic's: the other ray has -u, with
-// u = z' / z''. Along z delays differ by (sin a(u) - sin a(-u)) / c = 2 u p, p the derivative of sin a / c, so together by
-// integral of 2 u p dz = 2/3 p z'' u^3.
+// Near a fold the depth at the receiver is z_c + z'' u^2 / 2, u the launch angle off the caustic's: the other
+// ray has -u, with u = z' / z''. Along z delays differ by (sin a(u) - sin a(-u)) / c = 2 u p, p the
+// derivative of sin a / c, so together by integral of 2 u p dz = 2/3 p z'' u^3.
 double fold_delay_s(const RungeKuttaRay& low, const RungeKuttaRay& ray, const RungeKuttaRay& high,
                     double apart) {
   if (low.surface != high.surface || low.bottom != high.bottom) return 1e9;  // a reflection between them

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays through water that changes with range and depth, integrated step by step: an independent reference for tests.
+// Rays through water that changes with range and depth, integrated step by step: an independent reference for
+// tests.
 //
-// The equations of a ray along its length s (Jensen and others 2011, section 3.2): dr/ds = cos, dz/ds = sin, dtau/ds = 1/c,
-// d angle / ds = (dc/dr sin - dc/dz cos) / c, by Runge and Kutta's scheme of fourth order. A step that leaves the piece of
-// water in which it began, where c is one smooth function, ends where it leaves it, as bisection finds; so do steps at the surface and
-// at a straight bottom, which mirror the direction. The ray tube is the difference of two rays. Shares no formula with the
-// tracers.
+// The equations of a ray along its length s (Jensen and others 2011, section 3.2): dr/ds = cos, dz/ds = sin,
+// dtau/ds = 1/c, d angle / ds = (dc/dr sin - dc/dz cos) / c, by Runge and Kutta's scheme of fourth order. A
+// step that leaves the piece of water in which it began, where c is one smooth function, ends where it leaves
+// it, as bisection finds; so do steps at the surface and at a straight bottom, which mirror the direction.
+// The ray tube is the difference of two rays. Shares no formula with the tracers.
 #pragma once
 
 #include <functional>
@@ -73,13 +74,14 @@ struct Compared {
   double fold_delay_s = 0;      // between the two rays of its fold, if it were alone; huge far from caustics
 };
 
-// The launch angle of the ray that comes to the receiver, sought from the path's own on; empty where there is none.
+// The launch angle of the ray that comes to the receiver, sought from the path's own on; empty where there is
+// none.
 std::optional<double> launch_of(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path);
 // Levels without absorption. Empty where there is no such ray.
 std::optional<Compared> compare(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path);
 
-// A front: cold above and on the far side, c = 1485 + 18 e^(-z / 45) + 12 W(r - tilt z) e^(-z / 120), W from 1 to 0 about the
-// range `front_m` within some `width_m`.
+// A front: cold above and on the far side, c = 1485 + 18 e^(-z / 45) + 12 W(r - tilt z) e^(-z / 120), W from
+// 1 to 0 about the range `front_m` within some `width_m`.
 SpeedThere front_speed(double front_m, double width_m, double r, double z);
 
 }  // namespace halocline::acoustics

@@ -46,8 +46,8 @@ TEST(BlockDecoder, OfBitsThatFadeTogetherIsTheProductOverTheirCells) {
   EXPECT_NEAR(block.success(100), std::pow(1 - low, 25) * std::pow(1 - high, 75), 1e-12);
 }
 
-// Chips in fast Rayleigh fading, 4000 strata of their exponential distribution: the effective ratio lands on the code's
-// own curve for it, to 0.1 dB between bit error rates of 1e-2 and 3e-5.
+// Chips in fast Rayleigh fading, 4000 strata of their exponential distribution: the effective ratio lands on
+// the code's own curve for it, to 0.1 dB between bit error rates of 1e-2 and 3e-5.
 TEST(BlockDecoder, LandsOnTheRayleighCurveOfTheJanusCode) {
   const Modem modem = modem_with(ErrorModel::kJanus);
   for (const double mean_db : {10.6, 11.3, 12.0, 12.3}) {  // Eb/N0

@@ -51,7 +51,8 @@ TEST(GuardWindow, WeightsAnEchoByARaisedCosineAfterTheGuardTime) {
   }
 }
 
-// Of two windows without a path in common the weaker one is as likely where both are equal, and never chosen 1 dB below.
+// Of two windows without a path in common the weaker one is as likely where both are equal, and never chosen
+// 1 dB below.
 TEST(GuardWindow, WeighsTwoWindowsOfNearlyTheSamePower) {
   for (const auto& [lower_db, likely] : {std::pair(0.0, 0.5), std::pair(0.5, 0.125)}) {
     const auto windows = likely_windows({path_at(1, -lower_db), path_at(1.1, 0)}, modem());

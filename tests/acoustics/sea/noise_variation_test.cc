@@ -15,7 +15,8 @@ namespace {
 
 using halocline::testing::tolerance;
 
-// 2000 seeds: the relative standard error of the variance is sqrt(2 / 2000), of the correlation 1 / sqrt(2000); bounds at 4.
+// 2000 seeds: the relative standard error of the variance is sqrt(2 / 2000), of the correlation 1 /
+// sqrt(2000); bounds at 4.
 TEST(NoiseSpread, HasTheStatedDeviationAndCorrelationTime) {
   const NoiseVariation variation{.spread_db = 3, .spread_time_s = 600};
   constexpr int kSeeds = 2000;
@@ -33,7 +34,8 @@ TEST(NoiseSpread, HasTheStatedDeviationAndCorrelationTime) {
 
 TEST(NoiseSpread, OfNoneIsNone) { EXPECT_EQ(noise_offset({}, 1, SimTime::from_seconds(5)).value, 0); }
 
-// E exp(-s A) = exp(-s^(alpha / 2)). exp(-s A) lies in 0..1, so the standard error of 40 000 draws is at most 0.5 / 200; bound at 4.
+// E exp(-s A) = exp(-s^(alpha / 2)). exp(-s A) lies in 0..1, so the standard error of 40 000 draws is at most
+// 0.5 / 200; bound at 4.
 TEST(ImpulsiveNoise, ThePowersAreStableOfHalfTheExponent) {
   constexpr int kDraws = 40'000;
   for (const double alpha : {1.2, 1.6, 1.9}) {

@@ -73,8 +73,8 @@ TEST(MovingLink, AStillPathDelaysAndTurns) {
   }
 }
 
-// The receiver leaves at v, so what left at u arrives at u + (r + v (t - 0)) / c: t = (u + r / c) / (1 - v / c), tau = t - u, and
-// the tone is heard at f (1 - v / c).
+// The receiver leaves at v, so what left at u arrives at u + (r + v (t - 0)) / c: t = (u + r / c) / (1 - v /
+// c), tau = t - u, and the tone is heard at f (1 - v / c).
 TEST(MovingLink, AMovingPathHasItsDopplerShift) {
   const double c = 1500, v = 3, r = 300, frequency_hz = 20'000, step_s = 0.02;
   std::vector<std::vector<PathGain>> frames;
@@ -108,8 +108,8 @@ TEST(MovingLink, RefusesWhatIsNoLink) {
   EXPECT_THROW(MovingLink(0, 0.1, {{{1, 0.5, 1.0, 1}}, {{1, 0.3, 1.0, 1}}}), InvalidArgument);
 }
 
-// Power in bands of 4 kHz, from 200 spectra of 5 ms by the formula of a discrete transform: the standard error of the mean of
-// 200 * 20 exponential powers is 1.6 %.
+// Power in bands of 4 kHz, from 200 spectra of 5 ms by the formula of a discrete transform: the standard
+// error of the mean of 200 * 20 exponential powers is 1.6 %.
 TEST(LinearPhaseFilter, ChangesTheLevelOfATone) {
   const auto amplitude = [](double frequency_hz) { return 1 - frequency_hz / 1e5; };
   const std::vector<double> taps = linear_phase_taps(amplitude, kRate);

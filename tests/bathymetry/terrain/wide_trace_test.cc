@@ -69,8 +69,8 @@ int count_of(const std::vector<int>& counts, RayStatus status) {
   return counts[static_cast<std::size_t>(status)];
 }
 
-// Rays of every inclination, from a little outside the terrain and from below its bottom, too; every fourth along a grid line,
-// every fourth along a diagonal, every fourth from a post.
+// Rays of every inclination, from a little outside the terrain and from below its bottom, too; every fourth
+// along a grid line, every fourth along a diagonal, every fourth from a post.
 std::vector<Ray> rays_of_all_kinds(const Terrain& terrain, std::size_t count) {
   const GridGeometry& g = terrain.extent();
   const double length_x_m = g.last_x_m() - g.first_x_m, length_y_m = g.last_y_m() - g.first_y_m;
@@ -119,7 +119,8 @@ TEST(RaysInBatches, EndAtHolesAsSingleRaysDo) {
   EXPECT_GT(count_of(counts, RayStatus::kNoData), 200);
 }
 
-// Three grids side by side in the base, two of which share an edge, and one within one of them; two have holes.
+// Three grids side by side in the base, two of which share an edge, and one within one of them; two have
+// holes.
 Terrain nested_terrain() {
   HeightGrid with_hole = make_grid({500, 500, 10, 101, 101}, FlatShape{.depth_m = 60});
   for (int i = 10; i < 30; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A node whose every message depends on all it has received and on their order: one message lost, duplicated, late or
-// reordered changes all that it publishes afterwards, and when.
+// A node whose every message depends on all it has received and on their order: one message lost, duplicated,
+// late or reordered changes all that it publishes afterwards, and when.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace halocline::conductor::testing {
 
 class ChattyNode : public bus::Node {
  public:
-  // Subscribes to the news and events of others (NEWS.<other>, EVENT.<other>, stored), and to requests (REQUEST.<name>, answered at the same
-  // instant). Now and then sends a request to `neighbour`.
+  // Subscribes to the news and events of others (NEWS.<other>, EVENT.<other>, stored), and to requests
+  // (REQUEST.<name>, answered at the same instant). Now and then sends a request to `neighbour`.
   ChattyNode(lcm::LCM& lcm, const std::string& name, bus::Stage stage, SimDuration period,
              const std::vector<std::string>& others, std::string neighbour)
       : Node(lcm, {name, 1, stage}), period_(period), neighbour_(std::move(neighbour)) {

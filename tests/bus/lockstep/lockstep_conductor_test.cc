@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lockstep protocol on a simulated network: whatever is lost and whoever crashes, the messages of the run and their
-// order are those of one process.
+// The lockstep protocol on a simulated network: whatever is lost and whoever crashes, the messages of the run
+// and their order are those of one process.
 #include "bus/lockstep/lockstep_conductor.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes whose stage shares lookahead, as channel servers do: each acts at instants of its own, asks a service now and then, and
-// tells the others at ticks alone. All that it publishes depends on all that it has received, and on the order.
+// Nodes whose stage shares lookahead, as channel servers do: each acts at instants of its own, asks a service
+// now and then, and tells the others at ticks alone. All that it publishes depends on all that it has
+// received, and on the order.
 #pragma once
 
 #include <algorithm>
@@ -74,8 +75,8 @@ class AnsweringNode : public NumberNode {
 
 class SharingNode : public NumberNode {
  public:
-  // Publishes EVENT.<name> between ticks and MARK.<name> at each; receives NEWS of `others`, REQUEST.<name> and the marks of
-  // `mates`. A `liar` promises to be quiet and is not.
+  // Publishes EVENT.<name> between ticks and MARK.<name> at each; receives NEWS of `others`, REQUEST.<name>
+  // and the marks of `mates`. A `liar` promises to be quiet and is not.
   SharingNode(lcm::LCM& lcm, const std::string& name, SimDuration period,
               const std::vector<std::string>& others, const std::vector<std::string>& mates,
               bool liar = false)
@@ -107,7 +108,8 @@ class SharingNode : public NumberNode {
 
  private:
   static constexpr SimDuration kTick = SimDuration::from_milliseconds(50);
-  // Some of its events are published, at some it asks, and waits for the answer; some come twice at one instant.
+  // Some of its events are published, at some it asks, and waits for the answer; some come twice at one
+  // instant.
   void act(SimTime now) {
     fold(7);
     const std::uint64_t drawn = state() >> 20;

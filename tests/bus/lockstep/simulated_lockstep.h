@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A conductor and participants on a simulated network, with fault injection from a seed: datagrams are lost, duplicated,
-// delayed and reordered; participants and the conductor crash in the middle of their work and are restarted.
+// A conductor and participants on a simulated network, with fault injection from a seed: datagrams are lost,
+// duplicated, delayed and reordered; participants and the conductor crash in the middle of their work and are
+// restarted.
 #pragma once
 
 #include <cstdint>
@@ -53,8 +54,8 @@ struct NetworkRules {
   std::size_t local = 0;  // the first so many nodes run in the conductor's process
   // The last participant crashes after this many turns and never returns; -1: it does not.
   int crashes_for_good_after = -1;
-  // The conductor crashes once, at its output of this number (grants, and before and after each journal entry), from 0;
-  // -1: it does not.
+  // The conductor crashes once, at its output of this number (grants, and before and after each journal
+  // entry), from 0; -1: it does not.
   int conductor_crashes_at = -1;
 };
 
@@ -63,7 +64,8 @@ class SimulatedLockstep {
   SimulatedLockstep(std::vector<NodeRule> nodes, SimTime end, const NetworkRules& rules, unsigned seed);
   ~SimulatedLockstep();
 
-  // Until the run is over and all participants know it; throws std::runtime_error after `limit` of steady time.
+  // Until the run is over and all participants know it; throws std::runtime_error after `limit` of steady
+  // time.
   void run(SimDuration limit = SimDuration::from_seconds(600));
 
   const Messages& messages() const { return messages_; }

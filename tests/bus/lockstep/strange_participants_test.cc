@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a participant should not say, and what a journal should not hold: the run goes on, or says why it does not.
+// What a participant should not say, and what a journal should not hold: the run goes on, or says why it does
+// not.
 #include <cstdint>
 #include <functional>
 #include <limits>

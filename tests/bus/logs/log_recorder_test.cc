@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// These tests write files, which is what a recorder is for: below the folder for temporary files, and removed.
+// These tests write files, which is what a recorder is for: below the folder for temporary files, and
+// removed.
 #include "bus/logs/log_recorder.h"
 
 #include <cstdint>

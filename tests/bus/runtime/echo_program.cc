@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A node program for the tests of node_process.h: answers every CLOCK-shaped message on REQUEST with one on ANSWER.
+// A node program for the tests of node_process.h: answers every CLOCK-shaped message on REQUEST with one on
+// ANSWER.
 #include <chrono>
 #include <memory>
 #include <thread>

@@ -116,7 +116,8 @@ TEST_F(NodeProcessTest, RandomBytesOnItsChannelsDoNotEndIt) {
   EXPECT_TRUE(listen_until([&] { return statuses_.back().messages_refused > 100; }));
 }
 
-// A restart takes about as long as the first start did: the shortest of a few, because a busy machine delays some.
+// A restart takes about as long as the first start did: the shortest of a few, because a busy machine delays
+// some.
 TEST_F(NodeProcessTest, ARestartedConductorContinuesTheTimeOfTheOthersAsSoonAsItStarts) {
   const std::vector<std::string> command{kConductor, "--set", "time.rate=20", "--set",
                                          "time.clock_period_s=0.5"};

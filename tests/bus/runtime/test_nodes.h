@@ -13,7 +13,8 @@
 
 namespace halocline::bus::testing {
 
-// Steps on the grid of a period, and notes it in a journal shared with others. Publishes a CLOCK at each step.
+// Steps on the grid of a period, and notes it in a journal shared with others. Publishes a CLOCK at each
+// step.
 class TickingNode : public Node {
  public:
   TickingNode(lcm::LCM& lcm, const std::string& name, SimDuration period, std::vector<std::string>& journal)

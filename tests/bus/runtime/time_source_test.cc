@@ -107,8 +107,8 @@ TEST_F(ConductorTimeTest, CoastsWhenTheConductorIsSilent) {
   EXPECT_NEAR(now(3600), 3600, 1e-6);
 }
 
-// Delays of 0 to 30 ms: the smallest of the last second is the estimate, so with ten clocks the error is that of
-// the luckiest, here below 10 ms throughout; and time never goes back.
+// Delays of 0 to 30 ms: the smallest of the last second is the estimate, so with ten clocks the error is that
+// of the luckiest, here below 10 ms throughout; and time never goes back.
 TEST_F(ConductorTimeTest, FiltersJitterAndNeverGoesBack) {
   std::mt19937 random(3);
   double latest = 0;
@@ -308,9 +308,10 @@ struct Drift {
 };
 class ConductorTimeDay : public ConductorTimeTest, public ::testing::WithParamInterface<Drift> {};
 
-// A simulated day of CLOCKs every 0.1 s of simulation time, received up to 5 ms late, one in a hundred 80 ms late, every
-// tenth lost. Time lags by the least delay of the last second and may lead by what the clocks part in that second: it
-// stays between -6 ms and +2 x skew x 1 s of the conductor's in its first hour as in its last, whatever went before.
+// A simulated day of CLOCKs every 0.1 s of simulation time, received up to 5 ms late, one in a hundred 80 ms
+// late, every tenth lost. Time lags by the least delay of the last second and may lead by what the clocks
+// part in that second: it stays between -6 ms and +2 x skew x 1 s of the conductor's in its first hour as in
+// its last, whatever went before.
 TEST_P(ConductorTimeDay, StaysWithinItsBoundOfTheConductorForADay) {
   constexpr double kDay_s = 86'400, kWindow_s = 1.1, kDelay_s = 6e-3, kRounding_s = 2e-6;
   const auto [rate, skew] = GetParam();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows that hold on from tick to tick: for how long, what follows the ends meanwhile, and how far it is from a row computed anew.
+// Rows that hold on from tick to tick: for how long, what follows the ends meanwhile, and how far it is from
+// a row computed anew.
 #include "channel_server/links/kept_rows.h"
 
 #include <cmath>
@@ -245,8 +246,8 @@ class RowsAlongRays : public ::testing::Test {
   }
 };
 
-// Beside rows whose links are searched for themselves at every tick: with cells of 25 m that serve several links, and carried on over 10
-// and 25 m as well.
+// Beside rows whose links are searched for themselves at every tick: with cells of 25 m that serve several
+// links, and carried on over 10 and 25 m as well.
 TEST_F(RowsAlongRays, AreHardlyFurtherFromTheExactOnesThanThoseOfSharedSearches) {
   constexpr double kCellM = 25;
   Ticks exact(0, rays(0)), shared(0, rays(kCellM)), near(10, rays(kCellM)), far(25, rays(kCellM));

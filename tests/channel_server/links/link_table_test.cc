@@ -89,7 +89,8 @@ class LouderNoise : public ReceiverNoise {
   Decibels more_;
 };
 
-// 7 dB more: both ratios fall by them, the capacity is that of the kernel, and what is delivered is that of a link that is weaker by them.
+// 7 dB more: both ratios fall by them, the capacity is that of the kernel, and what is delivered is that of a
+// link that is weaker by them.
 TEST_F(LinkTableTest, AnotherNoiseMovesRatiosCapacityAndForecasts) {
   EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
   EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {1500, 0, 50})), "");

@@ -36,8 +36,8 @@ std::vector<acoustics::SoundPath> one_path(double level_db) {
   return {path};
 }
 
-// At ratios drawn at random, of every modem that is known. Predictions of phase-shift keying of many bits jump by some hundredths
-// here and there; between the ratios of the table those beside it hold.
+// At ratios drawn at random, of every modem that is known. Predictions of phase-shift keying of many bits
+// jump by some hundredths here and there; between the ratios of the table those beside it hold.
 TEST(OnePathForecast, IsThePredictionOfTheLink) {
   for (const std::string& name : built_in_modems()) {
     const acoustics::Modem modem = load_modem(name).modem;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A busy sea: twenty vehicles under way in a box of 6 km, random packets, pings, queues, silences, odd bands and
-// families, modems that receive badly; every outcome occurs. All of it drawn by address, so a run is its seed and its length.
+// A busy sea: twenty vehicles under way in a box of 6 km, random packets, pings, queues, silences, odd bands
+// and families, modems that receive badly; every outcome occurs. All of it drawn by address, so a run is its
+// seed and its length.
 #pragma once
 
 #include <algorithm>
@@ -41,8 +42,8 @@ inline double busy_draw(const char* purpose, std::uint32_t who, std::uint64_t wh
 }
 
 // Three paths a link: the direct one (spherical spreading), and two echoes whose delays follow from the
-// range; some pairs in a shadow, some behind terrain. Cheap, so that a test may evaluate it millions of times. With
-// `fades` the echoes come off a moving surface.
+// range; some pairs in a shadow, some behind terrain. Cheap, so that a test may evaluate it millions of
+// times. With `fades` the echoes come off a moving surface.
 class ThreePaths : public Propagation {
  public:
   explicit ThreePaths(bool fades = false) : fades_(fades) {}
@@ -163,8 +164,8 @@ struct BusyRun {
   bool fades = false;
 };
 
-// Runs it, every event given to `visit`, and returns the fleet for questions of who was there. In order of time
-// everything is handed in as it happens; shuffled, all of it before time runs.
+// Runs it, every event given to `visit`, and returns the fleet for questions of who was there. In order of
+// time everything is handed in as it happens; shuffled, all of it before time runs.
 template <class Visitor>
 VehicleRegistry run_busy_sea(const BusyRun& run, Visitor&& visit) {
   const double until_s = static_cast<double>(run.packets) / kPacketsPerSecond + 30;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Predicted against realised: the probabilities of 10 000 packets, each decided as the medium decides it, have the mean that
-// the prediction of their link states, within 2 % of probability and what chance may add to 10 000 with 99 % confidence.
+// Predicted against realised: the probabilities of 10 000 packets, each decided as the medium decides it,
+// have the mean that the prediction of their link states, within 2 % of probability and what chance may add
+// to 10 000 with 99 % confidence.
 #include "acoustics/reception/link_prediction.h"
 
 #include <algorithm>
@@ -71,7 +72,8 @@ struct Case {
 
 class PredictedLink : public ::testing::TestWithParam<Case> {};
 
-// The ends sway up and down (acoustics/reception/steady_band.h): phases of the paths as packet `i` meets them.
+// The ends sway up and down (acoustics/reception/steady_band.h): phases of the paths as packet `i` meets
+// them.
 std::vector<SoundPath> swayed(std::vector<SoundPath> paths, double frequency_hz, std::uint64_t i) {
   const auto sway_m = [&](std::uint64_t end) {
     return acoustics::kSwayM * normal_at({.seed = end, .purpose = purpose_of("test-sway"), .which = i});

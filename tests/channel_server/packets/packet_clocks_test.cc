@@ -80,8 +80,8 @@ TEST(PacketClocks, EqualClocksMeasureTheTruth) {
   EXPECT_NEAR(one_way({{"v1", 1, same}, {"v2", 2, same}}).measured_travel_time_s, 0.5, tolerance(1e-6));
 }
 
-// All that it moves is what both clocks gain from the ping to the answer, 1.3 s: the ping and the turnaround, 0.31 s, by the one that
-// answers, and all of it by the one that measures. An offset moves nothing.
+// All that it moves is what both clocks gain from the ping to the answer, 1.3 s: the ping and the turnaround,
+// 0.31 s, by the one that answers, and all of it by the one that measures. An offset moves nothing.
 TEST(PacketClocks, ATwoWayRangeIsMovedByNoMoreThanThePartInAMillionOfItsOwnTime) {
   const double truth_m = two_way_range_m({});
   EXPECT_NEAR(truth_m, kRange, tolerance(1e-5));

@@ -39,7 +39,8 @@ class PacketFamilyTest : public testing::ScriptedWater {
   }
 };
 
-// Modems of phase-shift keying also receive the frequency-shift keying that is a rate of theirs, but not the other way round.
+// Modems of phase-shift keying also receive the frequency-shift keying that is a rate of theirs, but not the
+// other way round.
 TEST_F(PacketFamilyTest, OfFiveModemsThoseWithARateInCommonReceiveEachOther) {
   const std::vector<std::string> profiles{"generic", "janus", "micromodem-fsk", "micromodem-psk-1",
                                           "micromodem-psk-5"};

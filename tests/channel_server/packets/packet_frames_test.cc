@@ -111,8 +111,9 @@ TEST_F(FramesTest, OneFrameIsDecidedAsAPacketWithoutFrames) {
   EXPECT_EQ(one.frames_good, same.frames_good);
 }
 
-// Each of four frames of 5 bytes is right with P = 0.99^40, independently: of 500 packets the number of good frames in each
-// place, and of packets with all four and with none, lie within the central 99.9 % (3.29 standard deviations).
+// Each of four frames of 5 bytes is right with P = 0.99^40, independently: of 500 packets the number of good
+// frames in each place, and of packets with all four and with none, lie within the central 99.9 % (3.29
+// standard deviations).
 TEST_F(FramesTest, FramesAreRightAsOftenAsTheirBitsAndIndependently) {
   constexpr int kPackets = 500;
   constexpr double kError = 0.01;
@@ -258,7 +259,8 @@ class AckTest : public FramesTest {
   }
 };
 
-// The last bit arrives at 11 + 0.9 s; the answer of one byte (10 ms) leaves 0.1 s later and is back 0.9 s after that.
+// The last bit arrives at 11 + 0.9 s; the answer of one byte (10 ms) leaves 0.1 s later and is back 0.9 s
+// after that.
 TEST_F(AckTest, LeavesATurnaroundAfterTheLastBitAndSaysWhichFramesWereRight) {
   water.set(1, 2, {path(1, 120)});
   water.set(2, 1, {path(0.9, 120)});

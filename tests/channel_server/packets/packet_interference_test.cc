@@ -146,8 +146,8 @@ TEST_F(PacketInterferenceTest, EchoesWithinTheGuardTimeHelpAndLaterOnesHarm) {
   EXPECT_LT(relative_error(power_of(within.sinr.value), (power_of(80) + power_of(77)) / noise_power()),
             tolerance(1e-9));
   EXPECT_EQ(within.interference, kSilence);
-  // Half way through the taper its weight is 1/2: of its power 1/4 is signal. The rest interferes while it sounds, all but
-  // the first 1.5 guard times of the packet.
+  // Half way through the taper its weight is 1/2: of its power 1/4 is signal. The rest interferes while it
+  // sounds, all but the first 1.5 guard times of the packet.
   const double share = 1 - 1.5 * guard_s / 10;
   EXPECT_LT(relative_error(power_of(beyond.interference.value), 0.75 * share * power_of(77)),
             tolerance(1e-9));

@@ -214,7 +214,8 @@ TEST_F(PacketMediumTest, ASenderWhoseStateGrewOldIsRefused) {
   EXPECT_EQ(receipts_in(medium_.advance_to(at_s(10.05))).at(0).result, SendResult::kUnknownVehicle);
 }
 
-// A state counts only when it is older than the lag: without this the packet of a vehicle that has just appeared was lost.
+// A state counts only when it is older than the lag: without this the packet of a vehicle that has just
+// appeared was lost.
 TEST_F(PacketMediumTest, APacketSentWithTheFirstStateLeavesAfterTheLag) {
   ASSERT_EQ(fleet_.add_state("v1", 1, {at_s(0), {0, 0, 50}, Vec3::Zero()}), "");
   ASSERT_EQ(fleet_.add_state("v2", 2, {at_s(0), {1500, 0, 50}, Vec3::Zero()}), "");

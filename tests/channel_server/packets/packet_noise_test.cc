@@ -130,7 +130,8 @@ TEST(OwnNoise, OfTheSenderIsHeardByTheReceiver) {
   EXPECT_TRUE(outcome.statistics.colliders[0].is_noise);
 }
 
-// Over the same way as the packet, from the same place: the noise arrives with the packet's own transmission loss.
+// Over the same way as the packet, from the same place: the noise arrives with the packet's own transmission
+// loss.
 TEST(ShipNoise, ComesWithTheTransmissionLossOfItsLink) {
   Sea with_noise({propeller_of(1, 120)});
   with_noise.turn(1, 20);
@@ -168,7 +169,8 @@ TEST(ShipNoise, InTablesAddsItsMeanToTheAmbientAndTheOwn) {
   const Hearing hearing{
       {2, here->position_ned_m, here->velocity_ned_mps, &modem}, modem.band(), at_s(10), at_s(10)};
   EXPECT_TRUE(sounds.is_ready(hearing));
-  // The ship is 303 m away and makes 2 m/s across that line: by the time that sound takes, 0.2 s, its range changes by 3 mm.
+  // The ship is 303 m away and makes 2 m/s across that line: by the time that sound takes, 0.2 s, its range
+  // changes by 3 mm.
   acoustics::Modem noise = modem;
   noise.source_level = Decibels{110 + 10 * std::log10(5000.0)};
   const double loss_db =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Missions of 100 vehicles, and of 30 in an ocean's field, with and without reach: what is out of reach is counted, and nothing else
-// changes.
+// Missions of 100 vehicles, and of 30 in an ocean's field, with and without reach: what is out of reach is
+// counted, and nothing else changes.
 #include <cstdint>
 #include <map>
 #include <memory>

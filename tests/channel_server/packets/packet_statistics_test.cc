@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Long random runs through the medium: nothing is lost, nothing is counted twice, losses are as frequent as the
-// model gives, and the order in which messages came does not matter.
+// Long random runs through the medium: nothing is lost, nothing is counted twice, losses are as frequent as
+// the model gives, and the order in which messages came does not matter.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -46,8 +46,8 @@ struct Trials {
     ++count;
     successes += success ? 1 : 0;
   }
-  // Within the central 99.9 % of what the probabilities give: 3.29 standard deviations and half a count. Of less
-  // than 10 in variance the normal approximation does not hold.
+  // Within the central 99.9 % of what the probabilities give: 3.29 standard deviations and half a count. Of
+  // less than 10 in variance the normal approximation does not hold.
   bool says_anything() const { return variance >= 10; }
   bool agrees() const {
     return std::abs(static_cast<double>(successes) - expected) <= 3.29 * std::sqrt(variance) + 0.5;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several media of one water, each following packets only to the receivers it serves: together they publish what
-// one publishes.
+// Several media of one water, each following packets only to the receivers it serves: together they publish
+// what one publishes.
 #include "channel_server/vehicles/shard.h"
 
 #include <algorithm>
@@ -78,7 +78,8 @@ struct Server {
   PacketMedium medium;
 };
 
-// What `count` servers publish together, sorted; they pass on answers to pings at the instant these are known.
+// What `count` servers publish together, sorted; they pass on answers to pings at the instant these are
+// known.
 std::vector<std::string> said_by(int count) {
   const double until_s = static_cast<double>(kPackets) / testing::kPacketsPerSecond + 30;
   std::vector<std::unique_ptr<Server>> servers;

@@ -131,8 +131,8 @@ TEST(Beams, ATransmitterThatLooksDownSendsNothingUp) {
                        [&](const SoundPath& path) { return path.launch_angle_rad < 0 ? kDown20Db : 0; });
 }
 
-// At 1 MHz water takes about 320 dB/km: over 19 km a double still holds the sound (down by some 6100 dB), and no
-// longer where beams take 400 dB more.
+// At 1 MHz water takes about 320 dB/km: over 19 km a double still holds the sound (down by some 6100 dB), and
+// no longer where beams take 400 dB more.
 TEST(Beams, ArrivalsAreThoseOfTheReceptionAlsoWhereABeamSilencesThem) {
   acoustics::Modem plain;
   plain.centre_frequency_hz = 1e6;

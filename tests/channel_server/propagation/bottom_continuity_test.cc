@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// While a vehicle moves, the level of its links changes as little as the vehicle moves: the bottom under a link is a
-// continuous function of its ends. What may step is the number of paths.
+// While a vehicle moves, the level of its links changes as little as the vehicle moves: the bottom under a
+// link is a continuous function of its ends. What may step is the number of paths.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -21,7 +21,8 @@ namespace {
 
 using testing::at_s;
 
-// A hill of 30 m in 100 m of water. Narrower ones focus sound on caustics, which a vehicle crosses within 0.1 m.
+// A hill of 30 m in 100 m of water. Narrower ones focus sound on caustics, which a vehicle crosses within 0.1
+// m.
 double hill(const Vec3& place, double width_m) {
   const double north = place.x() - 700, east = place.y() + 40;
   return 100 - 30 * std::exp(-(north * north + east * east) / (2 * width_m * width_m));

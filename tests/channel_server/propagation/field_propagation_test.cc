@@ -105,7 +105,8 @@ TEST(RaysThroughAField, AreTheLayeredOnesWhereItIsTheSameEverywhere) {
   }
 }
 
-// Of 300 links anywhere in the field, along the line and along rays; nor much more along the line, where absorption varies alone.
+// Of 300 links anywhere in the field, along the line and along rays; nor much more along the line, where
+// absorption varies alone.
 TEST(LeastLossThroughAField, NoLinkLosesLess) {
   const acoustics::Environment sea = warming_sea(2, 0.8);
   acoustics::Modem modem;

@@ -52,8 +52,9 @@ class RayPropagationTest : public ::testing::Test {
   acoustics::Modem modem_;
 };
 
-// The closed form of images between a surface of R = -1 and the bottom's own coefficient: path (s, b) has the length
-// of the straight line to the image at depth 2 b H +- z_r, and loses |V|^b at the grazing angle of that line.
+// The closed form of images between a surface of R = -1 and the bottom's own coefficient: path (s, b) has the
+// length of the straight line to the image at depth 2 b H +- z_r, and loses |V|^b at the grazing angle of
+// that line.
 TEST_F(RayPropagationTest, LevelsAndDelaysOverAFlatBottomAreThoseOfTheImages) {
   RayModel model;
   model.surface = acoustics::SurfaceModel::kFlat;
@@ -89,7 +90,8 @@ TEST_F(RayPropagationTest, LevelsAndDelaysOverAFlatBottomAreThoseOfTheImages) {
         ASSERT_NE(path, reception.paths.end()) << surface << " " << bottom << " " << first_down;
         EXPECT_EQ(path->surface_bounces, surface);
         EXPECT_EQ(path->bottom_bounces, bottom);
-        // Absorption of water of one temperature changes with depth by pressure alone: 0.04 dB over these paths.
+        // Absorption of water of one temperature changes with depth by pressure alone: 0.04 dB over these
+        // paths.
         const double absorbed = length / 1000 * absorption_spectrum_at(water, 50).db_per_km(khz_squared);
         const double expected = 185 - 20 * std::log10(length) + 20 * bottom * std::log10(bounce) - absorbed;
         EXPECT_NEAR(path->level.value, expected, tolerance(0.05));

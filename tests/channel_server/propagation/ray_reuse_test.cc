@@ -193,8 +193,8 @@ TEST_F(RayReuseTest, DelayAndLevelAreCloseToThoseOfASearchOfItsOwn) {
   EXPECT_LT(levels_db[54], tolerance(0.1));
 }
 
-// A beacon at the depth at which a profile bends: a little above or below it rays have the tube of one layer, which makes a tenth of
-// the links differ by more than 0.3 dB.
+// A beacon at the depth at which a profile bends: a little above or below it rays have the tube of one layer,
+// which makes a tenth of the links differ by more than 0.3 dB.
 TEST_F(RayReuseTest, AnEndAtAKnotOfTheWaterKeepsItsDepth) {
   acoustics::Environment sea;
   sea.profile = acoustics::SoundSpeedProfile::from_speeds(

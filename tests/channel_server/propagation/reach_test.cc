@@ -92,14 +92,16 @@ TEST(LeastLoss, TheRangeOfALossIsWhereItIsReached) {
   }
 }
 
-// In lossless even water rays spread as the images of a source between walls: pi / (H r) + 2 / r^2; at 10 Hz nothing absorbs.
+// In lossless even water rays spread as the images of a source between walls: pi / (H r) + 2 / r^2; at 10 Hz
+// nothing absorbs.
 TEST(LeastLoss, OfRaysIsThatOfAChannelWithoutLosses) {
   const LeastLoss least = LeastLoss::of_rays(windy_water(0), 10, 100, Decibels{0});
   const double images = std::acos(-1) / (acoustics::kChannelThickness * 3000) + 2 / 9e6;
   EXPECT_NEAR(least.at(3000).value, -10 * std::log10(images) - acoustics::kFocusingGain.value, 0.01);
 }
 
-// Where the water is known to be no shallower, the bottom takes its share: the further, the more; in deeper water the less.
+// Where the water is known to be no shallower, the bottom takes its share: the further, the more; in deeper
+// water the less.
 TEST(LeastLoss, OfRaysGrowsByWhatTheBottomTakes) {
   const auto at = [](double range_m, double least_depth_m) {
     const acoustics::WaterColumn column{least_depth_m, 1000, *acoustics::sediment("MediumSand")};

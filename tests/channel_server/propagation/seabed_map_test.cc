@@ -79,8 +79,8 @@ TEST_F(SeabedMapTest, BeyondItsMostSamplesTheyLieFurtherApart) {
   EXPECT_EQ(profile.z_m.size(), 3u + 513u + 3u);
 }
 
-// Wherever the ends are, and whichever sample comes or goes: a seabed of at most 6 in 100 changes by no more than that
-// times the displacement of each end.
+// Wherever the ends are, and whichever sample comes or goes: a seabed of at most 6 in 100 changes by no more
+// than that times the displacement of each end.
 TEST_F(SeabedMapTest, AProfileChangesByNoMoreThanItsEndsMove) {
   const Vec3 to(1495, 310, 50);
   for (double north = 0; north < 120; north += 0.1) {

@@ -50,8 +50,8 @@ struct LevelSea {
   }
 };
 
-// A buoy at 0.3 m, 11.5 kHz, over 500 m of clay: |sum of P^(1/2) exp(j phase)|^2 of the direct path and its mirror image is
-// 4 sin^2(k z1 z2 / r) P, k z1 z2 / r = 0.145 at 3 km: 13.8 dB below the sum of the powers.
+// A buoy at 0.3 m, 11.5 kHz, over 500 m of clay: |sum of P^(1/2) exp(j phase)|^2 of the direct path and its
+// mirror image is 4 sin^2(k z1 z2 / r) P, k z1 z2 / r = 0.145 at 3 km: 13.8 dB below the sum of the powers.
 TEST(LloydsMirror, LeavesABuoyJustBelowACalmSurfaceItsCoherentLevel) {
   acoustics::Modem modem = load_modem("generic").modem;
   modem.centre_frequency_hz = 11'500;
@@ -82,10 +82,10 @@ Losses losses_at_2_km(const LevelSea& sea, const char* profile) {
   return losses;
 }
 
-// 20 m of water at 25 kHz, whose loss would be 76 dB by spherical spreading and absorption. Smooth and rough, surface and
-// bottom return every path: 60.4 dB in calm; bubbles take their share. With the loss by scattering, what a bottom of 2 cm and
-// the waves of a light breeze scatter beyond the critical angle is lost. Mud, which is slower than the water, returns few
-// paths.
+// 20 m of water at 25 kHz, whose loss would be 76 dB by spherical spreading and absorption. Smooth and rough,
+// surface and bottom return every path: 60.4 dB in calm; bubbles take their share. With the loss by
+// scattering, what a bottom of 2 cm and the waves of a light breeze scatter beyond the critical angle is
+// lost. Mud, which is slower than the water, returns few paths.
 TEST(ShallowWater, LosesBySpreadingBubblesAndWhatRoughBoundariesScatter) {
   struct Case {
     const char *wind, *loss;

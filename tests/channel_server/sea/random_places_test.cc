@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Predicted against realised at places drawn at random: both ends at rest, in water of several depths, under winds of 0 to 10
-// m/s, with noise that puts most links on the flank of their curve. The mean of the predictions is that of the packets'
-// probabilities within 2 % and what chance may add to so many places with 99 % confidence.
+// Predicted against realised at places drawn at random: both ends at rest, in water of several depths, under
+// winds of 0 to 10 m/s, with noise that puts most links on the flank of their curve. The mean of the
+// predictions is that of the packets' probabilities within 2 % and what chance may add to so many places with
+// 99 % confidence.
 #include <algorithm>
 #include <array>
 #include <cmath>

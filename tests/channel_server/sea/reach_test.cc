@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bound on levels behind the reach against the levels that rays give, at places drawn at random in waters that spread sound
-// least: shallow and deep, ducts at the surface, at depth and over the bottom, sand, gravel and rock, flat, sloping and wavy.
+// The bound on levels behind the reach against the levels that rays give, at places drawn at random in waters
+// that spread sound least: shallow and deep, ducts at the surface, at depth and over the bottom, sand, gravel
+// and rock, flat, sloping and wavy.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -52,7 +53,8 @@ enum class Bound { kLeastLoss, kLeastLossOfKnownDepths, kEnergyOfWeakLinks };
 
 class LevelBound : public ::testing::TestWithParam<Sea> {
  protected:
-  // Level over its bound, dB, at each place where anything arrives; of weak links, at each that is long and weak.
+  // Level over its bound, dB, at each place where anything arrives; of weak links, at each that is long and
+  // weak.
   std::vector<double> excesses(Bound bound) const {
     const bool depths_are_known = bound != Bound::kLeastLoss;
     const Sea& sea = GetParam();

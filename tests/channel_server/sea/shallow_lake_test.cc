@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// 69 kHz transmitters in 2.5 m of fresh water. Receivers there lose half of the codes at 250 to 350 m, where ambient noise
-// alone leaves some 46 dB. Reverberation takes 7 to 12 dB of that ratio; the loss of half the codes it does not explain
-// (docs/validation.md).
+// 69 kHz transmitters in 2.5 m of fresh water. Receivers there lose half of the codes at 250 to 350 m, where
+// ambient noise alone leaves some 46 dB. Reverberation takes 7 to 12 dB of that ratio; the loss of half the
+// codes it does not explain (docs/validation.md).
 #include <cmath>
 #include <cstdio>
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Predictions, averaged over fading, have no steps: what a sea-going engineer could not measure does not decide whether a
-// packet arrives. HALOCLINE_STEP_PLACES: how many places, 1300 unless given.
+// Predictions, averaged over fading, have no steps: what a sea-going engineer could not measure does not
+// decide whether a packet arrives. HALOCLINE_STEP_PLACES: how many places, 1300 unless given.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -191,7 +191,8 @@ TEST(Steps, NoSmallChangeMovesAProbabilityByATenth) {
     }
   }
   halocline::testing::doc_row("steps", {"of these at once", fmt::format("{} of {}", jumps, places)});
-  // Two of 2600 are as steep in the sea (docs/validation.md). Of 26 000, jumps are left at edges of ray families that it names.
+  // Two of 2600 are as steep in the sea (docs/validation.md). Of 26 000, jumps are left at edges of ray
+  // families that it names.
   EXPECT_LE(steps[1] + steps[2], places <= 1300 ? 2 : places / 350);
   EXPECT_LE(jumps, places <= 1300 ? 0 : places / 800);
   EXPECT_GT(in_reach, places / 4);

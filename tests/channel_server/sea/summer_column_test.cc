@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plainest coastal case: 171 links of frequency-hopped FSK in a summer column, 22 degC to 15 m, 15 degC at 30 m and
-// 13 degC at 50 m, over 100 m of medium sand. All have the noise that makes the
+// The plainest coastal case: 171 links of frequency-hopped FSK in a summer column, 22 degC to 15 m, 15 degC
+// at 30 m and 13 degC at 50 m, over 100 m of medium sand. All have the noise that makes the
 // median of their SNR what a row says.
 #include <algorithm>
 #include <cmath>
@@ -117,8 +117,8 @@ TEST(SummerColumn, DeliversFrequencyHoppedPacketsAtEveryWindAndNeverBetterForIt)
       EXPECT_NEAR(column.received, column.predicted, 0.05);
       EXPECT_GE(column.predicted, last - 1e-3) << "more source level delivers less";
       last = column.predicted;
-      // Above 15 dB wind makes paths fade faster than a packet lasts, and its code takes the mean: nothing is lost. In
-      // calm water the nulls of the band stand still.
+      // Above 15 dB wind makes paths fade faster than a packet lasts, and its code takes the mean: nothing is
+      // lost. In calm water the nulls of the band stand still.
       if (snr_db == 15 || (snr_db == 45 && wind_mps == 0)) {
         EXPECT_LT(column.perfect, column.links) << "some links lose some packets";
       }

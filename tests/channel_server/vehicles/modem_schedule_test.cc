@@ -46,7 +46,8 @@ TEST(ModemSchedule, ForgettingKeepsWhatStillHolds) {
   EXPECT_EQ(level_at(schedule, 30), 190);
 }
 
-// Of six announcements, some alike: at every instant what was announced for the latest instant before holds, in all 720 orders.
+// Of six announcements, some alike: at every instant what was announced for the latest instant before holds,
+// in all 720 orders.
 TEST(ModemSchedule, NoOrderOfRepetitionsMatters) {
   const std::vector<double> levels{180, 180, 190, 180, 180, 170};
   std::vector<std::size_t> order{0, 1, 2, 3, 4, 5};

@@ -60,7 +60,8 @@ TEST(LeaderReport, PlaceTooFarAwayIsRefused) {
   EXPECT_THROW(encode_report({{0, 0, 0}, 0, 70, 0}), InvalidArgument);
 }
 
-// A leader at the origin of second 100, 50 m deep, that goes east at 1.5 m/s; a place 30 m astern, 20 m to starboard.
+// A leader at the origin of second 100, 50 m deep, that goes east at 1.5 m/s; a place 30 m astern, 20 m to
+// starboard.
 Follower follower() {
   Formation formation;
   formation.along_m = -30;

@@ -83,8 +83,8 @@ TEST_P(HoverInACurrent, HoldsStationWithItsBowAgainstIt) {
 INSTANTIATE_TEST_SUITE_P(FromAllSides, HoverInACurrent,
                          ::testing::Values(0.0, 45.0, 90.0, 135.0, 180.0, 270.0));
 
-// A hull without fins that goes faster is turned by its own flow unless the law holds it: at the mission's default of
-// 1.5 m/s it once stood on its tail.
+// A hull without fins that goes faster is turned by its own flow unless the law holds it: at the mission's
+// default of 1.5 m/s it once stood on its tail.
 class HoverOnTheWay : public ::testing::TestWithParam<double> {};
 
 TEST_P(HoverOnTheWay, KeepsSpeedAndDepth) {

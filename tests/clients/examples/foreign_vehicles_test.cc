@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicles of clients/examples in their languages: built and started by the commands in their own first comments, each joins
-// a run on a private bus, sends a packet that a simulated vehicle receives, and receives one.
+// The vehicles of clients/examples in their languages: built and started by the commands in their own first
+// comments, each joins a run on a private bus, sends a packet that a simulated vehicle receives, and receives
+// one.
 #include <algorithm>
 #include <cctype>
 #include <chrono>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// clients/examples/python/lcm.py and LCM's own library understand each other: a Python program returns what it receives.
+// clients/examples/python/lcm.py and LCM's own library understand each other: a Python program returns what
+// it receives.
 #include <chrono>
 #include <cstdint>
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the subcommands that read logs say of logs that are not whole, and what full disks and full memory cost.
+// What the subcommands that read logs say of logs that are not whole, and what full disks and full memory
+// cost.
 #include <chrono>
 #include <cstddef>
 #include <filesystem>

@@ -26,7 +26,8 @@ TEST(DeadReckoning, OfAClimbCountsTheHorizontalPartOnly) {
   EXPECT_NEAR(track.gone_ne_m(at(10)).x(), 10, 1e-9);
 }
 
-// The chord of an arc that the trapezium rule leaves out: v (w dt)^2 / 12 of the way, w = 0.1 rad/s, dt = 0.1 s.
+// The chord of an arc that the trapezium rule leaves out: v (w dt)^2 / 12 of the way, w = 0.1 rad/s, dt = 0.1
+// s.
 TEST(DeadReckoning, ClosesACircleToTheErrorOfTheTrapeziumRule) {
   DeadReckoning track;
   const double period_s = 20 * pi;

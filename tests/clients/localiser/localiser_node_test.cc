@@ -140,8 +140,8 @@ TEST_F(LocaliserNodeTest, PingsOneBeaconAfterTheOtherOnItsGrid) {
   }
 }
 
-// Even water, no faults, and the vehicle under way while sound travels: nothing is left but rounding of times to
-// microseconds (1.5 mm) and of the linearisation.
+// Even water, no faults, and the vehicle under way while sound travels: nothing is left but rounding of times
+// to microseconds (1.5 mm) and of the linearisation.
 TEST_F(LocaliserNodeTest, FindsTheVehicleToAMillimetreScaleWhereNothingErrs) {
   run(two_beacons(), 120);
   const position_estimate_t& last = sea_.estimates.back();

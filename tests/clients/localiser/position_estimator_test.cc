@@ -20,8 +20,8 @@ using std::numbers::pi;
 const Vec3 kWest(0, 0, 50), kEast(0, 1000, 50);
 constexpr double kDepthM = 30, kSoundMps = 1500;
 
-// A vehicle that moves by the estimator's model: by its speed and heading, a constant current and a random walk,
-// all drawn from what the rules state.
+// A vehicle that moves by the estimator's model: by its speed and heading, a constant current and a random
+// walk, all drawn from what the rules state.
 struct Voyage {
   std::uint64_t number = 0;
   Vec2 start{600, 300};
@@ -147,8 +147,9 @@ class Sailing {
 
 End sail(const Voyage& voyage) { return Sailing(voyage).sail(); }
 
-// The normalised squared errors of many voyages: chi-squared with two degrees of freedom each when the covariance is
-// its covariance. Over n voyages their sum has mean 2 n and variance 4 n; the share beyond 3 sigma (11.83) is 0.27 %.
+// The normalised squared errors of many voyages: chi-squared with two degrees of freedom each when the
+// covariance is its covariance. Over n voyages their sum has mean 2 n and variance 4 n; the share beyond 3
+// sigma (11.83) is 0.27 %.
 void expect_honest(Voyage voyage) {
   constexpr int kVoyages = 400;
   double sum = 0;
@@ -173,7 +174,8 @@ TEST(PositionEstimator, ErrorMatchesItsCovarianceWithPings) {
   expect_honest({.start_sigma_m = 10, .range_sigma_m = 2, .two_way = true});
 }
 
-// Normalised squared errors of position and of clock are chi-squared with two degrees of freedom each, as above.
+// Normalised squared errors of position and of clock are chi-squared with two degrees of freedom each, as
+// above.
 TEST(PositionEstimator, ErrorsOfPositionAndClockMatchTheirCovariancesWithOneWayRanges) {
   constexpr int kVoyages = 400;
   Voyage voyage{.start_sigma_m = 10,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hosts of every manner: ends of lines, case, pieces, many commands at once, connections that break off and come again.
+// Hosts of every manner: ends of lines, case, pieces, many commands at once, connections that break off and
+// come again.
 #include <algorithm>
 #include <cstddef>
 #include <memory>

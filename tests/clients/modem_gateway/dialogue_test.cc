@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two Micromodems, two EvoLogics modems and a transponder in quiet water without losses: what hosts write at one end, and read at the other.
+// Two Micromodems, two EvoLogics modems and a transponder in quiet water without losses: what hosts write at
+// one end, and read at the other.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -153,7 +154,8 @@ TEST_F(Dialogue, InstantMessagesOfEveryKindArriveAsWhatTheyAre) {
   EXPECT_EQ(heard[3].substr(0, 11), "0 1000\n0 0\n");
 }
 
-// Three of ten packets are lost, data and acknowledgements: then a message is repeated, and none is reported twice.
+// Three of ten packets are lost, data and acknowledgements: then a message is repeated, and none is reported
+// twice.
 TEST(Repetitions, BurstsAndInstantMessagesThroughLossyWaterArriveOnceAndInTheirOrder) {
   testing::DoorDialogue lossy(
       {{"one", 1, "s2c-im", 0, 0, "evologics"}, {"two", 2, "s2c-im", 750, 0, "evologics"}}, 0.3);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DUNE's Micromodem tasks at a door: lines without checksums, data before its cycle, times as the first fields of SNTTA.
+// DUNE's Micromodem tasks at a door: lines without checksums, data before its cycle, times as the first
+// fields of SNTTA.
 //
 // Formats and order: LSTS/dune, src/Sensors/MLBLTracker/Task.cpp of 2025 and the LBL navigation task.
 #include <string>
@@ -18,7 +19,8 @@ using ::testing::Not;
 
 class DuneMicromodem : public ::testing::Test, public testing::DoorDialogue {
  protected:
-  // The host of the first is a console, of the second a vehicle. Transponders have the frequencies of their answers.
+  // The host of the first is a console, of the second a vehicle. Transponders have the frequencies of their
+  // answers.
   DuneMicromodem()
       : DoorDialogue(
             {{"console", 1, "micromodem-psk-1", 0, 0, "micromodem", "revision=0.94.0.00 lbl=3:26000/4:27000"},

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // DUNE's EvoLogics driver and EvoLogics' own driver for ROS, dmac, at doors half a second apart.
 //
-// Formats and order: LSTS/dune, src/Transports/Evologics at 0431bb19 and src/DUNE/Hardware/BasicModem at 0431bb19; EvoLogics/dmac at
-// 52ee50c5 and 339ecf31.
+// Formats and order: LSTS/dune, src/Transports/Evologics at 0431bb19 and src/DUNE/Hardware/BasicModem at
+// 0431bb19; EvoLogics/dmac at 52ee50c5 and 339ecf31.
 #include <algorithm>
 #include <array>
 #include <cstddef>

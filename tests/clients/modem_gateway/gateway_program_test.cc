@@ -135,7 +135,8 @@ TEST(GatewayProgram, TheLinkOfASerialLineIsGoneAfterEachEnd) {
   EXPECT_FALSE(std::filesystem::is_symlink("line"));
 }
 
-// A buoy and a lander 750 m apart: the sound that one plays at an instant comes to the other half a second later.
+// A buoy and a lander 750 m apart: the sound that one plays at an instant comes to the other half a second
+// later.
 TEST(GatewayProgram, CarriesSoundFromADoorOfWaveformsToAnother) {
   const halocline::testing::TemporaryFolder folder;
   std::ofstream("s.toml") << R"(

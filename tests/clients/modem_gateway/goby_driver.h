@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host that talks to a Micromodem as Goby's driver does: one line at a time, released by its echo, each written again after five seconds;
-// a clock that the modem must show within a second; and receptions that are handed on when their statistics come.
+// A host that talks to a Micromodem as Goby's driver does: one line at a time, released by its echo, each
+// written again after five seconds; a clock that the modem must show within a second; and receptions that are
+// handed on when their statistics come.
 //
 // The formats, orders and time-outs are those of GobySoft/goby3, Micromodem driver at 00acfc02. Its clock is
 // simulation time, somewhat ahead.

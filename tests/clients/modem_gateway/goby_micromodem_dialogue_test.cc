@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Goby's Micromodem driver at two doors a kilometre apart: how it starts, and what its own test asks of two modems.
+// Goby's Micromodem driver at two doors a kilometre apart: how it starts, and what its own test asks of two
+// modems.
 #include <cstddef>
 #include <string>
 #include <vector>

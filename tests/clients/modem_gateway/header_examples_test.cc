@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The examples in the comments of the headers of clients/modem_gateway/, compiled and run (tests/docs/check_examples).
+// The examples in the comments of the headers of clients/modem_gateway/, compiled and run
+// (tests/docs/check_examples).
 #include <string>
 
 #include <gtest/gtest.h>

@@ -44,7 +44,8 @@ TEST(Micromodem, ReportsAPacketFrameByFrameAndItsStatisticsLast) {
   EXPECT_EQ(lines[1], "CARXD,2,1,0,1,000A0D2B2CFF");
   EXPECT_EQ(lines[2], "CAMSG,BAD_CRC,2");
   EXPECT_EQ(lines[3], "CARXD,2,1,0,3,676F6F64");
-  // Arrived at 99.75 s with 120 dB, 30 dB above the noise, SINR 20 dB, Doppler 0.0004: peak 32767 10^((120 - 180) / 20) = 33.
+  // Arrived at 99.75 s with 120 dB, 30 dB above the noise, SINR 20 dB, Doppler 0.0004: peak 32767 10^((120 -
+  // 180) / 20) = 33.
   EXPECT_EQ(lines[4],
             "CACST,6,1,19700101000139.750000,12,33,30,30,120,250,0,0,0,0,1,2,1,3,3,3,1,30,30,25,20,-20.0,252,"
             "0.60,90,"

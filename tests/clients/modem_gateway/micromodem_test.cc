@@ -132,7 +132,8 @@ TEST(Micromodem, ItsClockIsTheVehicles) {
 TEST(Micromodem, ItsClockIsSetFromTheNextPulse) {
   Bench bench("pps=yes");
   bench.port.at = SimTime::from_seconds(100.07);
-  // The host asks for the second that comes; a pulse later it holds. It compares the answer with its clock when that has come.
+  // The host asks for the second that comes; a pulse later it holds. It compares the answer with its clock
+  // when that has come.
   EXPECT_THAT(bench.say("CCCLK,2026,11,24,10,30,06"), ElementsAre("CACLK,2026,11,24,10,30,06"));
   EXPECT_THAT(bench.say("CCCLQ,0,0"), ElementsAre("CACLQ,2026,11,24,10,30,05"));
   bench.port.at = SimTime::from_seconds(101);

@@ -217,7 +217,8 @@ TEST_F(DoorsOfAMission, UnetGatewaysReportEachFrameAndEachLossOnce) {
   }
 }
 
-// Transmissions start on whole seconds of the sender's clock, which is 4 ms ahead; the receiver's is 3 ms late.
+// Transmissions start on whole seconds of the sender's clock, which is 4 ms ahead; the receiver's is 3 ms
+// late.
 TEST(DoorClocks, AMeasuredTravelTimeIsOffByWhatTheClocksDiffer) {
   std::vector<DoorVehicle> fleet{kFleet[0], kFleet[1]};
   fleet[0].more = "[vehicle.clock]\noffset_s = 0.004\n";

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A Micromodem's door and WHOI's Python driver, pyacomms, and the node of ros_acomms on it: what it waits for, in its order.
+// A Micromodem's door and WHOI's Python driver, pyacomms, and the node of ros_acomms on it: what it waits
+// for, in its order.
 //
-// Formats and order: patel999jay/pyacomms at 34e0c69b (micromodem.py, commstate.py, messageparser.py, cyclestats.py), a newer message
-// parser and flexibledataprotocol.py of acomms 2, and ros_acomms in MarineRoboticsGroup/multi-spurdog at ea7cb7a0.
+// Formats and order: patel999jay/pyacomms at 34e0c69b (micromodem.py, commstate.py, messageparser.py,
+// cyclestats.py), a newer message parser and flexibledataprotocol.py of acomms 2, and ros_acomms in
+// MarineRoboticsGroup/multi-spurdog at ea7cb7a0.
 #include <cstddef>
 #include <string>
 #include <string_view>

@@ -20,8 +20,8 @@ namespace halocline::monitor::testing {
 using clients::testing::add;
 using clients::testing::kSecond;
 
-// auv-1 goes north at 1 m/s from 0 to 100 s, auv-2 rests 1500 m east; packets of auv-1 depart at 10, 50 and 90 s: the first is
-// received, the second lost, the third refused.
+// auv-1 goes north at 1 m/s from 0 to 100 s, auv-2 rests 1500 m east; packets of auv-1 depart at 10, 50 and
+// 90 s: the first is received, the second lost, the third refused.
 inline clients::MissionStore small_mission() {
   namespace ct = clients::testing;
   clients::MissionStore mission;

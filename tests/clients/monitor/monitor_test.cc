@@ -163,7 +163,8 @@ TEST(Monitor, HostileClientsCostOnlyThemselves) {
   }
   std::vector<std::unique_ptr<WebClient>> many;
   for (int i = 0; i < 200; ++i) many.push_back(std::make_unique<WebClient>(program.port()));
-  // Time and again the good page is shown what was published before it looked, and by few frames: none waits in a queue.
+  // Time and again the good page is shown what was published before it looked, and by few frames: none waits
+  // in a queue.
   constexpr int kLooks = 20, kFramesAhead = 15;
   for (int look = 0; look < kLooks; ++look) {
     const double published_s = fleet.time_s();

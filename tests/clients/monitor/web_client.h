@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small web client on plain sockets, for tests: HTTP requests and WebSocket frames as bytes, also wrong ones.
+// A small web client on plain sockets, for tests: HTTP requests and WebSocket frames as bytes, also wrong
+// ones.
 #pragma once
 
 #include <chrono>

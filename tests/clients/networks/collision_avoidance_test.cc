@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The protocols that avoid collisions, in lockstep, against what their papers promise: T-Lohi, DACAP and ALOHA-CA.
+// The protocols that avoid collisions, in lockstep, against what their papers promise: T-Lohi, DACAP and
+// ALOHA-CA.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -55,7 +56,8 @@ TEST(TLohi, EachContentionOfManyHasOneWinner) {
   EXPECT_GT(many.s(), 0.7 * best_utilisation(many.packet_s)) << "within 30 % of the best";
 }
 
-// Four vehicles a kilometre round a hub, 1.4 km from each other: at 100 kHz the hub hears each, and they hear only the hub.
+// Four vehicles a kilometre round a hub, 1.4 km from each other: at 100 kHz the hub hears each, and they hear
+// only the hub.
 std::string hidden(const std::string& network, double interval_s) {
   std::string text = fmt::format(
       testing::kWater, fmt::arg("duration", 8000.0), fmt::arg("seed", 1),
@@ -90,8 +92,8 @@ TEST(Dacap, LosesNoDataToVehiclesThatTheSenderDoesNotHear) {
   EXPECT_EQ(count(dacap, packet_outcome_t::RECEIVED), all(dacap));
 }
 
-// Vehicles up to 4 km from the hub: sound takes 2.7 s. A packet of ahoi's format with a header and 21 bytes lasts 0.93 s, of
-// which preamble and header are 0.28 s.
+// Vehicles up to 4 km from the hub: sound takes 2.7 s. A packet of ahoi's format with a header and 21 bytes
+// lasts 0.93 s, of which preamble and header are 0.28 s.
 Ring wide(const std::string& mac) {
   return {.mac = mac,
           .settings = "packet_s = 0.931\nbackoff_s = 10.0\ntries = 20",
@@ -104,8 +106,8 @@ Ring wide(const std::string& mac) {
           .nearest_m = 200};
 }
 
-// Both have the same offers. A collision loses two packets at once: the variance of the number received is at most twice that of a
-// binomial one.
+// Both have the same offers. A collision loses two packets at once: the variance of the number received is at
+// most twice that of a binomial one.
 TEST(AlohaCa, CarriesMoreThanAlohaWherePropagationIsLong) {
   const Results blind = run(wide("aloha")), avoiding = run(wide("aloha-ca"));
   const double p = blind.share(), n = static_cast<double>(blind.sent);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The example protocols in lockstep against what textbooks say of them, by statistics. Bounds are those of 99.9 % confidence: 3.29 standard
-// deviations.
+// The example protocols in lockstep against what textbooks say of them, by statistics. Bounds are those of
+// 99.9 % confidence: 3.29 standard deviations.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -35,9 +35,9 @@ double aloha(double g) { return g * std::exp(-2 * g); }
 // Non-persistent CSMA (Kleinrock and Tobagi 1975, equation 7).
 double csma(double g, double a) { return g * std::exp(-a * g) / (g * (1 + 2 * a) + std::exp(-a * g)); }
 
-// Standard deviation of the share of packets received of n by pure ALOHA. A packet comes through when the gaps before and after it are
-// longer than itself, each with the probability p = exp(-G); neighbours share a gap, so the variance of the number is
-// n [p^2 (1 - p^2) + 2 p^3 (1 - p)].
+// Standard deviation of the share of packets received of n by pure ALOHA. A packet comes through when the
+// gaps before and after it are longer than itself, each with the probability p = exp(-G); neighbours share a
+// gap, so the variance of the number is n [p^2 (1 - p^2) + 2 p^3 (1 - p)].
 double deviation_of_aloha(double g, double n) {
   const double p = std::exp(-g);
   return std::sqrt((p * p * (1 - p * p) + 2 * p * p * p * (1 - p)) / n);
@@ -45,7 +45,8 @@ double deviation_of_aloha(double g, double n) {
 
 class PureAloha : public ::testing::TestWithParam<double> {};
 
-// Fifty stations are nearly a Poisson process: of a finite number N the share is greater by G^2 / (2 N) of itself, 1 % at G = 1.
+// Fifty stations are nearly a Poisson process: of a finite number N the share is greater by G^2 / (2 N) of
+// itself, 1 % at G = 1.
 TEST_P(PureAloha, HasTheThroughputOfAbramson) {
   const Results results = run({.load = GetParam()});
   const double g = results.g(), n = static_cast<double>(results.sent);
@@ -59,15 +60,16 @@ TEST_P(PureAloha, HasTheThroughputOfAbramson) {
 
 INSTANTIATE_TEST_SUITE_P(Networks, PureAloha, ::testing::Values(0.1, 0.5, 1.0));
 
-// Near stations are up to 24 dB louder at the hub than far ones: a packet of theirs survives a far one that comes during it.
+// Near stations are up to 24 dB louder at the hub than far ones: a packet of theirs survives a far one that
+// comes during it.
 TEST(Aloha, GetsMoreThroughWhereStrongPacketsCapture) {
   const Results results = run({.radius_m = 750, .load = 0.5, .nearest_m = 20});
   const double g = results.g(), n = static_cast<double>(results.sent);
   EXPECT_GT(results.share(), std::exp(-2 * g) + kSigmas * deviation_of_aloha(g, n));
 }
 
-// Of N stations S = G (1 - G / N)^(N - 1) a slot (Abramson 1973). The number of slots with one packet is binomial. Places are rounded to a
-// millimetre, so a slot is a little longer than a packet.
+// Of N stations S = G (1 - G / N)^(N - 1) a slot (Abramson 1973). The number of slots with one packet is
+// binomial. Places are rounded to a millimetre, so a slot is a little longer than a packet.
 TEST(SlottedAloha, HasTheThroughputOfRoberts) {
   const Ring ring{.mac = "slotted-aloha", .settings = "slot_s = 1.001", .load = 0.8};
   const Results results = run(ring);
@@ -83,8 +85,8 @@ TEST(Tdma, NeverCollidesAndCarriesMoreThanAloha) {
   EXPECT_GT(results.s(), 2 * aloha(0.5));
 }
 
-// Sound needs at most 0.01 of a packet from station to station. The number received is less random than a Poisson number, since a
-// packet keeps others from theirs.
+// Sound needs at most 0.01 of a packet from station to station. The number received is less random than a
+// Poisson number, since a packet keeps others from theirs.
 TEST(Csma, HasTheThroughputOfKleinrockAndTobagiWherePropagationIsShort) {
   const Results results = run({.mac = "csma", .packet_s = 10, .load = 1});
   const double expected = csma(results.attempts(), 0.01);
@@ -97,7 +99,8 @@ TEST(Csma, BeatsAlohaWherePropagationIsShort) {
   EXPECT_GT(sensing.s(), 2 * blind.s());
 }
 
-// Sound needs up to five packets from station to station: what is sensed has long passed the hub, and who waits for it loses his turn.
+// Sound needs up to five packets from station to station: what is sensed has long passed the hub, and who
+// waits for it loses his turn.
 TEST(Csma, LosesAgainstAlohaWherePropagationIsLong) {
   const Ring ring{.radius_m = 750, .packet_s = 0.2, .load = 0.3, .packets = 8000};
   Ring with_sense = ring;
@@ -138,7 +141,8 @@ TEST(Maca, APacketTakesThreeOfModemsAndTheirTravelTimes) {
                            .packets = 20});
   ASSERT_GT(one.delivered, 10);
   EXPECT_EQ(one.delivered * 3, one.sent);
-  // A byte lasts 8 ms; request, leave and the data's first byte have one each. Sound travels 0.5 s, three times.
+  // A byte lasts 8 ms; request, leave and the data's first byte have one each. Sound travels 0.5 s, three
+  // times.
   EXPECT_NEAR(*std::min_element(one.delays_s.begin(), one.delays_s.end()), 10 + 3 * 0.008 + 3 * 0.5, 1e-5);
 }
 

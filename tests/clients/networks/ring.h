@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A hub and stations on a ring round it, in lockstep in this process, without capture: the water that textbooks assume.
+// A hub and stations on a ring round it, in lockstep in this process, without capture: the water that
+// textbooks assume.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Asks the acoustics library for the paths of sound between two points, in water of one sound speed and in water from a grid of
-// netCDF, which a module reads: eigenrays GRID
+// Asks the acoustics library for the paths of sound between two points, in water of one sound speed and in
+// water from a grid of netCDF, which a module reads: eigenrays GRID
 #include <cmath>
 #include <cstdio>
 

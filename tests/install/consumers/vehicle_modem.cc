@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sends a packet by the modem library; what it publishes is received in the place of a channel server: vehicle_modem
+// Sends a packet by the modem library; what it publishes is received in the place of a channel server:
+// vehicle_modem
 #include <cstdint>
 #include <cstdio>
 #include <string>

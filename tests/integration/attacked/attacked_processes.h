@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Programs as separate processes on a bus that a test attacks. Runs inside a network namespace of its own (scripts/isolated).
+// Programs as separate processes on a bus that a test attacks. Runs inside a network namespace of its own
+// (scripts/isolated).
 #pragma once
 
 #include <algorithm>
@@ -112,8 +113,8 @@ class AttackedProcesses : public ::testing::Test {
     const std::int64_t end = latest_clock_utime_ + static_cast<std::int64_t>(seconds * 1e6);
     return monitor_.wait_until([&] { return latest_clock_utime_ >= end; });
   }
-  // Every packet of the two senders from its first accepted one has one outcome, none is left out; copies of a
-  // message count once. Returns how many there are.
+  // Every packet of the two senders from its first accepted one has one outcome, none is left out; copies of
+  // a message count once. Returns how many there are.
   std::size_t expect_outcomes_whole(const std::set<std::int64_t>& foreign_sessions = {}) {
     std::map<std::pair<std::int64_t, std::int64_t>, packet_outcome_t> by_number;
     for (const packet_outcome_t& outcome : monitor_.outcomes) {

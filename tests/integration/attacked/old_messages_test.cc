@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Old messages sent again, by themselves and as whole logs, and a server that was stopped (docs/reliability.md).
+// Old messages sent again, by themselves and as whole logs, and a server that was stopped
+// (docs/reliability.md).
 #include <algorithm>
 #include <csignal>
 #include <cstdint>

@@ -166,7 +166,8 @@ TEST(Torpedo, StraightSpeedsAreThoseOfThePublishedVehicle) {
   }
 }
 
-// Published REMUS 100 models turn in 24.6, 16.1 and 6.7 m at 10 degrees; nothing tighter than two hull lengths.
+// Published REMUS 100 models turn in 24.6, 16.1 and 6.7 m at 10 degrees; nothing tighter than two hull
+// lengths.
 TEST(Torpedo, TurnsSteadilyAndTighterWithMoreRudder) {
   const Model model = model_named("torpedo");
   const double at_5 = turning_radius(model, 5), at_10 = turning_radius(model, 10),

@@ -66,7 +66,8 @@ TEST(Waves, AccelerationIsTheRateOfTheVelocity) {
 }
 
 // At the surface its rate is the water's velocity up and its slope the acceleration along over -g; below, its
-// change with depth is the acceleration down over -g, as pressure drives the water. Central differences as above.
+// change with depth is the acceleration down over -g, as pressure drives the water. Central differences as
+// above.
 TEST(Waves, TheSurfaceMovesAndSlopesWithTheWater) {
   const WaveField waves({.kind = SeaKind::kJonswap, .height_m = 3, .period_s = 7, .toward_rad = 2}, 5);
   const Vec3 p(12, 7, 0);

@@ -93,7 +93,8 @@ TEST(DopplerLog, ThreeBeamsAreEnoughTwoAreNot) {
   EXPECT_EQ(two.beam_speed_mps[0], 0);
 }
 
-// sigma / (sqrt(2) sin J) along the hull and across, sigma / (2 cos J) down; 4 standard deviations of a variance.
+// sigma / (sqrt(2) sin J) along the hull and across, sigma / (2 cos J) down; 4 standard deviations of a
+// variance.
 TEST(DopplerLog, NoiseOfTheVelocityIsThatOfTheGeometry) {
   const DvlSettings dvl{.errors = {.noise = 0.01}};
   constexpr int kSamples = 20'000;

@@ -34,8 +34,9 @@ const Water kSea{.sea_surface_z_m = 0};
 
 SimTime at_s(double seconds) { return SimTime::from_seconds(seconds); }
 
-// Upright or heeled by phi about x, with CO at the depth d on its axis: wet length l = b + d / cos(phi) from the bottom b below
-// CO up, V = A l, and the centroid off the axis by I / V tan(phi) and up by half of I / V tan(phi)^2 (wall-sided formula).
+// Upright or heeled by phi about x, with CO at the depth d on its axis: wet length l = b + d / cos(phi) from
+// the bottom b below CO up, V = A l, and the centroid off the axis by I / V tan(phi) and up by half of I / V
+// tan(phi)^2 (wall-sided formula).
 TEST(Floats, OfAHeeledCylinderAreThoseOfTheWallSidedFormula) {
   const std::vector<Float> floats{{.bottom_m = {0, 0, 0.9}, .length_m = 2, .beam_m = 1.2, .height_m = 2}};
   const double area = pi / 4 * 2 * 1.2, inertia = area * 1.2 * 1.2 / 16;
@@ -54,7 +55,8 @@ TEST(Floats, OfAHeeledCylinderAreThoseOfTheWallSidedFormula) {
   }
 }
 
-// A surface that slopes is the same as a hull that leans the other way, but for the direction of the buoyancy.
+// A surface that slopes is the same as a hull that leans the other way, but for the direction of the
+// buoyancy.
 TEST(Floats, AreWetByTheSlopeOfTheSurface) {
   const std::vector<Float> floats{{.bottom_m = {0, 0, 0.5}, .length_m = 2, .beam_m = 2, .height_m = 1}};
   const double area = pi, inertia = area * 4 / 16;
@@ -154,11 +156,11 @@ Response response_to_waves(double period_s) {
   return r;
 }
 
-// Per metre of wave amplitude, with the draught T and the middle at T / 2: buoyancy and Froude-Krylov rho g A exp(-k T), added
-// mass and damping in the water's motion at the middle:
+// Per metre of wave amplitude, with the draught T and the middle at T / 2: buoyancy and Froude-Krylov rho g A
+// exp(-k T), added mass and damping in the water's motion at the middle:
 //   z / a = (C exp(-k T) + (-w^2 A33 - i w B) exp(-k T / 2)) / (C - w^2 M - i w B)    (time as exp(-i w t)).
-// The model takes the water's acceleration at the middle for that over the draught: an error of C (k T)^3 / 24 of the numerator's
-// force, a few per cent of it at 2.1 s; the rest is for the orbit of the buoy itself.
+// The model takes the water's acceleration at the middle for that over the draught: an error of C (k T)^3 /
+// 24 of the numerator's force, a few per cent of it at 2.1 s; the rest is for the orbit of the buoy itself.
 TEST(Buoy, HeavesOnWavesAsTheClosedFormSays) {
   const auto model = shipped("buoy");
   const Heave h = heave_of(*model);
@@ -176,8 +178,10 @@ TEST(Buoy, HeavesOnWavesAsTheClosedFormSays) {
   }
 }
 
-// Surge and pitch are coupled by the low centre of gravity. About the middle, where the wet part's centroid lies:
-//   (m + A11) x'' + m z_g q' + D1 (x' - u) = (m + A11) u',   m z_g x'' + I q' + D5 q + m g GM theta = rho g I_wp s.
+// Surge and pitch are coupled by the low centre of gravity. About the middle, where the wet part's centroid
+// lies:
+//   (m + A11) x'' + m z_g q' + D1 (x' - u) = (m + A11) u',   m z_g x'' + I q' + D5 q + m g GM theta = rho g
+//                                                            I_wp s.
 TEST(Buoy, PitchesOnWavesAsTheClosedFormSays) {
   const auto model = shipped("buoy");
   const ModelParameters& p = model->parameters();
@@ -185,7 +189,8 @@ TEST(Buoy, PitchesOnWavesAsTheClosedFormSays) {
   for (const double period : {4.0, 6.0, 10.0}) {
     const double w = 2 * pi / period, k = w * w / kGravity;
     const Complex i(0, 1), rate = -i * w;  // of exp(-i w t)
-    // Per metre of amplitude, elevation exp(-i w t) at x = 0: u = w exp(-k d), the surface rises along x by i k. Pitch is nose up.
+    // Per metre of amplitude, elevation exp(-i w t) at x = 0: u = w exp(-k d), the surface rises along x by i
+    // k. Pitch is nose up.
     const Complex u = w * std::exp(-k * 0.4), rises = i * k;
     const Complex a11 = rate * rate * model->mass()(0, 0) + rate * p.damping.linear[0];
     const Complex a12 = rate * rate * m * zg;

@@ -33,8 +33,8 @@ double induced_drag(const LiftDrag& l) {
          (std::numbers::pi * l.oswald_efficiency * l.aspect_ratio);
 }
 
-// The mass that balances the moments about CO, nose up positive: weight below CO -m g z sin(theta), mass off its middle
-// -m_p g x cos(theta), bladder rho g V x_b cos(theta), Munk (A33 - A11) u w, lift and drag -x Z.
+// The mass that balances the moments about CO, nose up positive: weight below CO -m g z sin(theta), mass off
+// its middle -m_p g x cos(theta), bladder rho g V x_b cos(theta), Munk (A33 - A11) u w, lift and drag -x Z.
 double balancing_mass(const Model& model, double volume_m3, const SteadyGlide& g) {
   const ModelParameters& p = model.parameters();
   const double u = g.speed_mps * std::cos(g.attack_rad), w = g.speed_mps * std::sin(g.attack_rad);
@@ -53,8 +53,8 @@ double drag_coefficient(const LiftDrag& l, double alpha) {
   return l.zero_lift_drag + k * s / (1 + (k / l.broadside_drag - 1) * s);
 }
 
-// tan(path) = D / L = C_D / (a sin(alpha) cos(alpha)), by halving between no attack and the best ratio, at 4.7 degrees; D = net
-// weight times sin(path).
+// tan(path) = D / L = C_D / (a sin(alpha) cos(alpha)), by halving between no attack and the best ratio, at
+// 4.7 degrees; D = net weight times sin(path).
 SteadyGlide steady_glide(const Model& model, double volume_m3, double path_rad) {
   const ModelParameters& p = model.parameters();
   const LiftDrag& l = p.lift_drag;
@@ -96,8 +96,8 @@ TEST(Glider, GlidesSteadilyAsLiftDragAndNetBuoyancySay) {
   }
 }
 
-// Graver's own law, C_L = a alpha and C_D = C_D0 + k alpha^2: alpha = K_L / (2 K_D) tan(path) (1 - sqrt(1 - 4 K_D K_D0 /
-// (K_L tan(path))^2)). The bounded law differs by the square of alpha, 5 degrees at most: 0.8 %.
+// Graver's own law, C_L = a alpha and C_D = C_D0 + k alpha^2: alpha = K_L / (2 K_D) tan(path) (1 - sqrt(1 - 4
+// K_D K_D0 / (K_L tan(path))^2)). The bounded law differs by the square of alpha, 5 degrees at most: 0.8 %.
 TEST(Glider, IsWithinOnePercentOfTheLinearLawOfThePaper) {
   const auto model = shipped("glider");
   const LiftDrag& l = model->parameters().lift_drag;

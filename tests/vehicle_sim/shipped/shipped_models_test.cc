@@ -74,8 +74,8 @@ TEST_P(UnderWater, ASteadyCurrentOnlyCarriesThePathAlong) {
   EXPECT_LT((in_current - in_still - current * 120).norm(), tolerance(1e-9));  // the project's bound
 }
 
-// How far a vehicle at `depth_m` goes in tide and gusts, the same everywhere, less the way of the water: the integral of what
-// changes evenly within a step is the trapezoids'.
+// How far a vehicle at `depth_m` goes in tide and gusts, the same everywhere, less the way of the water: the
+// integral of what changes evenly within a step is the trapezoids'.
 Vec3 lag_behind_water(const std::string& name, double depth_m, const CurrentSettings& currents) {
   FleetSettings settings;
   settings.current = currents;
@@ -103,8 +103,8 @@ TEST(Drifter, FollowsTheCurrentExactly) {
   EXPECT_LT(lag_behind_water("drifter", 30, kTideAndGusts).norm(), tolerance(1e-9));
 }
 
-// Afloat at its draught. Water that accelerates pushes at the middle of the wet part, 15 cm above the centre of gravity: the hull
-// swings, by 2 mm here.
+// Afloat at its draught. Water that accelerates pushes at the middle of the wet part, 15 cm above the centre
+// of gravity: the hull swings, by 2 mm here.
 TEST(Buoy, DriftsWithTheCurrent) {
   const Vec3 steady = lag_behind_water("buoy", 0.4, kSteady);
   EXPECT_LT(steady.head<2>().norm(), tolerance(1e-9));
@@ -112,8 +112,9 @@ TEST(Buoy, DriftsWithTheCurrent) {
   EXPECT_LT(lag_behind_water("buoy", 0.4, kTideAndGusts).head<2>().norm(), tolerance(2e-3));
 }
 
-// In a table by depth the drifter takes up the speed of its depth. Of v' = -d v - c v^2, d = D / M and c = 1/2 rho C A / M, is left
-// 1 / v = (1 / v0 + c / d) exp(d t) - c / d. The drag tilts it a little, for its centre of gravity is low: 1e-4 m/s.
+// In a table by depth the drifter takes up the speed of its depth. Of v' = -d v - c v^2, d = D / M and c =
+// 1/2 rho C A / M, is left 1 / v = (1 / v0 + c / d) exp(d t) - c / d. The drag tilts it a little, for its
+// centre of gravity is low: 1e-4 m/s.
 TEST(Drifter, TakesUpTheSpeedOfItsDepth) {
   const auto model = shipped("drifter");
   const double mass = model->mass()(0, 0), c = 0.5 * 1025 * 0.47 * std::numbers::pi * 0.216 * 0.216 / mass,
@@ -151,7 +152,8 @@ TEST(Lander, RisesAtTheTerminalSpeedWithoutItsWeight) {
   EXPECT_LT(relative_error(-s.velocity_body[2], terminal_speed(net)), tolerance(1e-6));
 }
 
-// Sinks 60 m, lies on the ground by its net weight, drops the weight at the command, rises, and floats by Archimedes.
+// Sinks 60 m, lies on the ground by its net weight, drops the weight at the command, rises, and floats by
+// Archimedes.
 TEST(Lander, SinksRestsReleasesAndFloats) {
   const auto model = shipped("lander");
   VehicleState start;
@@ -194,7 +196,8 @@ TEST(Lander, ComesBackFromAnArchiveWithoutItsWeight) {
   EXPECT_LT(restarted.state_at(0, at_s(20)).velocity_body[2], -0.9);
 }
 
-// Body and weight together are the body that sinks: mass, moments and inertia about the common centre (Steiner).
+// Body and weight together are the body that sinks: mass, moments and inertia about the common centre
+// (Steiner).
 TEST(Lander, BodyAndWeightMakeTheWhole) {
   const ModelParameters whole = shipped("lander")->parameters(), body = without_weight(whole);
   const DropWeight& w = whole.drop_weight;

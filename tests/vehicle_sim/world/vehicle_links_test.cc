@@ -160,8 +160,8 @@ double energy(const VehicleWorld& world) {
   return sum;
 }
 
-// Momentum of vehicles and water in an ideal fluid. The tolerance is that of the free motion between the blows: the
-// collision itself keeps it to rounding.
+// Momentum of vehicles and water in an ideal fluid. The tolerance is that of the free motion between the
+// blows: the collision itself keeps it to rounding.
 TEST_P(Meeting, MomentumIsConservedAndEnergyNotGained) {
   for (const Encounter& e : encounters()) {
     VehicleWorld world(nullptr);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // WHOI Micromodem, first and second generation: NMEA sentences, CC from the host, CA and SN from the modem.
 //
-// Options: `revision` (0.94.0.00 is the first generation, 2.0.31000 the second, 3.0.0 its newer firmware), `pps` (its clock has a pulse a
-// second, modem_clock.h), `broadcast` (the address of all; 15 is another where no modem has been given it), `lbl` (up to four
-// transponders, micromodem_lbl.h), `newer_lines` (CARFP in the place of CARDP).
+// Options: `revision` (0.94.0.00 is the first generation, 2.0.31000 the second, 3.0.0 its newer firmware),
+// `pps` (its clock has a pulse a second, modem_clock.h), `broadcast` (the address of all; 15 is another where
+// no modem has been given it), `lbl` (up to four transponders, micromodem_lbl.h), `newer_lines` (CARFP in the
+// place of CARDP).
 //
-// Answers go to the host that asked, everything else to all. Left out: the sounds of CCMSQ, CCSWP and CCRSP; they are refused.
+// Answers go to the host that asked, everything else to all. Left out: the sounds of CCMSQ, CCSWP and CCRSP;
+// they are refused.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -213,7 +215,8 @@ class Micromodem : public Protocol {
     transmitter_.send({Kind::kPing, to, (*n)[1], {}}, {.kind = modem_send_t::PING, .rate_number = 0});
   }
 
-  // CCCMD,PNG,src,dest,rate,cdr,data: the second generation's ping. Its data is left out; the answer has its number of bytes.
+  // CCCMD,PNG,src,dest,rate,cdr,data: the second generation's ping. Its data is left out; the answer has its
+  // number of bytes.
   void command(ClientId client, const NmeaSentence& sentence) {
     const auto n = sentence.numbers<4>(1);
     const std::int32_t to = n ? core_.vehicle_of((*n)[1]) : kBroadcastId;
@@ -243,8 +246,8 @@ class Micromodem : public Protocol {
                 {.wants_ack = ack == 1, .rate_number = static_cast<std::int32_t>(rate)});
   }
 
-  // CCTFP,dest,rate of the mini-frame,rate of data,ack,0,HEX of the mini-frame,HEX of data; firmware from 3 on has 0,0 before. The medium
-  // knows one rate a packet, that of the data where there is any.
+  // CCTFP,dest,rate of the mini-frame,rate of data,ack,0,HEX of the mini-frame,HEX of data; firmware from 3
+  // on has 0,0 before. The medium knows one rate a packet, that of the data where there is any.
   void send_framed(ClientId client, const NmeaSentence& sentence) {
     const std::size_t first = sentence.fields.size() == 9 ? 2 : 0;
     const auto n = sentence.numbers<4>(first);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all parts of a Micromodem share: its address, settings, clock and generation, and how it writes to hosts.
+// What all parts of a Micromodem share: its address, settings, clock and generation, and how it writes to
+// hosts.
 #pragma once
 
 #include <cstddef>

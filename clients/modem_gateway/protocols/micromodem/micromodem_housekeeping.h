@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands of a Micromodem that touch no sound: settings, clock, revision, reboot, noise, and sounds for tests, which are refused.
+// The commands of a Micromodem that touch no sound: settings, clock, revision, reboot, noise, and sounds for
+// tests, which are refused.
 #pragma once
 
 #include <cstdint>

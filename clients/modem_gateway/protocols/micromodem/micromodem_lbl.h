@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Long-baseline ranging of a Micromodem (CCPDT, CCPNT, CCPGT): the travel times to up to four transponders, vehicles of the scenario whose
-// modems answer pings.
+// Long-baseline ranging of a Micromodem (CCPDT, CCPNT, CCPGT): the travel times to up to four transponders,
+// vehicles of the scenario whose modems answer pings.
 //
-// One ping asks all transponders at once (docs/packets.md). Each answers a turnaround after it has come, so that answers may overlap: the
-// modem has a filter for each. It waits for those that the host names, for the host's time-out after ping, turnaround and
-// answer. A transponder has a place, A to D, and may have a code: the frequency or the sequence by which hosts name its answer in CCPNT and
-// CCPGT. Without one they name it by its place.
+// One ping asks all transponders at once (docs/packets.md). Each answers a turnaround after it has come, so
+// that answers may overlap: the modem has a filter for each. It waits for those that the host names, for the
+// host's time-out after ping, turnaround and answer. A transponder has a place, A to D, and may have a code:
+// the frequency or the sequence by which hosts name its answer in CCPNT and CCPGT. Without one they name it
+// by its place.
 #pragma once
 
 #include <array>

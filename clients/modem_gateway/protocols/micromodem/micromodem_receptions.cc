@@ -74,7 +74,8 @@ std::string arrival_of(const Listener& listener, const modem_receive_t& packet) 
   return listener.state.clock.iso_us(SimTime::from_utime(packet.arrival_utime));
 }
 
-// CARDP,src,dest,rate,ack,0,mini,data and CARFP,time,0,src,dest,rate of the mini-frame,rate of data (-1: none),ack,0,,mini,data
+// CARDP,src,dest,rate,ack,0,mini,data and CARFP,time,0,src,dest,rate of the mini-frame,rate of data (-1:
+// none),ack,0,,mini,data
 void add_flexible(const Listener& listener, const modem_receive_t& packet, std::vector<std::string>& lines) {
   std::string mini, data;
   const bool has_mini = kind_of(packet) == MicromodemKind::kFramedMini;

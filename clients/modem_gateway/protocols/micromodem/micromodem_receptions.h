@@ -37,8 +37,9 @@ struct MicromodemCycle {
   std::string fields() const;  // command,source,destination,rate,ack,frames
 };
 
-// A cycle packet of 13 bits: whether it asks its receiver for data, to which address (5 bits; 31 for the packet's sender), rate (3),
-// acknowledgement (1), frames less one (3). `asker`: its sender's address, where it asks.
+// A cycle packet of 13 bits: whether it asks its receiver for data, to which address (5 bits; 31 for the
+// packet's sender), rate (3), acknowledgement (1), frames less one (3). `asker`: its sender's address, where
+// it asks.
 std::vector<std::uint8_t> cycle_packet(const MicromodemCycle& cycle, std::optional<std::int64_t> asker);
 // Whether the packet has room for the destination of what is asked for.
 bool can_be_asked_for(const MicromodemCycle& cycle, std::int64_t asker);
@@ -67,7 +68,8 @@ struct Listener {
   std::int32_t address(std::int32_t vehicle_id) const;
 };
 
-// Bodies of sentences, in their order, for a packet that was received, whole or in part. An answer to an own packet is the door's.
+// Bodies of sentences, in their order, for a packet that was received, whole or in part. An answer to an own
+// packet is the door's.
 std::vector<std::string> lines_of(const Listener& listener, const modem_receive_t& packet);
 // Of an acknowledgement: the frames that it says were right.
 std::vector<std::string> lines_of_ack(const Listener& listener, const modem_receive_t& ack);

@@ -46,7 +46,8 @@ void MicromodemRemote::set_line(ClientId client, const NmeaSentence& sentence) {
   core_.say_all(fmt::format("CAMER,{},{},{}", destination, destination, control_fields(packet)));
 }
 
-// CCMSC,source,destination,minutes; 0: reboot, -1: until it is woken, here for as long as can be told. What follows is not looked at.
+// CCMSC,source,destination,minutes; 0: reboot, -1: until it is woken, here for as long as can be told. What
+// follows is not looked at.
 void MicromodemRemote::sleep(ClientId client, const NmeaSentence& sentence) {
   const auto n = sentence.numbers<2>();
   const auto asked = integer_in(sentence.field(2), -1, kMaxMinutes);

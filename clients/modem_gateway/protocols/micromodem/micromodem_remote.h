@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands of a Micromodem's host that another modem may obey: a line of its connector (CCMEC), sleep (CCMSC).
+// Commands of a Micromodem's host that another modem may obey: a line of its connector (CCMEC), sleep
+// (CCMSC).
 //
-// For this modem they are obeyed at once; to another they go as a mini-packet. It sets the line, which nothing is connected to, and
-// answers with a mini-packet, of which CAMER tells the host that asked; a modem that is told to sleep does not answer.
+// For this modem they are obeyed at once; to another they go as a mini-packet. It sets the line, which
+// nothing is connected to, and answers with a mini-packet, of which CAMER tells the host that asked; a modem
+// that is told to sleep does not answer.
 #pragma once
 
 #include <cstdint>

@@ -29,7 +29,8 @@ double db_of(double ratio) { return 10 * elementary::log10(ratio); }
 // Bit 0: the clock was set; 1: it has pulses.
 int clock_mode(const ModemClock& clock) { return (clock.is_set() ? 1 : 0) + (clock.has_pps() ? 2 : 0); }
 
-// Of a reception by newer firmware. Bits 0 and 1: who set the clock (2 a user); 2 to 4: where pulses come from (3 outside).
+// Of a reception by newer firmware. Bits 0 and 1: who set the clock (2 a user); 2 to 4: where pulses come
+// from (3 outside).
 int clock_sources(const ModemClock& clock) {
   return (clock.is_set() ? 2 : 0) + (clock.has_pps() ? 3 << 2 : 0);
 }

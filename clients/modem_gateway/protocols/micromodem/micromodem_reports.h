@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a Micromodem reports of a reception (CACST) and of a transmission (CAXST), filled from the reception itself.
+// What a Micromodem reports of a reception (CACST) and of a transmission (CAXST), filled from the reception
+// itself.
 //
-//   CACST   mode, time of arrival, clock mode, peak, power, ratio, level, gain, 4 shifts, rate, source, destination, PSK error, packet
-//           type, frames, bad frames, SNR RSS, SNR in, SNR out, SNR of symbols, MSE, quality, Doppler, noise, carrier, bandwidth
-//   CAXST   date, time, clock mode, transmit mode, probe length, bandwidth, carrier, rate, source, destination, acknowledgement, frames
-//           expected, frames sent, packet type, bytes
+//   CACST   mode, time of arrival, clock mode, peak, power, ratio, level, gain, 4 shifts, rate, source,
+//           destination, PSK error, packet type, frames, bad frames, SNR RSS, SNR in, SNR out, SNR of
+//           symbols, MSE, quality, Doppler, noise, carrier, bandwidth
+//   CAXST   date, time, clock mode, transmit mode, probe length, bandwidth, carrier, rate, source,
+//           destination, acknowledgement, frames expected, frames sent, packet type, bytes
 //
-// The second generation sends version 6: the version first, and the time of arrival as yyyymmddhhmmss.ffffff in the place of
-// hhmmss.ssss. Firmware from 3 on sends CACST in version 8, with four more fields (0,-1,-1,00), and CAXST in version 7, with microseconds
-// and the carrier once more. Numbers that are the modem's own:
+// The second generation sends version 6: the version first, and the time of arrival as yyyymmddhhmmss.ffffff
+// in the place of hhmmss.ssss. Firmware from 3 on sends CACST in version 8, with four more fields
+// (0,-1,-1,00), and CAXST in version 7, with microseconds and the carrier once more. Numbers that are the
+// modem's own:
 //   peak     of the matched filter, 32767 at 180 dB re 1 uPa;  power = 20 log10(peak), dB;  ratio = SNR, dB
 //   SNR in   of all paths into the receiver, SNR of symbols after its window, SNR out per bit, RSS as in; dB
 //   quality  255 SINR / (1 + SINR)

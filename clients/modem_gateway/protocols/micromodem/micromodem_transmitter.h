@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sending side of a Micromodem: data cycles, and what it writes of each transmission.
 //
-// A cycle asks its host for its frames one by one (CADRQ), then sends them as one packet. At rate 0 a cycle packet goes out first, and the
-// host is asked when that has ended. Frames that a host gives without being asked wait for the next cycle, which then does not ask for
-// them. Of every transmission: CATXP when its sound begins, CATXF when it ends, then CAXST. Data that does not come in time ends the
-// cycle (CAERR,...,DATA_TIMEOUT).
+// A cycle asks its host for its frames one by one (CADRQ), then sends them as one packet. At rate 0 a cycle
+// packet goes out first, and the host is asked when that has ended. Frames that a host gives without being
+// asked wait for the next cycle, which then does not ask for them. Of every transmission: CATXP when its
+// sound begins, CATXF when it ends, then CAXST. Data that does not come in time ends the cycle
+// (CAERR,...,DATA_TIMEOUT).
 #pragma once
 
 #include <cstddef>

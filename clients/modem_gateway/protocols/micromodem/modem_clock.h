@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The calendar clock of a modem: its vehicle's clock, shifted by what a host has set. All times given to it are readings of that clock.
+// The calendar clock of a modem: its vehicle's clock, shifted by what a host has set. All times given to it
+// are readings of that clock.
 //
-// Before it is set it shows the vehicle's clock from 1970 on. With `pps`, a pulse each whole second to which all synchronised modems
-// agree, here the whole seconds of the vehicle's clock, the time that a host sets holds from the next pulse: so the fractions of a second
-// of all such clocks are equal, as far as the vehicles' clocks are, and that of an arrival is the travel time of what left on a second.
+// Before it is set it shows the vehicle's clock from 1970 on. With `pps`, a pulse each whole second to which
+// all synchronised modems agree, here the whole seconds of the vehicle's clock, the time that a host sets
+// holds from the next pulse: so the fractions of a second of all such clocks are equal, as far as the
+// vehicles' clocks are, and that of an arrival is the travel time of what left on a second.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sentences as NMEA 0183 frames them: $ body * HH, HH the exclusive or of the body's bytes in two hexadecimal digits.
+// Sentences as NMEA 0183 frames them: $ body * HH, HH the exclusive or of the body's bytes in two hexadecimal
+// digits.
 #pragma once
 
 #include <array>
@@ -40,7 +41,8 @@ struct NmeaSentence {
 std::uint8_t nmea_checksum(std::string_view body);
 // With $, checksum, carriage return and line feed.
 std::string nmea_line(std::string_view body);
-// A line without its end; the checksum may be missing, and in either case; blanks may follow. Refers to `line`.
+// A line without its end; the checksum may be missing, and in either case; blanks may follow. Refers to
+// `line`.
 NmeaSentence nmea_sentence(std::string_view line);
 
 }  // namespace halocline::modem_gateway

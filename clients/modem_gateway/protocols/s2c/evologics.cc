@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// EvoLogics S2C: AT commands in command mode, which is that of a network interface, and data mode (`+++AT`), instant, synchronous and
-// piggy-back messages, bursts, positions of a USBL head.
+// EvoLogics S2C: AT commands in command mode, which is that of a network interface, and data mode (`+++AT`),
+// instant, synchronous and piggy-back messages, bursts, positions of a USBL head.
 //
-// Each host has its own mode; ATO and ATC change it. Bytes that are no commands in data mode go to the remote address (!AR) as bursts of up
-// to 1024 bytes, once 50 ms have passed without more; what comes of another's stream is written as it is to hosts in data mode, and as
-// RECV to the others. Options: `mode` (net or data, of a host that connects; ?MODE says NET or AT).
+// Each host has its own mode; ATO and ATC change it. Bytes that are no commands in data mode go to the remote
+// address (!AR) as bursts of up to 1024 bytes, once 50 ms have passed without more; what comes of another's
+// stream is written as it is to hosts in data mode, and as RECV to the others. Options: `mode` (net or data,
+// of a host that connects; ?MODE says NET or AT).
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -48,7 +49,8 @@ constexpr std::size_t kLeastPaths = 8;
 // An answer to ?P that the channel does not give in time is empty.
 constexpr SimDuration kPathsWithin = SimDuration::from_milliseconds(800);
 
-// A message of the same number within this is a repetition: longer than all tries of one take, shorter than seven messages' that fail.
+// A message of the same number within this is a repetition: longer than all tries of one take, shorter than
+// seven messages' that fail.
 constexpr SimDuration kRepeatedWithin = SimDuration::from_milliseconds(30'000);
 
 class Evologics : public Protocol {

@@ -17,8 +17,8 @@
 
 namespace halocline::modem_gateway {
 
-// The kinds of the modem's packets. The bus knows data of two rates; the number in the packet's header holds kind (2 bits) and protocol
-// id (3).
+// The kinds of the modem's packets. The bus knows data of two rates; the number in the packet's header holds
+// kind (2 bits) and protocol id (3).
 enum class S2cKind { kPlain = 0, kSynchronous = 1, kPiggyBack = 2, kForced = 3 };
 inline constexpr S2cKind kS2cStream = S2cKind::kSynchronous;  // of a burst
 
@@ -46,7 +46,8 @@ class S2cCore {
   std::int32_t vehicle_id() const { return vehicle_id_; }
   std::int32_t own_address() const { return addresses_.address_of(vehicle_id_).value_or(0); }
   void take_address(std::int32_t address) { addresses_.assign(vehicle_id_, address); }
-  // The address of all: all bits of addresses up to the highest (!AM), 255 for 254. 255 stands for it in any case.
+  // The address of all: all bits of addresses up to the highest (!AM), 255 for 254. 255 stands for it in any
+  // case.
   std::int32_t broadcast() const { return static_cast<std::int32_t>(setting("!AM")) + 1; }
   bool is_broadcast(std::int64_t address) const { return address == broadcast() || address == kAll; }
   // Of vehicle and address, kBroadcastId and broadcast() standing for all.

@@ -38,8 +38,9 @@ struct S2cFix {
   double travel_time_s = 0;  // one way
   long rssi = 0, integrity = 0;
 };
-// USBLLONG with a range, USBLANGLES without. Its own frame is x to starboard, y forward, z up, so that it is east, north, up of a
-// head that stands upright and heads north. Also the position alone, "secs,addr,E,N,U", for ?UP.
+// USBLLONG with a range, USBLANGLES without. Its own frame is x to starboard, y forward, z up, so that it is
+// east, north, up of a head that stands upright and heads north. Also the position alone, "secs,addr,E,N,U",
+// for ?UP.
 struct S2cPosition {
   std::string message, position;
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Commands and data out of the bytes that a host writes to an EvoLogics modem, in any pieces.
 //
-// In command mode there are commands, ended by a carriage return, a line feed or both; those that send hold data of a stated length, which
-// may contain anything. In data mode a command begins with +++AT, and all other bytes are data of the burst connection.
+// In command mode there are commands, ended by a carriage return, a line feed or both; those that send hold
+// data of a stated length, which may contain anything. In data mode a command begins with +++AT, and all
+// other bytes are data of the burst connection.
 #pragma once
 
 #include <cstddef>

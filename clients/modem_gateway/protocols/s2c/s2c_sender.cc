@@ -17,7 +17,8 @@ namespace {
 
 // Until a burst that a busy modem refused is tried again.
 constexpr SimDuration kBusyWait = SimDuration::from_milliseconds(200);
-// The channel's turnaround and an acknowledgement of one byte (docs/packets.md; models/modems/s2c-im.toml), and a little more.
+// The channel's turnaround and an acknowledgement of one byte (docs/packets.md; models/modems/s2c-im.toml),
+// and a little more.
 constexpr SimDuration kAfterAck = SimDuration::from_milliseconds(100 + 173 + 27);
 constexpr std::size_t kMaxInstant = 64;
 // Longer than any packet: a burst of 1024 bytes takes 1.4 s.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an EvoLogics modem has to send: one instant message at a time, one piggy-back message that waits for an acknowledgement to ride on,
-// and a queue of bursts.
+// What an EvoLogics modem has to send: one instant message at a time, one piggy-back message that waits for
+// an acknowledgement to ride on, and a queue of bursts.
 //
-// Instant messages with acknowledgement are repeated !RI times, bursts !RC times, where none comes within !RT milliseconds after the end of
-// the transmission. A message is refused by the water's side (CANCELED...) where the modem is receiving, unless forced. A piggy-back message
-// goes out as a packet of its own as soon as the modem's acknowledgement has ended.
+// Instant messages with acknowledgement are repeated !RI times, bursts !RC times, where none comes within !RT
+// milliseconds after the end of the transmission. A message is refused by the water's side (CANCELED...)
+// where the modem is receiving, unless forced. A piggy-back message goes out as a packet of its own as soon
+// as the modem's acknowledgement has ended.
 #pragma once
 
 #include <cstddef>

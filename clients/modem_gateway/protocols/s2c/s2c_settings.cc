@@ -14,7 +14,8 @@ namespace halocline::modem_gateway {
 namespace {
 
 constexpr std::string_view kFirmware = "1.9", kVersions = "phy: 03, mac: v1.2";
-// Our choice: a pack of 24 V when full that falls to 20 V; the bus knows energy alone. Without a battery, mains.
+// Our choice: a pack of 24 V when full that falls to 20 V; the bus knows energy alone. Without a battery,
+// mains.
 constexpr double kFull_v = 24, kEmpty_v = 20;
 
 // Settings by name and the values that they take.

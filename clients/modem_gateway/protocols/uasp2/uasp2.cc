@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// UASP2, the acoustic streaming protocol of UnetStack: an ADC and a DAC over the network, of one channel each.
+// UASP2, the acoustic streaming protocol of UnetStack: an ADC and a DAC over the network, of one channel
+// each.
 //
-// Format: "UnetStack acoustic streaming protocol v2" (org-arl/VirtualAcousticOcean.jl, 2025). Commands are lines of JSON over TCP; what the DAC is to play comes in
-// them, in base 64; what the ADC records goes by UDP to the port that a host names. A unit of data, big-endian:
+// Format: "UnetStack acoustic streaming protocol v2" (org-arl/VirtualAcousticOcean.jl, 2025). Commands are
+// lines of JSON over TCP; what the DAC is to play comes in them, in base 64; what the ADC records goes by UDP
+// to the port that a host names. A unit of data, big-endian:
 //   uint64 time of the first sample, us; uint32 number; uint16 samples; uint16 channels; float32 samples
-// Full scale is 1: at the DAC a sine of amplitude 1 has the source level of the vehicle's modem, at the ADC the pressure of 1 uPa is
-// 10^(sensitivity_db / 20). Time is simulation time, since the last `ireset`.
+// Full scale is 1: at the DAC a sine of amplitude 1 has the source level of the vehicle's modem, at the ADC
+// the pressure of 1 uPa is 10^(sensitivity_db / 20). Time is simulation time, since the last `ireset`.
 //
-// Options: `rate` and `output_rate`, samples a second of ADC and DAC until a host sets others; `sensitivity_db`, dB re 1/uPa. The ADC runs
-// while a host has it streamed; a unit goes out a few tenths of a second after its time (sound_field.h), its time is exact. The DAC plays one
-// buffer after another. The protocol has no errors: {"error": text} is ours. `quit` is ignored.
+// Options: `rate` and `output_rate`, samples a second of ADC and DAC until a host sets others;
+// `sensitivity_db`, dB re 1/uPa. The ADC runs while a host has it streamed; a unit goes out a few tenths of a
+// second after its time (sound_field.h), its time is exact. The DAC plays one buffer after another. The
+// protocol has no errors: {"error": text} is ours. `quit` is ignored.
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hosts of a UnetStack gateway: requests of fjage answered by themselves (agents, services, subscriptions), messages to agents handed on,
-// messages to hosts that want them.
+// The hosts of a UnetStack gateway: requests of fjage answered by themselves (agents, services,
+// subscriptions), messages to agents handed on, messages to hosts that want them.
 #pragma once
 
 #include <cstdint>

@@ -13,8 +13,8 @@
 
 namespace halocline::modem_gateway {
 
-// An array of bytes as hosts send it: a list of numbers from -128 to 255, or {"clazz": "[B", "data": BASE64}. None for anything else; no
-// bytes for null.
+// An array of bytes as hosts send it: a list of numbers from -128 to 255, or {"clazz": "[B", "data": BASE64}.
+// None for anything else; no bytes for null.
 std::optional<std::vector<std::uint8_t>> unet_bytes(const nlohmann::json& value);
 // As it is sent.
 nlohmann::json unet_array(std::span<const std::uint8_t> bytes);

@@ -119,7 +119,8 @@ bool UnetParameters::set(const std::string& agent, std::int64_t index, const std
   return true;
 }
 
-// One parameter is in `param` and `value`, further ones in `values`. A value that cannot be set leaves the old one, which the answer has.
+// One parameter is in `param` and `value`, further ones in `values`. A value that cannot be set leaves the
+// old one, which the answer has.
 json UnetParameters::answer(const UnetRequest& request) {
   const std::int64_t index = integer_of(request.data, "index", -1);
   std::vector<std::pair<std::string, json>> asked;  // with values to set

@@ -35,7 +35,8 @@ class UnetParameters {
   // Of the door that `context` makes; the references must outlive it.
   explicit UnetParameters(const ProtocolContext& context);
 
-  // The answer to a ParameterReq that `agent` got: ParameterRsp, or NOT_UNDERSTOOD. Fields of the answer, with clazz under "clazz".
+  // The answer to a ParameterReq that `agent` got: ParameterRsp, or NOT_UNDERSTOOD. Fields of the answer,
+  // with clazz under "clazz".
   nlohmann::json answer(const UnetRequest& request);
 
   double sound_speed_mps() const { return sound_speed_mps_; }

@@ -41,8 +41,8 @@ TEST(MeanEstimate, OfFiveValuesByHand) {
   EXPECT_NEAR(estimate.interval.low, 6 - estimate.interval.high, 1e-12);
 }
 
-// The half width over the standard error is Student's t of n - 1 degrees: Abramowitz and Stegun, table 26.10, to the
-// digits given there.
+// The half width over the standard error is Student's t of n - 1 degrees: Abramowitz and Stegun, table 26.10,
+// to the digits given there.
 TEST(MeanEstimate, HasTheWidthOfThePublishedTables) {
   struct Example {
     std::size_t values;

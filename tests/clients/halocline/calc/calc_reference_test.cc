@@ -47,8 +47,8 @@ CsvTable computed(const Case& c) {
 
 class CalcReference : public ::testing::TestWithParam<Case> {};
 
-// Compares each computed_<name> with <name>, and expects at least one such pair and no reference column left out that
-// the quantity gives.
+// Compares each computed_<name> with <name>, and expects at least one such pair and no reference column left
+// out that the quantity gives.
 TEST_P(CalcReference, EveryRowMatches) {
   const Case& c = GetParam();
   const CsvTable table = computed(c);

@@ -89,7 +89,8 @@ void expect_local_frame(const OGRSpatialReference& system,
     double x = east, y = north;
     ASSERT_TRUE(way->Transform(1, &x, &y));
     const auto place = frame.to_geodetic({north, east, 0});
-    // The system is that of places on the ellipsoid; 2 km off a tangent plane is 0.3 m above it, which is 0.1 mm aside.
+    // The system is that of places on the ellipsoid; 2 km off a tangent plane is 0.3 m above it, which is 0.1
+    // mm aside.
     const double off_deg = mode == bathymetry::FrameMode::kEnu ? 3e-9 : 1e-9;
     EXPECT_NEAR(y, to_degrees(place.latitude_rad), off_deg);
     EXPECT_NEAR(x, to_degrees(place.longitude_rad), off_deg);
@@ -185,7 +186,8 @@ TEST_F(CoverageFiles, GeojsonHasLinesOfEqualDelivery) {
     for (const auto& point : feature["geometry"]["coordinates"]) {
       const Vec3 place =
           frame.to_ned({to_radians(point[1].get<double>()), to_radians(point[0].get<double>()), 0});
-      // Linear between middles of cells: the curvature of the hill, 5e-5 / m^2 at most, bends by 0.06 within 50 m.
+      // Linear between middles of cells: the curvature of the hill, 5e-5 / m^2 at most, bends by 0.06 within
+      // 50 m.
       EXPECT_NEAR(std::hypot(place.x() - 1000, place.y() - 2000), std::sqrt(-1e5 * std::log(0.75)), 10);
     }
   }

@@ -43,13 +43,13 @@ struct Differences {
   double level_db, delay_s, delivery;
   RaySharing sharing = RaySharing::kNone;
   int cells = 1000;
-  // So many may differ by more: one search finds a path that the other misses, two guard windows are as good as each other, or a path
-  // at the edge of a shadow is there or not by the last digit.
+  // So many may differ by more: one search finds a path that the other misses, two guard windows are as good
+  // as each other, or a path at the edge of a shadow is there or not by the last digit.
   int of_other_paths = 0;
 };
 
-// As far as the terrain is known. The greatest differences are those of what is interpolated; delivery at its flank, where it changes
-// by 0.1 a decibel and more, has the tolerance of the level.
+// As far as the terrain is known. The greatest differences are those of what is interpolated; delivery at its
+// flank, where it changes by 0.1 a decibel and more, has the tolerance of the level.
 void expect_links_in_random_cells(const ScenarioConfig& config, const std::string& name,
                                   const CoverageArea& area, const Differences& most) {
   const LinkSurveyEnd from = link_end(config, name);

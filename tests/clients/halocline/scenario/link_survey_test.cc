@@ -52,7 +52,8 @@ TEST(LinkSurvey, ImpossibleEndsAreRefused) {
   }
 }
 
-// model.md section 8: 1 km at the surface in the global mean profile; 1e-6 is the precision it is stated with.
+// model.md section 8: 1 km at the surface in the global mean profile; 1e-6 is the precision it is stated
+// with.
 TEST(LinkSurvey, DelayOfTheStraightPathIsThatOfThePapersFigure4) {
   ScenarioConfig config = two_vehicles();
   config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
@@ -94,8 +95,8 @@ TEST(LinkSurvey, LevelOfAPathIsItsPressureAtTheSourceLevel) {
   }
 }
 
-// A beam that looks down at one end and one that looks up at the other: the paths' pressures with the beams in them
-// make up the loss of the budget.
+// A beam that looks down at one end and one that looks up at the other: the paths' pressures with the beams
+// in them make up the loss of the budget.
 TEST(LinkSurvey, PathsWithTheBeamsOfTheModemsHaveTheLossOfTheBudget) {
   for (const auto model :
        {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {
@@ -300,7 +301,8 @@ TEST(LinkSurvey, NotesFormulasBeyondTheRangeTheyWerePublishedFor) {
   EXPECT_NE(notes().front().find("a pH of 8.6"), std::string::npos);
 }
 
-// Between the warm and the cold side of scenarios/front.toml, with the ocean's water or with that of the profile.
+// Between the warm and the cold side of scenarios/front.toml, with the ocean's water or with that of the
+// profile.
 LinkSurvey across_the_front(const ScenarioConfig& config) {
   return survey_link(config, link_end(config, "warm"), link_end(config, "cold"));
 }

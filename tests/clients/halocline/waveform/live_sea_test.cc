@@ -137,7 +137,8 @@ class LiveSeaTest : public ::testing::Test {
   double now_s_ = 0;
 };
 
-// Noise and echoes, sample by sample: where one is a sample late or 0.1 dB (1.2 %) off, a sweep up to 30 kHz differs by more.
+// Noise and echoes, sample by sample: where one is a sample late or 0.1 dB (1.2 %) off, a sweep up to 30 kHz
+// differs by more.
 TEST_F(LiveSeaTest, WhatAHostHearsOfAnotherIsWhatTheCommandFindsAfterwards) {
   stream(1);
   const std::vector<double> sound = sweep(96'000, 0.5);

@@ -67,8 +67,8 @@ class WaveformTest : public ::testing::Test {
   static double level_db(double amplitude) { return 20 * std::log10(amplitude / std::numbers::sqrt2); }
 };
 
-// A straight way, both ends under way. Received frequency over sent: (c - v_to) / (c - v_from) along the way; the phase of a tone at
-// the sent frequency turns by the difference.
+// A straight way, both ends under way. Received frequency over sent: (c - v_to) / (c - v_from) along the way;
+// the phase of a tone at the sent frequency turns by the difference.
 TEST_F(WaveformTest, AToneOfAMovingLinkHasItsLevelAndItsDopplerShift) {
   const ScenarioConfig config = load("tests/data/scenarios/two_vehicles.toml",
                                      {"propagation.model=\"straight\"", "scenario.duration_s=20"});
@@ -112,8 +112,8 @@ TEST_F(WaveformTest, EchoesOfASweepStandAtTheArrivalsOfTheLink) {
   std::vector<channel_server::SoundPath> paths = link.reception.paths;
   ASSERT_GT(paths.size(), 4u);
   std::sort(paths.begin(), paths.end(), [](const auto& a, const auto& b) { return a.level > b.level; });
-  // Correlated with the sweep and its Hilbert transform, at the delay of each of the strongest that is apart from the others by five times the resolution, whose
-  // sidelobes are 25 dB down there: 0.5 dB.
+  // Correlated with the sweep and its Hilbert transform, at the delay of each of the strongest that is apart
+  // from the others by five times the resolution, whose sidelobes are 25 dB down there: 0.5 dB.
   const acoustics::AnalyticSignal replica(kRate, sweep.sound.values);
   const auto match = [&](double delay_s) {
     std::complex<double> sum = 0;
@@ -156,7 +156,8 @@ TEST_F(WaveformTest, SendersAddUp) {
         << n;
 }
 
-// 10 log10 of the power that absorption takes: alpha times the range. Half way between the ends stands for the depths between them.
+// 10 log10 of the power that absorption takes: alpha times the range. Half way between the ends stands for
+// the depths between them.
 TEST_F(WaveformTest, AbsorptionTakesMoreOfAHigherFrequency) {
   const ScenarioConfig config =
       load("scenarios/ranging.toml", {"propagation.model=\"straight\"", "propagation.fading=\"none\""});
@@ -202,8 +203,9 @@ TEST_F(WaveformTest, NoiseHasTheLevelThatLinksState) {
                               .values);
 }
 
-// A vehicle 1 km away makes 140 dB re 1 uPa^2/Hz at 1 m at 25 kHz: less the loss of the link, or at its own hydrophone less 20 dB. The sea is
-// more than 30 dB below that. 5 kHz in 100 spectra of 50 lines: 0.062 dB is a standard deviation.
+// A vehicle 1 km away makes 140 dB re 1 uPa^2/Hz at 1 m at 25 kHz: less the loss of the link, or at its own
+// hydrophone less 20 dB. The sea is more than 30 dB below that. 5 kHz in 100 spectra of 50 lines: 0.062 dB is
+// a standard deviation.
 TEST_F(WaveformTest, VehiclesAreHeardByTheirNoise) {
   const std::string path = ::testing::TempDir() + "halocline-noise-" + std::to_string(getpid()) + ".toml";
   std::ofstream(path) << R"([scenario]
@@ -253,7 +255,8 @@ start_ned_m = [1000.0, 0.0, 50.0]
   EXPECT_NEAR(heard_db("quiet", "loud"), 140 + band_db - 20, 0.25);
 }
 
-// h is pressure at the receiver over that at 1 m: 0.01 for half a second, then 0.02, with a tenth of a second between.
+// h is pressure at the receiver over that at 1 m: 0.01 for half a second, then 0.02, with a tenth of a second
+// between.
 TEST_F(WaveformTest, AMeasuredChannelTakesThePlaceOfThePaths) {
   auto file = halocline::testing::channel_file(10, 1, 1);
   for (std::size_t i = 0; i < 10; ++i) file.at(i, 0, 0) = i < 5 ? 0.01 : 0.02;
