@@ -15,16 +15,16 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kThinnestLayer = 1e-9;    // m
-constexpr double kMinSquaredSine = 1e-28;  // keeps a ray that just grazes finite
-// Of x of turning_field.h, from an end of the link to a boundary: nearer, rays are left as they are by and
-// by.
+constexpr double kMinSquaredSine = 1e-28;  // lower bound that keeps a grazing ray finite
+// Bounds in x of turning_field.h, from an end of the link to a boundary: below kNearBoundary the wave
+// correction fades out towards plain ray theory.
 constexpr double kNearBoundary = 1, kEndReach = 2;
 
-// Snell's law: with cos = xi c and xi = cos* / c*, sin^2 = ((c* - c)(c* + c) + sin*^2 c^2) / c*^2, sin* at
-// the barrier.
+// Snell's law: with cos = xi c, xi = cos* / c* and sin* the sine at the barrier,
+//   sin^2 = ((c* - c)(c* + c) + sin*^2 c^2) / c*^2.
 struct SineAt {
   double barrier, inverse_barrier_squared, squared_sine;
-  // Below 0 where the ray turns before.
+  // The square of the sine; negative at a speed before which the ray turns.
   double square(double c) const {
     return ((barrier - c) * (barrier + c) + squared_sine * c * c) * inverse_barrier_squared;
   }
@@ -74,7 +74,8 @@ void LayeredLegs::append(std::vector<LegLayer>& layers, const RayWater& water, d
   }
 }
 
-// Where speed rises on both sides of a knot, or up to a boundary.
+// Marks the far ends of layers at which rays can turn close to a knot or a boundary: those with speed rising
+// on both sides of the knot, or up to the boundary.
 void LayeredLegs::mark_knots(std::vector<LegLayer>& layers, double frequency_hz) {
   if (layers.empty()) return;
   const double start = layers.front().c1;
@@ -83,7 +84,8 @@ void LayeredLegs::mark_knots(std::vector<LegLayer>& layers, double frequency_hz)
     layer.is_last = i + 1 == layers.size();
     const double before = layer.gradient, beyond = layer.is_last ? before : layers[i + 1].gradient;
     if (before <= 0 || beyond <= 0 || layer.c2 <= start) continue;
-    // Squares of sines: of the scale, and at the knot of the ray that is horizontal at the end of the link.
+    // Squares of two sines: the wave's scale s0, and the sine at the knot of the ray that is horizontal at
+    // the end of the link.
     const double wave = elementary::pow(turning_sine(std::min(before, beyond), frequency_hz), 2);
     const double end = (layer.c2 - start) * (layer.c2 + start) / (layer.c2 * layer.c2);
     if (layer.is_last) {
@@ -111,11 +113,12 @@ void LayeredLegs::visit_knots(const std::vector<LegLayer>& layers, std::size_t r
     NearKnot knot{layer, layer.is_last ? turning_at_boundary(x) : turning_at_knot(x), square, 0};
     if (square > 0 && is_passed) {
       knot.inverse_sine = 1 / std::sqrt(std::max(square, kMinSquaredSine));
-    } else if (square > 0) {  // of a ray that is followed beyond the knot as if there were none
+    } else if (square > 0) {  // the ray continued beyond the knot as if the gradient did not change
       knot.share.sine += std::sqrt(x);
       knot.share.phase += 2.0 / 3 * x * std::sqrt(x);
     }
-    // Of the ray that is horizontal at the end, which a leg to the boundary does not change, nothing is left.
+    // The correction vanishes for the ray that is horizontal at the end of the link: a leg to the boundary
+    // does not change it.
     const double off = 1 - (layer.end_x + x) / kEndReach;
     if (layer.is_last && off > 0) {
       knot.share.sine -= off * off * layer.at_end.sine;
@@ -164,8 +167,10 @@ double LayeredLegs::sine_at(double speed_mps, double sine) const {
 void LayeredLegs::add_sums(const std::vector<LegLayer>& layers, std::size_t reach, double squared_sine,
                            Leg leg, LegSums& sums, double& end_sine) const {
   if (layers.empty()) return;
-  // Through a layer r / xi = h (c1 + c2) / (s1 + s2) and dr/dxi = h (c1 + c2) / ((s1 + s2) s1 s2)
-  // (acoustics/math/arc_math.h; Jensen, Kuperman, Porter and Schmidt 2011, section 3.3: arcs of circles).
+  // Through one layer (acoustics/math/arc_math.h; Jensen, Kuperman, Porter and Schmidt 2011, section 3.3:
+  // circular arcs):
+  //   r / xi = h (c1 + c2) / (s1 + s2)
+  //   dr/dxi = h (c1 + c2) / ((s1 + s2) s1 s2)
   const SineAt sine{barrier_, inverse_barrier_squared_, squared_sine};
   double s1 = sine(layers.front().c1), q = 0, m = 0;
   for (std::size_t i = 0; i < reach; ++i) {
@@ -176,12 +181,15 @@ void LayeredLegs::add_sums(const std::vector<LegLayer>& layers, std::size_t reac
     s1 = s2;
   }
   end_sine = s1;
-  if (reach < layers.size()) {  // turns within: r = s1 / (xi g), dr/dxi = -1 / (g xi^2 s1)
+  // A ray that turns within the layer: r = s1 / (xi g), dr/dxi = -1 / (g xi^2 s1).
+  if (reach < layers.size()) {
     const double scale = 1 / (layers[reach].gradient * sums.xi * sums.xi);
     q += scale * s1;
     m -= scale / s1;
     end_sine = 0;
   }
+  // Corrections near knots (acoustics/math/turning_field.h), D the change of 1 / gradient:
+  //   r / xi += D s0 S / xi^2,  S the share's sine;  dr/dxi accordingly
   visit_knots(layers, reach, squared_sine, [&](const NearKnot& knot) {
     const double s0 = knot.layer.turning_sine, scale = knot.layer.knot_s / (sums.xi * sums.xi);
     q += scale * s0 * knot.share.sine;
@@ -206,7 +214,9 @@ LegSums LayeredLegs::sums(double sine, double cosine) const {
 
 void LayeredLegs::add_layer(const LegLayer& layer, double s1, double s2, double xi, std::size_t leg,
                             LegDetails& details) {
-  // q = r / xi; tau and L of acoustics/math/arc_math.h; the intercept time tau - xi r is stationary in xi.
+  // q = r / xi; k, tau and length are K, tau and L of acoustics/math/arc_math.h. The intercept time
+  //   tau - xi r = tau - xi^2 q
+  // is stationary in xi.
   const double q = layer.hc / (s1 + s2), c1 = layer.c1, c2 = layer.c2;
   const double k = (1 + s1 + c1 * xi * xi * (c1 + c2) / (s1 + s2)) / (c1 * (1 + s2));
   const double tau = layer.height_m * k * log1p_over(layer.gradient * layer.height_m * k);
@@ -232,12 +242,14 @@ void LayeredLegs::add_details(const std::vector<LegLayer>& layers, std::size_t r
     const double s0 = layer.turning_sine, range = layer.knot_s / xi * s0 * knot.share.sine;
     details.length_m[index_of(leg)] += range;
     details.absorption_db[index_of(leg)] += range * mean_absorption(restricted(layer.absorption, 1, 1), 1, 1);
-    // At a boundary its phase is that of the touch.
+    // At a boundary the phase is accounted for by touch().
     if (!layer.is_last)
       details.intercept_s[index_of(leg)] +=
           layer.knot_s * s0 * s0 * s0 / 2 * knot.share.phase / (1 - knot.square);
   });
   if (reach == layers.size()) return;
+  // The part of the layer up to the turning point, where c = 1 / xi; its height follows from
+  //   1 / xi - c1 = s1^2 / (xi^2 (1 / xi + c1)).
   LegLayer part =
       layers[reach];  // as far as the turn, where c = 1 / xi: 1 / xi - c1 = s1^2 / (xi^2 (1 / xi + c1))
   part.c2 = 1 / xi;

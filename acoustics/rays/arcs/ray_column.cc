@@ -27,9 +27,11 @@ void RayColumn::set(double xi) {
     const double cosine = xi * speed[i], square = (1 - cosine) * (1 + cosine);
     sine[i] = std::sqrt(square > 0 ? square : 0.0);
   }
-  // dr = K xi / (s1 + s2) and d(dr)/dxi = K / ((s1 + s2) s1 s2), K = h (c1 + c2), as in
-  // acoustics/math/arc_math.h.
-  for (std::size_t i = 0; i < layers; ++i) {  // meaningless, and never read, where the ray turns
+  // With K = h (c1 + c2) (acoustics/math/arc_math.h):
+  //   dr        = K xi / (s1 + s2)
+  //   d(dr)/dxi = K / ((s1 + s2) s1 s2)
+  // Layers in which the ray turns get meaningless values, which are never read.
+  for (std::size_t i = 0; i < layers; ++i) {
     const double product = sine[i] * sine[i + 1];
     slope[i] = weight[i] / ((sine[i] + sine[i + 1]) * product);
     range[i] = slope[i] * product * xi;
@@ -45,8 +47,9 @@ void RayColumn::sum_excursion() {
     slope += slope_[knot - 1];
   }
   excursion_.turns = knot > 0;
-  if (excursion_.turns) {  // the arc through the turn: sin / (xi |g|) to its vertex, -1 / (g xi^2 sin) its
-                           // derivative
+  // From the knot to the vertex of the arc that turns:
+  //   r = sin / (xi |g|),  dr/dxi = -1 / (|g| xi^2 sin)
+  if (excursion_.turns) {
     const double g = std::abs(water_.gradients_per_s()[knot - 1]);
     range += sine_[knot] / (xi_ * g);
     slope -= 1 / (g * xi_ * xi_ * sine_[knot]);

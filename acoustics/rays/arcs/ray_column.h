@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All layers of a water at one Snell parameter at once: how far a ray goes through each, and how that
-// changes.
+// Ranges of a ray, and their derivatives, through all layers of a profile at once for one Snell parameter xi.
 //
-// Model: acoustics/math/arc_math.h, dr = K xi / (s1 + s2), K = h (c1 + c2), s the sines of the ray's angle at
-// the knots, and d(dr)/dxi = K / ((s1 + s2) s1 s2). A ray keeps its xi from one bounce at the bottom to the
-// next, so one column serves all layers between them; each is independent of the others, which compilers turn
-// into vector instructions. Within such a leg a ray tube is two numbers that are as simple: E = d xi/d theta
-// stays, and X, by how far the neighbouring ray of launch angle 1 rad more is off in range at the same depth,
-// grows by E d(dr)/dxi a layer. Both follow from q and p of acoustics/rays/arc_tracer.h: q = -sin X, E =
-// -(sin p + g xi^2 q).
+// Model: acoustics/math/arc_math.h. With the sines s1, s2 of the ray's angle at the knots of a layer,
+//   dr        = K xi / (s1 + s2),  K = h (c1 + c2),
+//   d(dr)/dxi = K / ((s1 + s2) s1 s2).
+// A ray keeps its xi from one bottom bounce to the next, so one column serves all layers in between. The
+// layers are independent of one another, which lets compilers vectorise the loops.
 //
-// Not shared between threads: `set` overwrites what is read.
+// Between two bottom bounces two numbers describe a ray tube. E = d xi/d theta is constant. X, the offset in
+// range at a fixed depth of the neighbouring ray, per radian of launch angle, grows by E d(dr)/dxi in each
+// layer. Both follow from q and p of acoustics/rays/arc_tracer.h:
+//   q = -sin X,  E = -(sin p + g xi^2 q).
+//
+// Thread rule: not shared between threads, because `set` overwrites the values that the accessors read.
 #pragma once
 
 #include <cstddef>
@@ -22,23 +24,24 @@ namespace halocline::acoustics {
 
 class RayColumn {
  public:
-  // Layers down to the one that holds `deepest_m`; excursions begin at the deepest knot not below
-  // `shallowest_m`.
+  // Holds the layers down to the one that contains `deepest_m`. Excursions begin at the deepest knot that
+  // does not lie below `shallowest_m`.
   RayColumn(const RayWater& water, double shallowest_m, double deepest_m);
 
-  // To the rays of xi, s/m.
+  // Computes all layers for rays of Snell's invariant `xi`, s/m.
   void set(double xi);
   double xi() const { return xi_; }
 
   std::size_t last_knot() const { return sine_.size() - 1; }
-  // Of the ray's angle at a knot, 0..1; 0: it turns back before.
+  // Sine of the ray's angle at a knot, 0..1; 0 when the ray turns before it reaches the knot.
   double sine_at(std::size_t knot) const { return sine_[knot]; }
-  // Through a layer at both of whose knots the sine is above 0: range, m, and d range/d xi.
+  // Range through a layer, m, and its derivative d range/d xi. Defined only where the sine is above 0 at both
+  // knots of the layer.
   double range_through(std::size_t layer) const { return range_[layer]; }
   double range_slope_through(std::size_t layer) const { return slope_[layer]; }
 
-  // From a knot up to the surface, or to where the ray turns, and back down; the bottom is nowhere above that
-  // knot.
+  // The part of the ray from a knot up to the surface, or to an upper turning point, and back down to the
+  // knot. The knot is one above which the bottom rises nowhere.
   struct Excursion {
     double range_m = 0, range_slope = 0;
     bool turns = false;
@@ -52,7 +55,7 @@ class RayColumn {
   const RayWater& water_;
   std::size_t excursion_knot_;
   double xi_ = -1;
-  std::vector<double> speed_, weight_;  // K of each layer
+  std::vector<double> speed_, weight_;  // sound speed at each knot, m/s; K of each layer
   std::vector<double> sine_, range_, slope_;
   Excursion excursion_;
 };
