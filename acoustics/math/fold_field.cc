@@ -13,17 +13,19 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kLeastTime = 1e-13;  // s: rounding of a delay
+constexpr double kLeastTime = 1e-13;  // s: rounding error of a delay
 
 }  // namespace
 
 double fold_place(double time_s, double frequency_hz) {
+  // x = (3/4 omega dt)^(2/3) (fold_field.h).
   return elementary::pow(0.75 * 2 * pi * frequency_hz * std::max(time_s, kLeastTime), 2.0 / 3);
 }
 
 FoldShare fold_share(double x) {
   const auto [ai, bi, ai_slope, bi_slope] = airy(-x);
-  // Far from the fold phi = (2/3) x^(3/2) - pi / 4, which the rays have by themselves.
+  // phi = -atan2(Bi, Ai) at -x. Far from the fold it is (2/3) x^(3/2) - pi / 4, which plain rays have too and
+  // which is therefore subtracted. The factor is C M / (2 A) = sqrt(pi) x^(1/4) M.
   const double turned = -elementary::atan2(bi, ai) - (2.0 / 3 * x * std::sqrt(x) - pi / 4);
   return {std::sqrt(pi * std::sqrt(x)) * elementary::hypot(ai, bi), std::remainder(turned, 2 * pi)};
 }

@@ -13,9 +13,10 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kFading = 2.5;  // of x: from there on differences to rays fade out
+constexpr double kFading = 2.5;  // x beyond which the differences to ray theory are faded out
 
-// `share` of a field given in full, its phase less `far`, less that of rays, faded out.
+// Differences of a wave field to ray theory. `share` holds the field's own values; from kFading on the
+// differences fade out, with the phase tending to `far`.
 TurningShare less_rays(double x, TurningShare share, double far) {
   if (x <= 0) return share;
   const double root = std::sqrt(x);
@@ -33,9 +34,11 @@ TurningShare less_rays(double x, TurningShare share, double far) {
 TurningShare turning_at_boundary(double x) {
   const Airy a = airy(-x);
   const double square = a.ai * a.ai + a.bi * a.bi;
+  // S(x) = 1 / (pi M^2), 2 S'(x) and theta(x) = atan(Ai / Bi), with M^2 = Ai^2 + Bi^2 at -x.
   TurningShare share{1 / (pi * square), 4 / pi * (a.ai * a.ai_slope + a.bi * a.bi_slope) / (square * square),
                      elementary::atan2(a.ai, a.bi)};
-  if (x > 0) {  // theta is (2/3) x^(3/2) and up to pi / 4 more
+  // theta lies between (2/3) x^(3/2) and pi / 4 above it.
+  if (x > 0) {
     const double ray = 2.0 / 3 * x * std::sqrt(x);
     share.phase = ray + std::remainder(share.phase - ray, 2 * pi);
   }
@@ -43,7 +46,8 @@ TurningShare turning_at_boundary(double x) {
 }
 
 TurningShare turning_at_knot(double x) {
-  // The second difference of f, g and h, whose second derivatives are (2/3) x^(3/2), sqrt(x) and 1 / sqrt(x).
+  // Averages over the triangle: second differences of the functions whose second derivatives are
+  //   (2/3) x^(3/2),  sqrt(x),  1 / sqrt(x).
   TurningShare share{0, 0, 0};
   const auto add = [&share](double at, double weight) {
     if (at <= 0) return;
@@ -59,7 +63,8 @@ TurningShare turning_at_knot(double x) {
 }
 
 double knot_widening(double change) {
-  // At x = 0 the phase is 16 / 105 2^(3/2) of it, and grows with the 3/2 power of the width.
+  // At x = 0 the phase is 16 / 105 2^(3/2) = 0.431 times `change`, and it grows with the power 3/2 of the
+  // width.
   constexpr double kMostPhase = 0.05, kPhase = 0.431;  // rad
   const double widest = 10;
   return change > 0

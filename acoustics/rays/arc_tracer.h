@@ -1,26 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Traces one ray through layered water over a bottom that changes with range, arc by arc, without step
-// error.
+// Traces one ray through layered water over a range-dependent bottom, arc by arc, without step error.
 //
-// Model: within a layer of gradient g the sine s of the ray's angle falls evenly with range, ds/dr = -xi g,
-// and depth follows from z2 - z1 = (r2 - r1)(s1 + s2) / (xi (c1 + c2)); the meeting with a straight piece of
-// bottom is the root of a quadratic. xi = cos(angle)/c changes at sloping bottom only. The ray tube: q, how
-// far the neighbouring ray of launch angle 1 rad more is off, across the ray, and p, its change of direction
-// over c (Cerveny; Jensen and others 2011, section 3.3):
-//   q grows by p dr / xi within a layer; at a knot p loses q xi^2 (g2 - g1) / sin; at the surface 2 q xi^2 g
-//   / sin;
-//   at the bottom it gains q (g (xi + xi') cot G + 2 k / sin G) / c, G the grazing angle and k the bend of
-//   the bottom.
-// Each change of q's sign is a caustic. Depth is unfolded, so that it does not jump where a bounce passes the
-// receiver: zeta = o z + 2 H k, H the depth at the receiver, o flips at each bounce, k grows by o at the
-// bottom.
+// Model. Within a layer of gradient g the sine s of the ray's angle changes linearly with range, and the
+// depth follows from it:
+//   ds/dr = -xi g,
+//   z2 - z1 = (r2 - r1)(s1 + s2) / (xi (c1 + c2)).
+// The intersection with a straight piece of bottom is the root of a quadratic equation. Snell's invariant
+// xi = cos(angle) / c changes only at a sloping bottom.
 //
-// Where the water changes along the link, acoustics/rays/section_tracer.h takes its place.
+// Ray tube (Cerveny; Jensen and others 2011, section 3.3): q is the offset, across the ray, of the
+// neighbouring ray per radian of launch angle, and p the change of its direction over c. They change as
+// follows:
+// - within a layer, q grows by p dr / xi;
+// - at a knot, p decreases by q xi^2 (g2 - g1) / sin;
+// - at the surface, p decreases by 2 q xi^2 g / sin;
+// - at the bottom, p grows by q (g (xi + xi') cot G + 2 k / sin G) / c, with G the grazing angle and k the
+//   bend of the bottom.
 //
-// Immutable between calls of trace, which may overlap between threads. Left out: rays that turn back; the
-// bottom's slope across the link, so tubes widen across the plane as over a bottom that is the same all
-// around the source (which makes amplitudes over slopes differ from those of the swapped link by the ratio of
-// xi at both ends).
+// Each change of q's sign is a caustic.
+//
+// Depth is unfolded, so that it does not jump where a bounce passes the receiver:
+//   zeta = o z + 2 H k,
+// with H the depth of the bottom at the receiver. The orientation o changes its sign at each bounce, and k
+// grows by o at each bottom bounce.
+//
+// For water that changes along the link, acoustics/rays/section_tracer.h traces the rays instead.
+//
+// Thread rule: immutable between calls of trace, which may overlap between threads.
+//
+// Neglected: rays that turn back towards the source, and the slope of the bottom across the link. Tubes
+// therefore widen across the plane as over a bottom that is the same all around the source, and over slopes
+// amplitudes differ from those of the reversed link by the ratio of xi at the two ends.
 #pragma once
 
 #include <cstddef>
@@ -40,20 +50,20 @@ namespace halocline::acoustics {
 
 class ArcTracer {
  public:
-  // Link as RayLink; depths are moved a micrometre off the boundaries.
+  // The link is as in RayLink; depths at a boundary are moved off it by a micrometre.
   ArcTracer(const ProfiledSea& sea, const RayLink& link);
 
-  // Traces the ray of `theta` to the receiver's range into `ray` (whose buffers are used again). Rays that
-  // bounces leave less than a quarter of the least factor are given up. With `details`, all sums are taken,
-  // and exactly.
+  // Traces the ray launched at `theta` to the receiver's range into `ray`, whose buffers are reused. A ray
+  // stops when its bounces leave less than a quarter of the least boundary factor. With `details`, all sums
+  // are computed, and exactly.
   void trace(double theta, TracedRay& ray, TracedDetails* details = nullptr) const;
-  // Traces the ray past rising ranges, m, the last of them the receiver's at most, in water of depth alone.
-  // At each that it reaches calls at(i, ray, details) with what trace() gives for a receiver there, but for
-  // the ray's events.
+  // Traces the ray past rising ranges, m, of which the last is at most the receiver's, in water that depends
+  // on depth alone. At each range that the ray reaches it calls at(i, ray, details) with what trace() gives
+  // for a receiver there, without the ray's events.
   using AtRange = std::function<void(std::size_t, const TracedRay&, const TracedDetails&)>;
   void trace_past(double theta, std::span<const double> ranges_m, const AtRange& at) const;
 
-  // The same source, bottom and range for a receiver at another depth.
+  // Moves the receiver to another depth, m; source, bottom and range stay the same.
   void move_receiver(double depth_m);
 
   double source_depth_m() const { return source_depth_; }
@@ -66,7 +76,7 @@ class ArcTracer {
   }
   std::size_t source_layer() const { return source_layer_; }
   std::size_t source_facet() const { return source_facet_; }
-  // Whether the options exclude a ray launched at `theta` after `bounces`.
+  // True when the options exclude a ray launched at `theta` after `bounces`.
   bool is_excluded(double theta, int bounces) const { return losses_.is_excluded(theta, bounces); }
   const ProfiledSea& sea() const { return sea_; }
 
@@ -77,7 +87,8 @@ class ArcTracer {
   void add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const;
   void add_to_track(const State& s, double dr, double z, double sine, std::vector<RayPoint>& track) const;
   static void note_turn(bool lower, std::size_t layer, TracedRay& ray);
-  // To a point within a step, to the bottom, to the end of a step; false when the ray is given up there.
+  // Moves the state to a point within a step, to the bottom, and to the end of a step. The latter two return
+  // false when the ray stops there.
   void go_part(State& s, double dr, TracedRay& ray, TracedDetails* details) const;
   [[nodiscard]] bool go_to_bottom(State& s, const ArcHit& hit, TracedRay& ray, TracedDetails* details) const;
   [[nodiscard]] bool go_to_knot(State& s, const ArcStep& step, TracedRay& ray, TracedDetails* details) const;
@@ -90,7 +101,7 @@ class ArcTracer {
   BounceLosses losses_;
   double source_depth_, receiver_depth_, range_, bottom_at_receiver_, source_speed_;
   std::size_t source_layer_, source_facet_;
-  std::optional<SectionTracer> section_;  // where water changes along the link
+  std::optional<SectionTracer> section_;  // present where the water changes along the link
 };
 
 }  // namespace halocline::acoustics

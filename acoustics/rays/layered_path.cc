@@ -17,16 +17,18 @@ namespace {
 
 using std::numbers::pi;
 
-// Ends are kept this far from the boundaries, so that the ray that meets a boundary at the very receiver has
-// a direction before and after: 1e-9 s of delay.
+// Distance that ends are kept off the boundaries, so that a ray that meets a boundary right at the receiver
+// has a direction before and after it. It changes delays by at most 1e-9 s.
 constexpr double kOffBoundary = 1e-6;  // m
 
-constexpr double kFoldStep = 1e-6;       // of a cell: between the rays that show how a fold bends
-constexpr double kFoldTolerance = 1e-2;  // m of range
+constexpr double kFoldStep = 1e-6;  // of a bracket: spacing of the rays that give the curvature of a fold
+constexpr double kFoldTolerance = 1e-2;  // m: error of the range
 constexpr int kMaxFoldSteps = 30;
 
-constexpr double kMinRangeSlope = 1;  // m^2/s, of |dr/dxi|: a ray on a caustic to rounding
+// Lower bound of |dr/dxi|, m^2/s: a ray on a caustic, to rounding.
+constexpr double kMinRangeSlope = 1;
 
+// Counts of a ray's bounces and of its turns in the water.
 struct Bounces {
   int surface, bottom, upper_turns, lower_turns;
 };
@@ -37,27 +39,28 @@ Bounces bounces_of(const LayeredLegs& legs, const LayeredRay& ray) {
           legs.meets_bottom() ? 0 : below};
 }
 
-// What the two boundaries are to the legs of a ray.
+// Corrections to the touches of a ray at the two boundaries.
 struct Touches {
   BoundaryTouch top, bottom;
 };
 
-// A ray of m turns has touched m - 1 caustics, and one more when dr/dxi > 0: -1 where reflection at grazing
-// acts like a turn.
+// Number of caustics that a ray has touched. A ray of m turns has touched m - 1, and one more when dr/dxi is
+// positive; the result is -1 where reflection at grazing acts like a turn.
 int caustics_of(const Bounces& bounces, double range_slope) {
   const int turns = bounces.upper_turns + bounces.lower_turns;
   if (turns + bounces.surface + bounces.bottom == 0) return 0;
   return turns - 1 + (range_slope > 0 ? 1 : 0);
 }
 
-// Signed angle, positive down, of a ray whose sine is `sine` >= 0.
+// Signed angle, positive down, rad, of a ray whose sine has the magnitude `sine` >= 0.
 double angle(bool down, double sine, double speed, double xi) {
   return (down ? 1 : -1) * angle_of(sine, xi * speed);
 }
 
 void set_directions(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray, double xi,
                     Arrival& path) {
-  // A ray from the upper end leaves downward unless it runs U first; from the lower end the other way round.
+  // A ray from the upper end leaves downwards unless it begins with U; a ray from the lower end leaves
+  // downwards only when it begins with D.
   const bool leaves_down = link.source_is_upper ? !ray.family.up : ray.family.down;
   const bool comes_down = link.source_is_upper ? !ray.family.down : ray.family.up;
   path.launch_angle_rad =
@@ -68,7 +71,7 @@ void set_directions(const LayeredLink& link, const LayeredLegs& legs, const Laye
   path.identity.launched_up = !leaves_down;
 }
 
-// Of one touch of the surface, dB.
+// Loss of one touch of the surface, dB.
 double surface_loss_of(const LayeredLink& link, const LegSums& sums, const BoundaryTouch& touch,
                        bool reflects) {
   const RaySurface& surface = link.sea.surface;
@@ -82,7 +85,8 @@ double surface_loss_of(const LayeredLink& link, const LegSums& sums, const Bound
   return factor < 1 ? -20 * elementary::log10(factor) : 0;
 }
 
-// False when the bounces leave too little.
+// Sets losses, phase and the boundary part of the amplitude. Returns false when the bounces leave less than
+// RayOptions::min_boundary_factor.
 bool set_boundaries(const LayeredLink& link, const LegSums& sums, const Bounces& bounces,
                     const Touches& touches, Arrival& path) {
   const RayOptions& options = link.sea.options;
@@ -107,9 +111,9 @@ bool set_boundaries(const LayeredLink& link, const LegSums& sums, const Bounces&
 
 void set_spreading(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
                    const LegSums& sums, const Bounces& bounces, Arrival& path) {
-  // Conservation of energy in the ray tube: A^2 = c_s c_r / ((r / xi) |dr/dxi| sin_s sin_r)
-  // (Jensen and others 2011, section 3.3, with dr/dtheta = dr/dxi dxi/dtheta); each caustic turns the phase
-  // by pi / 2.
+  // Conservation of energy in the ray tube (Jensen and others 2011, section 3.3):
+  //   A^2 = c_s c_r / ((r / xi) |dr/dxi| sin_s sin_r),  with dr/dtheta = dr/dxi dxi/dtheta
+  // Each caustic shifts the phase by pi / 2.
   const RangeTerms terms = range_terms(sums, ray.family);
   const double q = terms.bq + ray.cycles * terms.xq, m = terms.bm + ray.cycles * terms.xm;
   const double sines =
@@ -119,7 +123,7 @@ void set_spreading(const LayeredLink& link, const LayeredLegs& legs, const Layer
   path.amplitude *= std::sqrt(link.source_speed_mps * link.receiver_speed_mps / tube);
   const int caustics = caustics_of(bounces, is_dark ? 0 : m);
   path.caustics = std::max(caustics, 0);
-  // On a fold half way between before and after it.
+  // On a fold the phase is half way between its values before and after the caustic.
   path.phase_rad = positive_angle(path.phase_rad + (caustics + (is_dark ? 0.5 : 0)) * pi / 2);
 }
 
@@ -128,7 +132,7 @@ void set_lengths(const LayeredLink& link, const LayeredLegs& legs, const Layered
   const LegDetails one_way = legs.details(ray.sine, ray.cosine);
   const std::array<double, 3> times = {2.0 * (ray.cycles + (ray.family.up ? 1 : 0)), 2.0 * ray.cycles + 1,
                                        2.0 * (ray.cycles + (ray.family.down ? 1 : 0))};
-  // tau = xi r + sum of (tau - xi r) over the legs.
+  // tau = xi r + sum over the legs of (tau - xi r).
   path.delay_s = xi * link.range_m;
   for (std::size_t i = 0; i < times.size(); ++i) {
     path.delay_s += times[i] * one_way.intercept_s[i];
@@ -150,7 +154,7 @@ LayeredLink::LayeredLink(const FlatSea& flat_sea, const RayLink& link)
   };
   const double source = inside(link.source_depth_m);
   double receiver = inside(link.receiver_depth_m);
-  // Nearer than that, a direct ray in a layer of one speed is horizontal to all purposes.
+  // At smaller differences of depth a direct ray in a layer of constant speed is horizontal to rounding.
   constexpr double kSameDepth = 1e-5;  // m
   if (std::abs(source - receiver) < kSameDepth) receiver = source;
   source_is_upper = source <= receiver;
@@ -187,8 +191,7 @@ bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldB
     at_high = slope_at(high);
   }
   if (!(at_low * at_high < 0)) return false;
-  // False position after Anderson and Bjoerck (1973): the value of an end that stays is taken smaller each
-  // time.
+  // False position after Anderson and Bjoerck (1973): the value at an end that stays is reduced at each step.
   const double xi_per_angle = std::abs(bracket.at_high.xi - bracket.at_low.xi) / (bracket.high - bracket.low);
   for (int i = 0; i < kMaxFoldSteps; ++i) {
     const double slope = slope_at(theta);
@@ -207,7 +210,7 @@ bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldB
   slope_at(theta);
   const RangeTerms t = range_terms(sums, ray.family);
   const double beyond = link.range_m - sums.xi * (t.bq + ray.cycles * t.xq);
-  // In the plane of the range, slowness xi, rays named by xi.
+  // The fold in the coordinate u = range, with the slowness p = xi and rays named by xi, so that dp = 1.
   const Fold fold{(after - before) / (xi_after - xi_before), 1};
   const double x = beyond / std::copysign(fold.length_m(frequency), fold.curvature);
   if (!(x <= 0 && x > kDarkFold)) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns one Snell ray of a flat sea, named by family and number of cycles, into an arrival.
+// Turns one Snell ray of a flat sea, named by its family and its number of cycles, into an arrival.
 //
 // Equations: acoustics/rays/layered_rays.h.
 #pragma once
@@ -15,14 +15,15 @@
 
 namespace halocline::acoustics {
 
-// A family is whether the ray runs U and D once more than its n whole cycles.
+// Eigenray family: whether the ray runs U, and D, once more (up and down) than its n whole cycles.
 struct Family {
   bool up, down;
 };
 inline constexpr std::array<Family, 4> kFamilies = {
     {{false, false}, {true, false}, {false, true}, {true, true}}};
 
-// b and X of the equation b + n X = r in units of xi (q) and their derivatives (m).
+// Terms of the range equation b + n X = r, with b the range of the incomplete cycle and X that of a whole
+// cycle: divided by xi (q, m^2/s) and differentiated with respect to xi (m, m^2/s).
 struct RangeTerms {
   double bq, bm, xq, xm;
 };
@@ -33,11 +34,11 @@ inline RangeTerms range_terms(const LegSums& s, Family family) {
           2 * (s.m[0] + s.m[1] + s.m[2])};
 }
 
-// What of a flat sea and a link stays the same for all of its rays.
+// The quantities of a flat sea and a link that are common to all of its rays.
 struct LayeredLink {
   LayeredLink(const FlatSea& flat_sea, const RayLink& ray_link);
 
-  // Factor that all bounces leave of the pressure: the bottom's alone, an upper bound.
+  // Upper bound of the pressure factor of all bounces: that of one bottom bounce.
   double bottom_factor(const LegSums& sums) const {
     return bottom_magnitude_at_sine(sea.bottom, sums.sine_bottom, bottom_speed_mps);
   }
@@ -49,42 +50,43 @@ struct LayeredLink {
   double log_min_factor;  // ln of RayOptions::min_boundary_factor, -infinity for 0
 };
 
-// A ray: where it is in the legs, by sine and cosine of the angle at the barrier.
+// A ray, by the sine and cosine of its angle at the barrier.
 struct LayeredRay {
   Family family;
   int cycles;
   double sine, cosine;
-  double fold_slope = 0;  // |dr/dxi| in place of its own, of the path on the dark side of a fold; 0: its own
+  double fold_slope = 0;  // |dr/dxi| of the path on the shadow side of a caustic; 0: the ray's own
 };
 
-// Whether Newton's method has come to its ray: `off` what is missing of the range, m, before and now. Delays
-// err by its square. Far away and near grazing, rounding may leave more: then what no longer shrinks is
-// enough.
-inline constexpr double kNotYet = 1e300;
+// True when Newton's method has converged to the ray. `off` is the remaining error of the range, m, of this
+// step, `off_before` that of the step before; delays err by its square. Far away and near grazing, rounding
+// may leave a larger error, so an error that no longer shrinks is accepted too.
+inline constexpr double kNotYet = 1e300;  // `off_before` of the first step
 inline bool is_settled(double off, double off_before) {
   constexpr double kSettled = 1e-6, kNearlySettled = 1e-4;
   return std::abs(off) < kSettled ||
          (std::abs(off) < kNearlySettled && std::abs(off) > 0.5 * std::abs(off_before));
 }
 
-// Angles at the barrier between which d range/d xi changes its sign, and one about where; sums of the first
-// two.
+// A bracket of angles at the barrier between which d range/d xi changes its sign, with a first guess of the
+// zero and the sums at both ends.
 struct FoldBracket {
   double low, high, guess;
   const LegSums &at_low, &at_high;
 };
-// Where the link lies on the dark side of the fold of the rays of so many cycles, and not too far: the ray of
-// the path that it has there (acoustics/math/fold_field.h).
+// Finds the ray of the single path on the shadow side of a fold caustic (acoustics/math/fold_field.h) formed
+// by the rays of `ray`'s family and cycles. Returns false when the link lies on the illuminated side or too
+// far in the shadow.
 [[nodiscard]] bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldBracket& bracket,
                                  LayeredRay& ray, LegSums& sums);
 
-// Which side of a fold a ray is on, and the phase that it has beside a ray that turns in place of its
-// bounces.
+// The number of caustics and turns that a ray has touched, which tells on which side of a fold it is, and its
+// phase beyond that of a ray that turns at each of its bounces.
 struct Passed {
   int touched = 0;
   double phase_rad = 0;
 };
-// Appends the arrival unless the options exclude it; `sums` are those of the ray.
+// Appends the arrival unless the options exclude it. `sums` are the sums of `ray`.
 Passed append_arrival(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
                       const LegSums& sums, std::vector<Arrival>& paths);
 

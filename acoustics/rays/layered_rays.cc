@@ -19,39 +19,43 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kMinAngle = 1e-9;        // rad at the barrier: where tables begin
+constexpr double kMinAngle = 1e-9;        // rad at the barrier: first angle of a table
 constexpr int kDeepestRefinement = 12;    // halvings of an interval between barriers
-constexpr double kCubicTolerance = 0.15;  // of f: what its cubic may err by at the middle of a cell
-constexpr double kNearFold = 0.2;         // of f: a turn nearer to a whole number is sought out exactly
-constexpr double kDarkReach = 4;          // lengths of Airy: twice as far as there are paths
-constexpr double kMarginOfFactor = 0.7;   // ln: cells are left out only when clearly below the least factor
+constexpr double kCubicTolerance = 0.15;  // in f: permitted error of its cubic at the middle of a cell
+constexpr double kNearFold = 0.2;         // in f: a turn this near to a whole number is located exactly
+constexpr double kDarkReach = 4;          // Airy lengths: twice the distance at which there are still paths
+// Natural log of a factor: cells are skipped only when clearly below the least factor.
+constexpr double kMarginOfFactor = 0.7;
 
+// In f: margin on its change over a cell, beyond what its slopes allow.
 constexpr double kClearOfRays =
     0.02;  // of f: less than that and its slopes allow it does not change in a cell
-constexpr std::size_t kUsualPaths = 64;  // of one link
+constexpr std::size_t kUsualPaths = 64;  // per link, for the first allocation
 
-// f = (r - b)/X of the four families and its slope, at one angle of one interval.
+// f = (r - b) / X of the four families and its slope, at one angle of one interval between barriers.
 struct Node {
   double theta = 0;
   LegSums sums;
   std::array<double, 4> f{}, slope{};
-  double log_factor = 0;  // ln of the bottom's factor a bounce
+  double log_factor = 0;  // natural log of the pressure factor of one bottom bounce
 };
 
-// One crossing to be found: between two nodes where f - n has opposite signs.
+// A bracket of one crossing: two angles at which f - n has opposite signs.
 struct Bracket {
-  double from, to;  // theta
+  double from, to;  // angles at the barrier, rad
   bool rising;
   double guess;
 };
 
-// Intervals between barriers over which ranges go on smoothly.
+// A run of intervals between barriers over which ranges change smoothly.
 struct Run {
   int number = 0;
+  // True when the run begins with rays that are horizontal at that end of the link and turn back at once.
   bool at_upper = false,
        at_lower = false;  // it begins where rays are horizontal at that end and turn back at once
 };
 
+// The search for all rays of one link.
 class Search {
  public:
   Search(const FlatSea& sea, const RayLink& link)
@@ -70,36 +74,42 @@ class Search {
   }
 
  private:
-  // Ends at one depth within a layer of one speed: the straight horizontal ray, which no angle > 0 reaches.
+  // Adds the straight horizontal ray between ends at one depth within a layer of constant speed, which no
+  // angle > 0 reaches.
   void add_horizontal();
   void scan_interval();
   void start_run();
-  // The angle at the barrier at which rays reach speed `c`, which is at least the barrier's.
+  // The angle at the barrier of the ray that becomes horizontal at the sound speed `c`, which is at least the
+  // barrier's:
+  //   tan^2 = (c^2 - c*^2) / c*^2
   double theta_reaching(double c) const;
   Node node_at(double theta) const;
   void refine(const Node& a, const Node& b, int depth);
   bool is_clear(const Node& a, const Node& b) const;
   void solve_cell(const Node& a, const Node& b);
   void solve_family(const Node& a, const Node& b, std::size_t family);
-  // Rays between two nodes between which f is monotone.
+  // Solves for the rays between two nodes between which f is monotone.
   void solve_monotone(const Node& a, const Node& b, std::size_t family);
   void polish(const Bracket& bracket, std::size_t family, int cycles);
+  // True when no ray of the family between two nodes can exceed the least boundary factor, at `min_f` cycles
+  // or more.
   bool too_faint(const Node& a, const Node& b, std::size_t family, double min_f) const;
   void seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const;
-  // The path beyond the fold at `turn` of f, when the link lies there.
+  // Adds the path on the shadow side of the fold at `turn`, when the link lies there.
   void add_dark_path(const Node& a, const Node& b, const Node& turn, bool is_greatest, std::size_t family);
-  // How far beyond a turn of f between two nodes sound reaches, about: of f.
+  // Estimate of how far sound reaches beyond a turn of f between two nodes, in units of f.
   double dark_reach(const Node& a, const Node& b, std::size_t family) const;
   FoldMember member_of(const Arrival& path, std::size_t family, int cycles, const Passed& passed) const;
 
   LayeredLink link_;
   LayeredLegs legs_;
   std::vector<Arrival> paths_;
-  std::vector<FoldMember> members_;  // of the paths
+  std::vector<FoldMember> members_;  // one for each path
   Run run_;
   bool direct_only_ = false, past_steepest_ = false;
 };
 
+// f over the angle between two nodes.
 HermiteCubic cubic_of(const Node& a, const Node& b, std::size_t family) {
   return {a.f[family], a.slope[family], b.f[family], b.slope[family], b.theta - a.theta};
 }
@@ -128,7 +138,7 @@ double Search::theta_reaching(double c) const {
 }
 
 void Search::scan_interval() {
-  // Launched at the greatest angle a ray reaches speed c_source / cos(angle) where it is horizontal.
+  // A ray launched at the greatest permitted angle becomes horizontal at the speed c_source / cos(angle).
   const double cosine = elementary::cos(link_.sea.options.max_launch_angle_rad);
   const double next = legs_.next_barrier_mps();
   const double steepest = cosine > 1e-12
@@ -153,7 +163,9 @@ Node Search::node_at(double theta) const {
   node.sums = legs_.sums(sine, cosine);
   for (std::size_t k = 0; k < kFamilies.size(); ++k) {
     const RangeTerms t = range_terms(node.sums, kFamilies[k]);
-    // f = (r / xi - b_q) / X_q; dxi/dtheta = -sin / c*. Vertical rays (xi = 0) go nowhere: f = -b / X.
+    // With dxi/dtheta = -sin / c*:
+    //   f = (r / xi - b_q) / X_q,  df/dtheta = (b_m + f X_m) tan(theta) / X_q
+    // As the ray becomes vertical (xi -> 0), f grows without bound.
     node.f[k] = (r - node.sums.xi * t.bq) / (node.sums.xi * t.xq);
     node.slope[k] = (t.bm + node.f[k] * t.xm) * sine / (cosine * t.xq);
   }
@@ -177,7 +189,7 @@ void Search::refine(const Node& a, const Node& b, int depth) {
     if (too_faint(a, b, k, least - 0.5)) continue;
     any = true;
     const double error = cubic_of(a, b, k).error_at_middle(middle.f[k], middle.slope[k], b.theta - a.theta);
-    // Where f is large its rays are many and the cubic only has to keep them apart.
+    // Where f is large its rays are many, and the cubic only has to keep them apart.
     fits = fits && error <= kCubicTolerance * (1 + 0.05 * std::abs(middle.f[k]));
   }
   if (!any) return;
@@ -190,8 +202,8 @@ void Search::refine(const Node& a, const Node& b, int depth) {
   }
 }
 
-// No ray of any family between two nodes, by far: neither slope could bring f to a whole number within the
-// cell.
+// True when clearly no ray of any family lies between two nodes: the slopes cannot bring f to a whole number
+// within the cell.
 bool Search::is_clear(const Node& a, const Node& b) const {
   for (std::size_t k = 0; k < kFamilies.size(); ++k) {
     const double change = std::max(std::abs(a.slope[k]), std::abs(b.slope[k])) * (b.theta - a.theta) +
@@ -229,8 +241,8 @@ void Search::solve_family(const Node& a, const Node& b, std::size_t family) {
   solve_monotone(from, b, family);
 }
 
-// Moves `turn`, a guess between two nodes, to where the slope of f is 0, by bisection that follows the
-// secant; leaves it where there is no such place.
+// Moves `turn`, a guess between two nodes, to where the slope of f is 0, by the secant method bounded by
+// bisection. Leaves `turn` unchanged when there is no such place.
 void Search::seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const {
   const auto rises = [family](const Node& node) { return node.slope[family] > 0; };
   const bool before = rises(a) != rises(turn);
@@ -247,8 +259,8 @@ void Search::seek_turn(const Node& a, const Node& b, std::size_t family, Node& t
 
 double Search::dark_reach(const Node& a, const Node& b, std::size_t family) const {
   if (!(a.slope[family] * b.slope[family] < 0) || !link_.sea.options.airy_folds || direct_only_) return 0;
-  // d range/d xi is about d f/d theta (cos / sin) X / xi. At the edge of a family it is no measure of the
-  // bend.
+  // d range/d xi is about df/dtheta (cos / sin) X / xi. At the edge of a family it does not measure the
+  // curvature.
   const auto range_slope = [family](const Node& node) {
     const double tangent = elementary::tan(node.theta);
     return std::abs(node.slope[family]) * range_terms(node.sums, kFamilies[family]).xq / tangent;
@@ -258,8 +270,8 @@ double Search::dark_reach(const Node& a, const Node& b, std::size_t family) cons
   return std::min(kDarkReach * Fold{bend, 1}.length_m(link_.sea.options.frequency_hz) / cycle_m, kNearFold);
 }
 
-// f turns there, at a number of cycles that is not whole; the fold of the rays of so many cycles lies beside
-// it.
+// f turns at `turn`, at a number of cycles that is not whole. The fold of the rays with the nearest whole
+// number of cycles beyond it lies close by.
 void Search::add_dark_path(const Node& a, const Node& b, const Node& turn, bool is_greatest,
                            std::size_t family) {
   const double f = turn.f[family];
@@ -297,8 +309,8 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
     ray.cosine = elementary::cos(theta);
     sums = legs_.sums(ray.sine, ray.cosine);
     t = range_terms(sums, ray.family);
-    // Newton on f: f - n = (r - b - n X) / X, all of it in units of xi.
-    const double off = link_.range_m - sums.xi * (t.bq + cycles * t.xq);  // (f - n) X
+    // Newton's method on f: f - n = (r - b - n X) / X, with all ranges divided by xi.
+    const double off = link_.range_m - sums.xi * (t.bq + cycles * t.xq);  // (f - n) X, m
     if (is_settled(off, off_before)) break;
     off_before = off;
     const double f = cycles + off / (sums.xi * t.xq);
@@ -309,12 +321,12 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
     if (high - low < 1e-15 * high) break;
   }
   const Passed passed = append_arrival(link_, legs_, ray, sums, paths_);
-  if (members_.size() == paths_.size()) return;  // excluded
+  if (members_.size() == paths_.size()) return;  // excluded by the options
   members_.push_back(member_of(paths_.back(), family, cycles, passed));
 }
 
-// Rays that leave an end all but horizontally, one upward and one downward, are neighbours where the water
-// turns the one back at once.
+// Two rays that leave an end nearly horizontally, one upwards and one downwards, are neighbours when the
+// water turns the one back at once. Such a run counts both as one family.
 void Search::start_run() {
   const double barrier = legs_.barrier_mps();
   const double upper_mps = link_.source_is_upper ? link_.source_speed_mps : link_.receiver_speed_mps;

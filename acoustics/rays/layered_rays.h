@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every ray between two points of water that depends on depth alone, over a flat bottom.
+// All eigenrays between two points of water that depends on depth alone, over a flat bottom.
 //
-// Method: the four families of acoustics/rays/arcs/layered_legs.h each solve b(xi) + n X(xi) = r, X one whole
-// cycle. So f = (r - b)/X is tabulated between consecutive barriers against the grazing angle at the barrier,
-// in which it is smooth; wherever f crosses a whole number n >= 0 there is a ray of n cycles, and a turn of f
-// (a fold, the caustic of two rays) is found first and split at. The table is refined until a cubic through
-// values and slopes predicts it. Newton on f polishes. Delay is xi r + (tau - xi r), which errs by the square
-// of what is left of the range. Amplitude from dr/dxi in closed form,
+// Method. Each of the four families of acoustics/rays/arcs/layered_legs.h solves
+//   b(xi) + n X(xi) = r,
+// with X the range of one whole cycle and n the number of whole cycles. The function f = (r - b) / X is
+// tabulated between consecutive barriers against the grazing angle at the barrier, in which it is smooth.
+// Wherever f crosses a whole number n >= 0 there is a ray of n cycles. A turn of f, which is a fold caustic
+// of two rays, is located first and splits the interval. The table is refined until a cubic through values
+// and slopes predicts f; Newton's method on f then gives the ray. The delay is xi r + (tau - xi r), whose
+// error is of second order in the remaining error of the range. The amplitude follows from dr/dxi in closed
+// form,
 //   A^2 = c_s c_r / ((r / xi) |dr/dxi| sin_s sin_r),
-// which is the same with the ends swapped. A ray of m turns in the water has touched m - 1 caustics, and one
-// more when dr/dxi > 0. At a fold the field is that of acoustics/math/fold_field.h;
-// at barriers that rays pass smoothly, that of acoustics/math/turning_field.h. A family ends at the others.
+// which is symmetric in the two ends. A ray of m turns in the water has touched m - 1 caustics, and one more
+// when dr/dxi > 0. At a fold the field is that of acoustics/math/fold_field.h; at barriers that rays pass
+// smoothly it is that of acoustics/math/turning_field.h. At the other barriers a family ends.
 //
-// Accuracy: exact for the knots given (delays to 1e-9 s). Left out: diffraction into shadows beyond caustics'
-// own, beam displacement at the bottom, rays within the core of a channel.
+// Accuracy: exact for the given knots (delays to 1e-9 s). Neglected: diffraction into shadows other than
+// those of caustics, beam displacement at the bottom, rays within the core of a channel.
 #pragma once
 
 #include <vector>
@@ -24,18 +27,19 @@
 
 namespace halocline::acoustics {
 
-// A flat sea: water, its two boundaries and what to look for. Refers to the water, which has to outlive the
-// call.
+// A flat sea: the water, its two boundaries and the options of the search. It refers to the water, which has
+// to outlive the call.
 struct FlatSea {
   const RayWater& water;
   double bottom_depth_m;  // 0.1..12 000
   FluidBottom bottom;
   RaySurface surface;
   RayOptions options;
-  double core_speed_mps = 0;  // rays that nowhere go faster are left out: acoustics/rays/channel_core.h
+  double core_speed_mps = 0;  // rays that nowhere exceed it are left out: acoustics/rays/channel_core.h
 };
 
-// All rays of `link`, whose depths are within 0..bottom_depth_m (at a boundary: a micrometre off it).
+// All eigenrays of `link`. Its depths lie within 0..bottom_depth_m; an end at a boundary is moved off it by a
+// micrometre.
 std::vector<Arrival> layered_rays(const FlatSea& sea, const RayLink& link);
 
 }  // namespace halocline::acoustics

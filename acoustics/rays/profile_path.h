@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns one traced ray over a bottom profile into an arrival, gives the launch angles that a search begins
-// with, and the way of a path that was found, for drawings.
+// Turns one traced ray over a bottom profile into an arrival, gives the launch angles of a search's first
+// fan, and lays out the course of an eigenray as a polyline for drawings.
 //
 // Equations: acoustics/rays/profile_rays.h.
 #pragma once
@@ -20,24 +20,30 @@
 
 namespace halocline::acoustics {
 
-inline constexpr double kSteepestRay = 89.9 * std::numbers::pi / 180;  // rad: of rays that do not bounce
-inline constexpr double kNearFold = 0.06;  // of the water depth: a turn nearer to an image is sought out
+// rad: steepest launch angle that is traced
+inline constexpr double kSteepestRay = 89.9 * std::numbers::pi / 180;
+// of the water depth: a turn of zeta this near to an image is located exactly
+inline constexpr double kNearFold = 0.06;
 
-// The images of a receiver in unfolded depth, +-z + 2 H k.
+// Image sources seen from the receiver: its images in unfolded depth, +-z + 2 H k, with H the depth of the
+// bottom at the receiver and k any whole number.
 class Images {
  public:
   explicit Images(const ArcTracer& tracer)
       : z_(tracer.receiver_depth_m()), period_(2 * tracer.bottom_at_receiver_m()) {}
 
+  // Distance from `zeta` to the nearest image, m.
   double off_nearest(double zeta) const {
     return std::min(std::abs(std::remainder(zeta - z_, period_)),
                     std::abs(std::remainder(zeta + z_, period_)));
   }
+  // True when an image lies within [low, high].
   bool any_between(double low, double high) const {
     return std::ceil((low - z_) / period_) * period_ + z_ <= high ||
            std::ceil((low + z_) / period_) * period_ - z_ <= high;
   }
-  // Within `more` of the field of a fold that turns at `zeta`, its length of Airy `length` or 0 for no field.
+  // True when an image lies in the field of a fold caustic whose unfolded depth turns at `zeta`, or within
+  // `more` metres of that field. `length` is the caustic's Airy length, m; 0 for no field.
   bool any_in_fold(double zeta, bool is_greatest, double length, double more) const {
     if (length <= 0) return false;
     const double lit = kLitFold * length + more, dark = -kDarkFold * length + more;
@@ -48,82 +54,88 @@ class Images {
   double z_, period_;
 };
 
-// An arrival and what it is found again by.
+// An arrival, with what identifies it when it is searched again.
 struct ProfilePath {
   Arrival arrival;
   double target;             // image of the receiver, m of unfolded depth
-  double zeta_slope = 0;     // d zeta / d theta of the ray
-  std::uint64_t family = 0;  // of the ray
+  double zeta_slope = 0;     // d zeta / d theta of the ray, m/rad
+  std::uint64_t family = 0;  // eigenray family of the ray
 };
-// Where a ray arrives: the horizontal range, the image of the receiver in unfolded depth, the width of the
-// ray's tube there, |q|, m.
+// The place at which a ray arrives: the horizontal range, the image of the receiver in unfolded depth, and
+// the width |q| of the ray tube there per radian of launch angle, all in metres.
 struct ArrivalPlace {
   double range_m, target_m, tube_m;
 };
+// The arrival of a traced ray, with the amplitude A of the ray tube: A^2 = c_r cos_s / (c_s r |q|).
 Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDetails& details,
                    const ArrivalPlace& place);
-// Of the ray of `theta`, which passes the image `target` of the receiver within a few millimetres of unfolded
-// depth; empty when the options exclude it.
+// The path of the ray launched at `theta`, which passes the image `target` of the receiver within a few
+// millimetres of unfolded depth; empty when the options exclude it.
 std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, double target);
 
-// Of a window of diffuse sound launched at `theta`, the one of this number in its link: none that a path has.
+// Identity of the diffuse arrival of a window of launch angles around `theta`, the one numbered `window` in
+// its link. No eigenray has such an identity.
 PathIdentity diffuse_identity(double theta, std::size_t window);
-// What stands for such a window: the ray of `theta`, which arrives somewhere at the receiver's range, as an
-// arrival without an amplitude. Empty when the ray does not arrive.
+// The ray that represents such a window: the ray launched at `theta`, which arrives at any depth at the
+// receiver's range, as an arrival without an amplitude.
 struct DiffuseRay {
   Arrival arrival;
-  double xi;  // Snell's, at the receiver's range, s/m
+  double xi;  // Snell's invariant at the receiver's range, s/m
 };
+// The ray launched at `theta` that represents a window; empty when it does not arrive.
 std::optional<DiffuseRay> diffuse_ray(const ArcTracer& tracer, double theta, std::size_t window);
 
-// The folds of one search, and what they make of its paths.
+// The fold caustics of one search, and the paths with the caustics' fields applied.
 class ProfileFolds {
  public:
   // Refers to the tracer, which has to outlive this.
   explicit ProfileFolds(const ArcTracer& tracer) : tracer_(tracer) {}
 
-  // Of Airy, m, of a fold as rays about it show it, with a margin; at most so long that turns are sought out,
-  // and 0 without RayOptions::airy_folds.
+  // Airy length of a fold, m, as the rays around it show it, with a margin. It is limited to the length at
+  // which turns of zeta are still located exactly; 0 without RayOptions::airy_folds.
   double length_m(const Fold& fold) const;
-  // Unfolded depth turns at the ray of `theta`, near an image of the receiver.
+  // Notes a fold: unfolded depth turns at the ray launched at `theta`, near an image of the receiver.
   void note(double theta);
-  // All arrivals, finished: one on the dark side of a fold and about it, two with its field beyond.
+  // All arrivals, finished. A receiver on the shadow side of a fold or close to it gets a single path; one
+  // further on the illuminated side gets two, with the fold's field.
   std::vector<Arrival> finished(const std::vector<ProfilePath>& paths) const;
 
  private:
   struct Found {
-    Arrival path;        // the one that the fold makes by itself
+    Arrival path;        // the path of the fold itself
     double target, x;    // x of acoustics/math/fold_field.h
-    double to_rays_rad;  // from the fold's launch angle to those of its rays, to first order
+    double to_rays_rad;  // launch angle between the fold and either of its two rays, to first order
   };
 
   const ArcTracer& tracer_;
-  TracedRay before_, after_;  // buffers
+  TracedRay before_, after_;  // scratch buffers
   std::vector<Found> found_;
 };
 
-// Launch angles from -limit to limit, rising, rad: close near the horizontal, where rays are many and far
-// apart in range; `coarseness` (above 0) times as far apart as those of fan_angles().
+// Launch angles from -limit to limit, rising, rad. They are close together near the horizontal, where rays
+// are many and far apart in range. `coarseness` (above 0) scales their spacing relative to that of
+// fan_angles().
 std::vector<double> even_angles(double limit, double coarseness);
-// Launch angles above -steepest and up to `steepest`, rising, rad: even_angles() and those just on both sides
-// of the angles at which rays graze a knot of the water on their first leg; of a section, one where the
-// gradient jumps by 0.01 1/s or more.
+// Launch angles in (-steepest, steepest], rising, rad: even_angles(), and pairs just to both sides of each
+// angle at which a ray grazes a knot of the profile on its first leg. With water that changes along the link,
+// only the surface and the deepest knot count.
 std::vector<double> fan_angles(const ArcTracer& tracer, double steepest);
 
-// Takes the launch angles out within which rays nowhere go faster than the core's speed, and puts those of
-// its edges in. The angle of the edge; 0 where there is no core.
+// Removes the launch angles of rays that nowhere exceed the sound speed of the channel's core, and inserts
+// the two angles at its edges. Returns the angle of the edge, rad; 0 where there is no core.
 double leave_out_core(const ArcTracer& tracer, std::vector<double>& angles);
 
-// The way of a path found between the ends of `link` by any solver of the same sea, from the source to the
-// receiver, ranges rising, at most `max_points` (2 or more). The ray is traced again from its launch angle
-// and ends at the receiver; one that cannot be (steeper than 89.9 degrees, along the core of a channel) goes
-// by straight lines from bounce to bounce. Where points have to be left out, those that change the way most
-// stay (simplified()).
+// The course of an eigenray between the ends of `link`, found by any solver for the same sea: points from the
+// source to the receiver with rising ranges, at most `max_points` (2 or more). The ray is traced again from
+// its launch angle and ends at the receiver. A ray that cannot be traced again (steeper than 89.9 degrees, or
+// along the core of a channel) is drawn by straight lines from bounce to bounce. Points are left out as by
+// simplified().
 std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, const Arrival& path,
                                std::size_t max_points);
 
-// At most `max_points` (2 or more) of points of rising range: the ends, and one after the other the point
-// that lies furthest above or below the line through those kept, until all lie within 0.05 m of it.
+// Reduces a polyline of rising ranges to at most `max_points` points (2 or more). It keeps the ends, then
+// repeatedly adds the point furthest above or below the line through the points kept, until all lie within
+// 0.05 m of that line.
 std::vector<RayPoint> simplified(const std::vector<RayPoint>& points, std::size_t max_points);
 
 }  // namespace halocline::acoustics
