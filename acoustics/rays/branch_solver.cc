@@ -14,14 +14,16 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kCubicTolerance = 0.015;    // of the water depth
-constexpr double kDepthTolerance = 1e-4;     // m before the last step of Newton
-constexpr double kLastStepTolerance = 1e-5;  // m after it, as foreseen
-constexpr double kTurnTolerance = 1e-6;      // m: how far zeta is at most from where it turns
-// A cubic between two rays, whose error was found at one of them, errs between them by no more than this many
-// times that; besides, a share of what it spans.
+constexpr double kDepthTolerance = 1e-4;     // m: error before the last step of Newton's method
+constexpr double kLastStepTolerance = 1e-5;  // m: predicted error after it
+constexpr double kTurnTolerance = 1e-6;      // m: greatest distance of zeta from its turn
+// Bound of a cubic's error anywhere between two rays: kErrorReach times its error found at one of them, plus
+// kSpanReach times the interval of depths that it spans.
 constexpr double kErrorReach = 2, kSpanReach = 0.2;
+// Margin on what a path may lose: no path lies between two rays of one bounce sequence that both exceed it.
 constexpr double kFaintDb =
     3;  // beyond what a path may lose: no path lies between two such rays of one history
+// Of the Airy length: greatest distance of a fold from where zeta turns.
 constexpr double kFoldTolerance =
     2e-3;  // of a length of Airy: how far a fold is at most from where zeta turns
 constexpr int kMaxTurnSteps = 40;
@@ -96,7 +98,8 @@ void BranchSolver::solve(const FanRay& a, const FanRay& b) {
       if (!turn.arrived) continue;
       if (images_.off_nearest(cubic(t)) < kNearFold * depth_ && seek_turn(from, b, turn))
         folds_.note(turn.theta);
-    } else {  // this ray separates the images on both sides as well as the one that turns
+      // This ray separates the images on both sides as well as the ray at the turn.
+    } else {
       turn.theta = theta;
       turn.zeta = cubic(t);
     }
@@ -107,8 +110,8 @@ void BranchSolver::solve(const FanRay& a, const FanRay& b) {
 }
 
 // Moves `turn`, a guess between two rays, to where the slope of zeta is 0; leaves it where there is no such
-// place. False position after Anderson and Bjoerck (1973): the value of an end that stays is taken smaller
-// each time, so both ends close in; every third step halves where that does not.
+// place. False position after Anderson and Bjoerck (1973): the value at an end that stays is reduced at each
+// step, so both ends close in. Every third step bisects when that is slow.
 bool BranchSolver::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
   const auto rises = [](const FanRay& ray) { return ray.zeta_slope > 0; };
   const bool before = rises(a) != rises(turn);
@@ -125,14 +128,15 @@ bool BranchSolver::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
     turn = middle;
     const double slope = turn.zeta_slope;
     const bool beside_low = rises(turn) == is_greatest;
-    // What is left of zeta to where it turns, at most: along the slope up to the other end; and by how it
-    // bends.
+    // Bound of the distance of zeta from its turn: along the slope up to the other end, and by the curvature,
+    // slope^2 / bend.
     const double bend = std::min(bend_between(low, turn), bend_between(turn, high));
     const double left =
         std::min(std::abs(slope) * (beside_low ? high.theta - turn.theta : turn.theta - low.theta),
                  bend > 0 ? slope * slope / bend : kUnknownError);
     const double length = is_faint(turn) ? 0 : folds_.length_m(fold_at(low, turn, high));
-    // Clear of all images; and known well enough for the field of the fold, if that has one.
+    // Done when clear of all images, and when the fold's place is known well enough for its field, if it has
+    // one.
     const bool is_field = images_.any_in_fold(turn.zeta, is_greatest, length, 2 * left);
     const bool is_clear =
         images_.off_nearest(turn.zeta) > 2 * left && (!is_field || left < kFoldTolerance * length);
@@ -147,7 +151,7 @@ bool BranchSolver::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
   return false;
 }
 
-// Calls visit(image) for each with low <= target < high.
+// Calls visit(image) for each image with low <= target < high.
 template <class Visit>
 void BranchSolver::visit_images(const FanRay& a, const FanRay& b, const Visit& visit) const {
   const double low = std::min(a.zeta, b.zeta), high = std::max(a.zeta, b.zeta), period = 2 * depth_;
@@ -192,10 +196,11 @@ std::optional<ProfilePath> BranchSolver::traced_path(const FanRay& a, const FanR
     ((off > 0) == rising ? high : low) = theta;
     const double next = ray.zeta_slope != 0 ? theta - off / ray.zeta_slope : low - 1;
     const bool inside = next > low && next < high;
-    // What the step leaves, by how much the slope changes to either side.
+    // The error that a Newton step leaves is half of the curvature times the step's square.
     const double bend = std::max(bend_between(a, ray), bend_between(ray, b)), step = next - theta;
     if (std::abs(off) < kDepthTolerance || (inside && 0.5 * bend * step * step < kLastStepTolerance)) {
-      if (inside) theta = next;  // none where rounding rules
+      // Not where rounding dominates.
+      if (inside) theta = next;
       break;
     }
     theta = inside ? next : 0.5 * (low + high);

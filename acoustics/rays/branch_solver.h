@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the eigenrays between two neighbouring rays of a fan that have the same history.
+// Finds the eigenrays between two neighbouring rays of a fan that have the same bounce sequence.
 //
-// Between them the unfolded depth zeta(theta) at the receiver's range is smooth but for bends of the water's
-// profile. Every image of the receiver, +-z + 2 H k, that lies between the two is a bracket; a turn of zeta
-// (a fold) is sought first and split at. Newton with the ray tube polishes (acoustics/rays/profile_rays.h).
+// Between the two, the unfolded depth zeta(theta) at the receiver's range is smooth apart from kinks of the
+// sound speed profile. Every image of the receiver, +-z + 2 H k, that lies between them is a bracket of an
+// eigenray. A turn of zeta (a fold caustic) is located first and splits the bracket. Newton's method with the
+// ray tube gives the eigenray (acoustics/rays/profile_rays.h).
 //
-// Keeps the rays' events and what it has found: one for each search, not shared between threads.
+// The object keeps the rays' events and the paths found: one per search, not shared between threads.
 #pragma once
 
 #include <algorithm>
@@ -28,43 +29,44 @@ class BranchSolver {
  public:
   static constexpr double kUnknownError = std::numeric_limits<double>::infinity();
 
-  // Refers to both tracers, which have to outlive this. With `windows`, weak paths go there; with `cache`,
-  // rays are shared with searches for receivers at other depths.
+  // Refers to both tracers, which have to outlive this object. With `windows`, weak paths are added to it;
+  // with `cache`, rays are shared with searches for receivers at other depths.
   BranchSolver(const ArcTracer& tracer, FanTracer& fan);
   void give_weak_paths_to(DiffuseWindows* windows) { windows_ = windows; }
   void share(ColumnCache* cache) { cache_ = cache; }
 
+  // Traces the ray launched at `theta`, as FanTracer::trace(), through the cache when there is one.
   FanRay traced(double theta, std::size_t enough_events = FanTracer::kAllEvents);
-  // Rays traced so far, but those of polishing.
+  // Number of rays traced so far, without those of Newton's method.
   int traces() const { return traces_; }
-  // As FanTracer's.
+  // As the functions of FanTracer; events that the cache keeps are not dropped.
   std::size_t kept_events() const { return fan_.kept_events(); }
   void forget_since(std::size_t kept_events) {
     fan_.forget_since(cache_ != nullptr ? std::max(kept_events, cache_->kept_events()) : kept_events);
   }
 
-  // The first event at which two rays differ; empty when one history begins with the other.
+  // Index of the first event at which two rays differ; empty when one bounce sequence begins with the other.
   std::optional<std::size_t> parting(const FanRay& a, const FanRay& b) const;
   bool shares_event(const FanRay& ray, const FanRay& other, std::size_t event) const;
   bool meets_bottom_at(const FanRay& ray, std::size_t event) const;
 
-  // How far a cubic through two rays is off where one between them arrives; infinite where their histories
+  // Error of the cubic through rays `a` and `b` at a ray between them; infinite when their bounce sequences
   // differ.
   double error_at(const FanRay& a, const FanRay& middle, const FanRay& b) const;
-  // Whether it is no more than a share of the tolerance.
+  // True when `error` is at most `share` times the tolerance.
   bool is_predicted(double error, const FanRay& a, const FanRay& b, double share) const;
-  // Beyond what any ray of its history that is a path may lose.
+  // True when the ray has lost more than a path of its bounce sequence may lose.
   bool is_faint(const FanRay& ray) const { return ray.loss_db > faint_db_; }
-  // Whether there may be an image between where two rays of one history arrive, or beyond in what sound
-  // reaches.
+  // True when an image may lie between the depths at which two rays of one bounce sequence arrive, or within
+  // the field of a fold beyond them.
   bool may_pass_image(const FanRay& a, const FanRay& b, double error) const;
 
-  // The same of rays between which zeta is their cubic.
+  // The same for an interval of zeta, m, between two rays whose zeta is a cubic.
   bool may_pass_image(double low, double high) const {
     return images_.any_between(low - kNearFold * depth_, high + kNearFold * depth_);
   }
 
-  // All paths between two rays of one history.
+  // Finds all paths between two rays of one bounce sequence.
   void solve(const FanRay& a, const FanRay& b);
   // The same where zeta is monotone.
   void solve_monotone(const FanRay& a, const FanRay& b);
@@ -75,10 +77,12 @@ class BranchSolver {
  private:
   template <class Visit>
   void visit_images(const FanRay& a, const FanRay& b, const Visit& visit) const;
+  // Adds the path to one image, interpolated from the cache or traced.
   void polish(const FanRay& a, const FanRay& b, const ReceiverImage& image);
-  // Of the ray that passes the image between two.
+  // The path of the ray between `a` and `b` that passes the image at `target`.
   std::optional<ProfilePath> traced_path(const FanRay& a, const FanRay& b, double target);
-  // Whether an image has a share of the field about `turn`, as rays beside it show.
+  // Moves `turn` to where zeta turns. Returns true when an image lies in the fold's field, as the rays beside
+  // it show.
   bool seek_turn(const FanRay& a, const FanRay& b, FanRay& turn);
 
   const ArcTracer& tracer_;

@@ -13,16 +13,18 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kLeastSine = 0.02;  // where a ray turns p is bounded by this
-constexpr double kBesideMargin = 8;  // of power
-constexpr double kDepthStep = 50;    // m: between depths at which absorption is looked up
-constexpr double kManyImages = 4;    // of the receiver, in a window
-constexpr double kMostFocused = 4;   // power of all paths of mixed rays over their mean
-// Of the field of a fold over that of a single ray in its shadow's edge: Ai(-1.02)^2 / Ai(0)^2.
+constexpr double kLeastSine = 0.02;  // lower bound of the sine in p, where a ray turns
+constexpr double kBesideMargin = 8;  // in power
+constexpr double kDepthStep = 50;    // m: spacing of depths at which the absorption is evaluated
+constexpr double kManyImages = 4;    // images of the receiver within a window
+constexpr double kMostFocused = 4;   // greatest power of all paths of mixed rays over its mean
+// Greatest field of a fold over that of a single ray at the edge of its shadow, in power:
+// Ai(-1.02)^2 / Ai(0)^2.
 constexpr double kFoldPeak = 2.3;
 
-// At least: a path is no shorter than the range, and absorbs no less a metre than the water does anywhere
-// above the deepest bottom.
+// Lower bound of the power of a path of that received pressure, with its absorption removed: a path is at
+// least as long as the range, and its absorption per metre is at least the least one above the deepest
+// bottom.
 double power_without_absorption(const ArcTracer& tracer, double pressure) {
   if (pressure <= 0) return 0;
   const RayWater& water = tracer.sea().water;
@@ -49,7 +51,8 @@ void DiffuseWindows::begin_cell(std::size_t cell) {
   if (cells_.size() <= cell) cells_.resize(cell + 1);
 }
 
-// Near a caustic the tube is too narrow to tell how strong the path will be: no focusing then.
+// Near a caustic the tube is too narrow to tell the strength of the path, so the pressure is limited to that
+// of spherical spreading.
 void DiffuseWindows::note(const Arrival& path) {
   const double spherical = elementary::exp10(-path.bounce_loss_db() / 20) / path.path_length_m;
   const double pressure = std::min(path.amplitude, spherical);
@@ -58,6 +61,7 @@ void DiffuseWindows::note(const Arrival& path) {
 
 double DiffuseWindows::strength(const FanRay& ray) const {
   if (!ray.arrived || ray.loss_db > max_loss_db_) return 0;
+  // xi_r = sqrt(1 / c_r^2 - s^2), s the vertical slowness at the receiver; the result is f^2 xi_s / (xi_r r).
   const double xi_s = elementary::cos(ray.theta) / tracer_.source_speed_mps(), s = ray.slowness;
   const double xi_r = std::sqrt(std::max(1 / (receiver_speed_ * receiver_speed_) - s * s,
                                          kMinCosine * kMinCosine / (receiver_speed_ * receiver_speed_)));
@@ -69,7 +73,7 @@ bool DiffuseWindows::is_weak_branch(const FanRay& a, const FanRay& b) const {
   const double most = std::max(strength(a), strength(b));
   if (a.zeta_slope * b.zeta_slope > 0)
     return most * (b.theta - a.theta) < weak_power() * cubic_of(a, b).least_slope();
-  // Both rays of the fold and what is about it.
+  // Both rays of the fold, and the field around it.
   const double tube = fold_between(a, b).tube_slope(0, tracer_.sea().options.frequency_hz);
   return most * kFoldPeak < weak_power() * tube;
 }
@@ -117,8 +121,9 @@ double DiffuseWindows::mixed_power(const FanRay& a, const FanRay& b) const {
   return 0.5 * (strength(a) + strength(b)) * (b.theta - a.theta) / tracer_.bottom_at_receiver_m();
 }
 
-// Half a cycle is the integral of cot(angle) dz over the water at the receiver that the ray reaches: in a
-// layer dr = h xi (c1 + c2) / (s1 + s2), to where it turns s / (xi |g|).
+// Half a cycle is the integral of cot(angle) dz over the part of the water column that the ray reaches. Per
+// layer,
+//   dr = h xi (c1 + c2) / (s1 + s2),  or s / (xi |g|) up to a turn.
 double DiffuseWindows::density(double xi) const {
   const auto square = [xi](double speed) { return 1 - xi * xi * speed * speed; };
   const RayWater& water = tracer_.water_at_receiver();

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sound of rays that a search over a rough bottom does not seek one by one: windows of launch angles and
-// their energy.
+// Energy of the rays that a search over a rough bottom does not resolve one by one, summed over windows of
+// launch angles.
 //
-// Model. A window of launch angles dtheta holds rays of bounce factor f that a rough bottom has mixed: at the
-// receiver's range they lie at depth z with the density of one that goes up and down the water column,
-//   p(z) = cot(angle at z) / (half a cycle), 0 beyond its turning depths,
-// so the mean over small changes of place of the sum of A^2 = f^2 xi_s / (xi_r r |d zeta / d theta|) is
+// Model (energy flux: Weston 1971, J. Sound Vib. 18:271; Jensen and others 2011, section 3.3 for A). A window
+// of launch angles dtheta contains rays of bounce factor f that a rough bottom has mixed. At the receiver's
+// range they are distributed over depth z with the density of one ray that runs up and down the water column,
+//   p(z) = cot(angle at z) / (half a cycle),  0 beyond its turning depths.
+// The mean, over small displacements, of the sum of A^2 = f^2 xi_s / (xi_r r |d zeta / d theta|) is then
 //   f^2 xi_s / (xi_r r) p(z) dtheta,
-// xi = cos(angle) / c at source and receiver (energy flux: Weston 1971, J. Sound Vib. 18:271; Jensen and
-// others 2011, section 3.3 for A). Between two rays of one history the slope between them takes the place of
-// p dtheta.
+// with xi = cos(angle) / c at source (s) and receiver (r). Between two rays of one bounce sequence, the slope
+// between them replaces p dtheta.
 //
-// Windows between two rays of the search's first fan make one arrival, with the power of all of them and the
-// delay, angles and bounces of a ray among them. Error: that of a mean over as many rays as it holds.
+// All windows between two rays of the search's first fan make one diffuse arrival. It has the power of all of
+// them, and the delay, angles and bounces of one ray among them. Error: that of a mean over as many rays as
+// the arrival contains.
 //
-// One for each search, not shared between threads.
+// One object per search, not shared between threads.
 #pragma once
 
 #include <algorithm>
@@ -30,48 +31,51 @@ namespace halocline::acoustics {
 
 class DiffuseWindows {
  public:
-  // Refers to the tracer, which has to outlive this.
+  // Refers to the tracer, which has to outlive this object.
   explicit DiffuseWindows(const ArcTracer& tracer);
 
-  // What is added from now on lies in the cell of the fan of this number, from 0 on.
+  // Starts cell number `cell` of the fan, from 0 on: what is added afterwards belongs to it.
   void begin_cell(std::size_t cell);
-  // A path as strong as this, re 1 m without absorption, is not weak.
+  // Sets the power, re 1 m and without absorption, that the strongest path is assumed to have; weak paths are
+  // judged relative to it.
   void set_reference(double power) { strongest_ = power; }
-  // A path that was found: others are weak relative to the strongest.
+  // Takes note of a path that was found, which may be the strongest so far.
   void note(const Arrival& path);
-  // Whether RayOptions::diffuse_below_pressure, not the strongest path, says what is weak.
+  // True when RayOptions::diffuse_below_pressure, and not the strongest path, decides which paths are weak.
   bool is_by_pressure() const { return least_ > weak_ * strongest_; }
 
-  // Whether all paths between two rays of one history are weak: more than RayOptions::diffuse_below_db below
-  // the strongest, or below its pressure.
+  // True when all paths between two rays of one bounce sequence are weak: more than
+  // RayOptions::diffuse_below_db below the strongest path, or below RayOptions::diffuse_below_pressure.
   bool is_weak_branch(const FanRay& a, const FanRay& b) const;
-  // Whether those beside either ray are so by a margin.
+  // True when the paths beside either ray are weak by a margin.
   bool is_weak_beside(const FanRay& a, const FanRay& b) const;
-  // Whether all paths between two, which are many, are weak even if they were one.
+  // True when the paths between two rays are many and would be weak even as a single path.
   bool is_weak_together(const FanRay& a, const FanRay& b) const;
 
-  // The energy between two rays of one history between which zeta passes `images` of the receiver.
+  // Adds the energy between two rays of one bounce sequence, between which zeta passes `images` images of the
+  // receiver.
   void add_branch(const FanRay& a, const FanRay& b, int images);
-  // Between any two.
+  // Adds the energy between any two rays.
   void add_mixed(const FanRay& a, const FanRay& b);
-  // As add_mixed would add, re 1 m.
+  // The power that add_mixed would add, re 1 m.
   double mixed_power(const FanRay& a, const FanRay& b) const;
 
-  // One for each cell of the fan that has energy, in the order of delays. `cache` may be null.
+  // One arrival for each cell of the fan that has energy, in the order of delays. `cache` may be null.
   std::vector<Arrival> arrivals(ColumnCache* cache) const;
 
  private:
   struct Cell {
-    double branch = 0;           // f^2 xi_s / (xi_r r) / |slope|, sum
-    double mixed = 0;            // f^2 xi_s / (xi_r r) dtheta, m, sum; times p
-    double theta = 0, most = 0;  // launch angle of the ray with the greatest share so far, and that
+    double branch = 0;           // sum of f^2 xi_s / (xi_r r) / |slope|
+    double mixed = 0;            // sum of f^2 xi_s / (xi_r r) dtheta, m; to be multiplied by p
+    double theta = 0, most = 0;  // launch angle of the ray with the greatest power so far, and that power
   };
-  // f^2 xi_s / (xi_r r) of a ray: times 1 / |slope| its power. 0 where no path of its kind is kept.
+  // f^2 xi_s / (xi_r r) of a ray, which divided by |slope| is its power; 0 when no path of its kind is kept.
   double strength(const FanRay& ray) const;
+  // p of the rays of invariant `xi` at the receiver's depth, 1/m.
   double density(double xi) const;
   void weigh(Cell& cell, const FanRay& ray, double power) const;
 
-  // Paths of less, re 1 m without absorption, are weak.
+  // Power, re 1 m and without absorption, below which a path is weak.
   double weak_power() const { return std::max(weak_ * strongest_, least_); }
 
   const ArcTracer& tracer_;

@@ -16,23 +16,24 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kFarOff = 1e-2;         // m of unfolded depth: a ray further off did not converge
-constexpr double kBesideGrazing = 1e-9;  // rad
+constexpr double kFarOff = 1e-2;         // m of unfolded depth: a ray further off has not converged
+constexpr double kBesideGrazing = 1e-9;  // rad: distance of the two rays of a fan from one that grazes a knot
 
-constexpr double kMinTube = 1e-9;  // m, of |q|: a ray on a caustic to rounding
+constexpr double kMinTube = 1e-9;  // m, of |q|: a ray on a caustic, to rounding
 
-constexpr double kLeastFoldShare = 0.5;  // of the way from a fold to its rays, as foreseen
-constexpr double kFoldMargin = 1.25;     // of lengths of Airy
-constexpr double kFoldStep = 1e-4;       // rad: to the rays that show how a fold bends
+constexpr double kLeastFoldShare = 0.5;  // of the predicted distance from a fold to its rays
+constexpr double kFoldMargin = 1.25;     // of the Airy length
+constexpr double kFoldStep = 1e-4;       // rad: distance of the rays that give the curvature of a fold
 
-constexpr int kDiffuseBounces = 16'383;  // more than RayOptions::max_bounces may be
+constexpr int kDiffuseBounces = 16'383;  // more than RayOptions::max_bounces allows
 
 constexpr double kSimplifiedWithin = 0.05;  // m
-constexpr double kTouched = 1e-3;           // m
+constexpr double kTouched = 1e-3;           // m: a point this close to a boundary is a bounce
+// Metres of depth at the receiver: a ray with other turns and a greater error is not the path.
 constexpr double kMissed =
     1;  // m of depth at the receiver: a ray of other turns and further off is not the path
 
-// The point between two of the list that lies furthest from the line through them.
+// The point of a polyline between two others that lies furthest from the line through them.
 struct Detour {
   double off_m;
   std::size_t at, first, last;
@@ -52,7 +53,7 @@ Detour greatest_detour(const std::vector<RayPoint>& points, std::size_t first, s
   return greatest;
 }
 
-// Straight from bounce to bounce, at angles all alike: the images of a flat sea
+// A course of straight lines from bounce to bounce, all at the same angle: the image sources of a flat sea
 // (acoustics/rays/image_rays.h).
 std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const Arrival& path) {
   std::vector<double> depths{link.source_depth_m};
@@ -71,10 +72,10 @@ std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const A
   return way;
 }
 
-// That of the ray of the same launch angle that passes the receiver's depth after as many bounces, nearest to
-// where it should: its ranges are those of the link when all are made shorter or longer alike. Rays that
-// graze a boundary or turn beside a knot have another range as waves (acoustics/math/turning_field.h). Empty
-// over a bottom that is not level.
+// The course of the ray of the same launch angle, up to the place nearest to the receiver at which it passes
+// the receiver's depth after the same bounces, with all ranges scaled so that it ends at the link's range.
+// Needed because the wave field of rays that graze a boundary or turn beside a knot changes their range
+// (acoustics/math/turning_field.h). Empty over a bottom that is not level.
 std::optional<std::vector<RayPoint>> scaled_way(const ProfiledSea& sea, const RayLink& link,
                                                 const Arrival& path) {
   constexpr double kLonger = 1.5;
@@ -125,7 +126,9 @@ Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDe
   // A^2 = c_r cos_s / (c_s r |q|) (Jensen and others 2011, section 3.3).
   const double speed = cosine_of(ray) / ray.xi;
   Arrival path;
-  // The receiver is not quite where the ray is: a front of slowness sin / c moves over the difference.
+  // The ray passes close to the receiver but not through it. A wavefront of vertical slowness sin / c covers
+  // the difference:
+  //   tau = tau_ray + sin / c (target - zeta), with its sign reversed on an odd number of bounces
   const double down = (ray.surface_bounces + ray.bottom_bounces) % 2 == 0 ? 1 : -1;
   path.delay_s = details.delay_s + ray.sine / speed * down * (place.target_m - ray.zeta);
   path.amplitude = ray.factor * std::sqrt(speed * elementary::cos(ray.theta) /
@@ -160,7 +163,7 @@ std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, d
       target, ray.zeta_slope, ray.family};
 }
 
-// Counts of bounces that no path has make the identity one of its own.
+// The counts of bounces exceed those of any path, so no path has this identity.
 PathIdentity diffuse_identity(double theta, std::size_t window) {
   return {theta < 0, kDiffuseBounces, kDiffuseBounces, 0, static_cast<int>(window), 0};
 }
@@ -190,10 +193,11 @@ void ProfileFolds::note(double theta) {
   tracer_.trace(theta + kFoldStep, after_);
   if (!after_.arrived || before_.family != after_.family) return;
   const auto slowness = [](const TracedRay& one) { return one.sine * one.xi / cosine_of(one); };
-  // In the plane of unfolded depth, slowness sin / c.
+  // The fold in the coordinate u = unfolded depth, with the slowness p = sin / c.
   const Fold fold{(after_.zeta_slope - before_.zeta_slope) / (2 * kFoldStep),
                   (slowness(after_) - slowness(before_)) / (2 * kFoldStep)};
-  // By the cubic between the two; the ray between them is as far from the turn as its slope shows.
+  // The fold's place from the cubic between the two rays; the ray between them lies off the turn by
+  // slope^2 / (2 curvature).
   const double slope = 0.5 * (before_.zeta_slope + after_.zeta_slope);
   const double turn = 0.5 * (before_.zeta + after_.zeta) - fold.curvature * kFoldStep * kFoldStep / 2 -
                       0.5 * slope * slope / fold.curvature;
@@ -209,13 +213,13 @@ void ProfileFolds::note(double theta) {
     ray.caustics = std::min(before_.caustics, after_.caustics);
     Arrival path = arrival_of(tracer_, ray, details,
                               {tracer_.range_m(), target, cosine_of(ray) * fold.tube_slope(x, frequency)});
-    path.phase_rad = std::fmod(path.phase_rad + pi / 4, 2 * pi);  // of the caustic half way through it
+    path.phase_rad = std::fmod(path.phase_rad + pi / 4, 2 * pi);  // half of the caustic's pi / 2
     found_.push_back({path, target, x, std::sqrt(2 * std::abs(off / fold.curvature))});
   }
 }
 
-// Delays and tubes of rays over a bent bottom do not agree closely enough to derive from them where a fold
-// is.
+// Pairs the rays of each fold with it. Delays and tubes of rays over a bent bottom do not agree closely
+// enough to derive the place of a fold from them.
 std::vector<Arrival> ProfileFolds::finished(const std::vector<ProfilePath>& paths) const {
   std::vector<Arrival> arrivals;
   arrivals.reserve(paths.size() + found_.size());
@@ -227,7 +231,7 @@ std::vector<Arrival> ProfileFolds::finished(const std::vector<ProfilePath>& path
       arrivals.push_back(found.path);
       continue;
     }
-    // The rays of the same image on both sides, about as far from the fold as they should be.
+    // The two rays of the same image on both sides of the fold, roughly as far from it as predicted.
     std::optional<std::size_t> below, above;
     for (std::size_t i = 0; i < paths.size(); ++i) {
       if (paths[i].target != found.target || members[i].family != kNoFamily) continue;
@@ -253,7 +257,7 @@ std::vector<Arrival> ProfileFolds::finished(const std::vector<ProfilePath>& path
   return arrivals;
 }
 
-// Steps grow with the angle: 0.6 degrees near the horizontal, 4 at 60.
+// The steps grow with the angle: 0.6 degrees near the horizontal, 4 degrees at 60.
 std::vector<double> even_angles(double limit, double coarseness) {
   std::vector<double> angles{-limit, limit};
   for (double theta = 0.005; theta < limit; theta += coarseness * (0.01 + 0.06 * theta)) {
@@ -272,7 +276,7 @@ std::vector<double> fan_angles(const ArcTracer& tracer, double steepest) {
     angles.push_back(-theta);
   };
   const RayWater& water = tracer.sea().water;
-  // A section has no kinks.
+  // The sound speed of a section is smooth at its inner knots, so these give no kinks.
   const auto counts = [&](std::size_t i) {
     return tracer.sea().section == nullptr || i == 0 || i == water.layers();
   };
@@ -303,7 +307,7 @@ double leave_out_core(const ArcTracer& tracer, std::vector<double>& angles) {
 
 std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, const Arrival& path,
                                std::size_t max_points) {
-  // What was found is followed whatever it loses.
+  // The path is traced whatever it loses.
   ProfiledSea open = sea;
   open.options.max_bounces = path.surface_bounces + path.bottom_bounces + 1;
   open.options.max_launch_angle_rad = pi / 2;
@@ -315,7 +319,7 @@ std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, cons
   TracedDetails details;
   details.track = &way;
   tracer.trace(path.launch_angle_rad, ray, &details);
-  // Beyond a fold the path is that of the fold, which passes the receiver by.
+  // On the shadow side of a fold the path is that of the fold, which does not pass through the receiver.
   const bool turns_alike =
       ray.upper_turns == path.identity.upper_turns && ray.lower_turns == path.identity.lower_turns;
   const bool is_path = ray.arrived && ray.surface_bounces == path.surface_bounces &&

@@ -14,22 +14,29 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kMinParting = 1e-10;      // rad: between the rays on both sides of a parting
-constexpr double kNextToEachOther = 4e-9;  // rad: the two rays of a fan beside one that grazes a knot
+// Radians between the rays on both sides of a change of bounce sequence.
+constexpr double kMinParting = 1e-10;
+constexpr double kNextToEachOther = 4e-9;  // rad: distance of two rays of a fan beside one that grazes a knot
 constexpr int kDeepestHalving = 14;
-constexpr int kDeepestEdgeHalving = 10;   // towards where rays become too faint or turn back
+constexpr int kDeepestEdgeHalving = 10;   // towards rays that are too faint or turn back
 constexpr int kDeepestWindowHalving = 5;  // between rays that do not arrive
-constexpr double kFinestGraze = 1e-7;     // rad: nearest to the ray that grazes
-constexpr double kGrazeStep = 1.0 / 6;    // of the way to it
+constexpr double kFinestGraze = 1e-7;     // rad: closest approach to the ray that grazes
+constexpr double kGrazeStep = 1.0 / 6;    // of the distance to it, per step
+// Share of the tolerance that the predictions of both rays of an interval may err by for the interval not to
+// be halved.
 constexpr double kShareBeforehand =
     0.3;  // of the tolerance that rays beside an interval may err for the interval to need no look
-constexpr int kMaxTraces = 200'000;  // of one link: a guard against water of endless detail
+constexpr int kMaxTraces = 200'000;  // per link: a guard against profiles of endless detail
+// Sum of the prediction errors between neighbours in the fan, in water depths, beyond which a bottom counts
+// as rough.
 constexpr double kRough =
     28;  // of the depth, sum of how far neighbours in the fan are apart: more makes a bottom rough
-// Over a rough bottom.
-constexpr double kNarrowWindow = 3e-5;    // times depth over range, rad: windows are not divided below
-constexpr double kWeakWindow = 2e-3;      // rad: nor these where the rays beside them are weak
-constexpr double kLeastStrongest = 3e-3;  // of the energy flux: that of the strongest path until one is found
+// Limits over a rough bottom.
+constexpr double kNarrowWindow = 3e-5;  // times depth over range, rad: narrower windows are not divided
+// Radians: narrower windows are not divided when the rays beside them are weak.
+constexpr double kWeakWindow = 2e-3;
+// Share of the energy flux that the strongest path is assumed to have until one is found.
+constexpr double kLeastStrongest = 3e-3;
 
 }  // namespace
 
@@ -103,7 +110,7 @@ void ProfileSearch::search(const std::vector<FanRay>& fan, const std::vector<boo
                            double core_edge) {
   std::vector<std::size_t> order;
   for (std::size_t i = 1; i < fan.size(); ++i) order.push_back(i);
-  // What is strong comes first, so that more is known to be weak.
+  // The strong paths near the horizontal come first, so that more of the later ones are known to be weak.
   if (narrow_window_ > 0) {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return std::abs(fan[a - 1].theta + fan[a].theta) < std::abs(fan[b - 1].theta + fan[b].theta);
@@ -126,8 +133,8 @@ bool ProfileSearch::is_predicted(const FanRay& a, const FanRay& middle, const Fa
          branch_.is_predicted(branch_.error_at(a, middle, b), a, b, kShareBeforehand);
 }
 
-// Between neighbours of one history, by how much of the depth their depths and the mean of their slopes
-// disagree: at most by all of it, as those that part.
+// Sums over the neighbours how far the difference of their depths departs from the mean of their slopes, in
+// water depths. Each pair counts at most 1, as do pairs of different bounce sequences.
 bool ProfileSearch::is_rough(const std::vector<FanRay>& fan) const {
   double apart = 0;
   for (std::size_t i = 1; i < fan.size(); ++i) {
@@ -153,8 +160,8 @@ void ProfileSearch::look_between(const FanRay& a, const FanRay& b, int depth, do
   const auto event = branch_.parting(a, b);
   if (!event && branch_.is_faint(a) && branch_.is_faint(b)) return;
   if (neither) {
-    // Over steep bottoms rays that arrive come through windows between others that turn back. Two rays that
-    // were given up with the same history have none between them, as a rule.
+    // Over steep bottoms, rays that arrive come through windows between others that turn back. As a rule no
+    // such window lies between two rays that stopped with the same bounce sequence.
     const bool alike = !event && a.events == b.events;
     if (alike || depth >= kDeepestWindowHalving) return;
   } else {
@@ -210,7 +217,7 @@ void ProfileSearch::part(const FanRay& a, const FanRay& b, std::size_t event, in
     FanRay middle = branch_.traced(0.5 * (low.theta + high.theta), event + 1);
     std::swap(branch_.shares_event(middle, a, event) ? low : high, middle);
   }
-  low = branch_.traced(low.theta);  // all the way
+  low = branch_.traced(low.theta);  // traced to the receiver's range
   high = branch_.traced(high.theta);
   const bool bounce_below = branch_.meets_bottom_at(a, event),
              bounce_above = branch_.meets_bottom_at(b, event);
@@ -245,7 +252,8 @@ std::vector<Arrival> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::
   ProfileSearch search(tracer, fan);
   search.share(cache);
   std::vector<Arrival> paths = search.run(angles, core_edge);
-  // The last path is not given up for a window, unless it is weak by itself.
+  // If only diffuse windows are left, the search is repeated without them, unless paths count as weak by
+  // their own pressure: a link that has a path keeps at least one.
   if (!paths.empty() && !search.is_weak_by_pressure() &&
       std::all_of(paths.begin(), paths.end(), [](const Arrival& path) { return path.diffuse; })) {
     ProfiledSea all = tracer.sea();

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every ray between two points of layered water over a bottom that changes with range.
+// All eigenrays between two points of layered water over a range-dependent bottom.
 //
-// Method: a fan of exactly traced rays (acoustics/rays/arc_tracer.h). Between two neighbours of the same
-// history the unfolded depth zeta(theta) at the receiver's range is smooth but for bends of the water's
-// profile; each cell is halved until a cubic through values and slopes predicts its middle. Every image of
-// the receiver, +-z + 2 H k, that lies between two rays is a bracket; a turn of zeta (a fold) is sought first
-// and split at. Histories that part (a ray that grazes the surface or a crest, or meets the other side of a
-// corner) part the cell there, by bisection; between rays that do not arrive it is halved five times where
-// their histories differ. Newton with the ray tube polishes; what is left of the depth is taken off the
-// delay to first order, so delays err by its square. Amplitude A^2 = c_r cos_s / (c_s r |q|) times the
-// bounces; at a fold the field is that of acoustics/math/fold_field.h.
+// Method. A fan of exactly traced rays (acoustics/rays/arc_tracer.h) brackets the eigenrays. Between two
+// neighbours of the same bounce sequence the unfolded depth zeta(theta) at the receiver's range is smooth
+// apart from kinks of the sound speed profile; each cell is halved until a cubic through values and slopes
+// predicts its middle. Every image of the receiver, +-z + 2 H k, that lies between two rays is a bracket of
+// an eigenray. A turn of zeta (a fold caustic) is located first and splits the cell.
 //
-// Accuracy: exact for knots and facets given. Left out: rays that turn back, slopes across the link,
-// diffraction but that of caustics.
+// Where bounce sequences differ (a ray grazes the surface or a crest, or meets the other side of a corner),
+// bisection finds the angle of the change and splits the cell there. Between rays that do not arrive a cell
+// is halved five times when their sequences differ.
+//
+// Newton's method with the ray tube then gives the eigenray. The remaining error of the depth is taken off
+// the delay to first order, so delays err by its square. The amplitude is
+//   A^2 = c_r cos_s / (c_s r |q|)
+// times the factors of the bounces; at a fold the field is that of acoustics/math/fold_field.h.
+//
+// Accuracy: exact for the given knots and facets. Neglected: rays that turn back towards the source, bottom
+// slopes across the link, diffraction other than at caustics.
 #pragma once
 
 #include <cstddef>
@@ -29,67 +34,72 @@
 
 namespace halocline::acoustics {
 
-// All rays of `link`; depths between the surface and the bottom at both ends (at a boundary: a micrometre off
-// it).
+// All eigenrays of `link`. Its depths lie between the surface and the bottom at both ends; an end at a
+// boundary is moved off it by a micrometre.
 std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link);
-// The same between the ends of the tracer, with a fan of launch_angles(). With a cache, rays are
-// shared with the searches for receivers at other depths of the place.
+// All eigenrays between the ends of the tracer, with a first fan of `angles` such as launch_angles(). With a
+// cache, rays are shared with the searches for receivers at other depths of the same place.
 std::vector<Arrival> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::vector<double> angles,
                                   ColumnCache* cache);
 
 // Launch angles of the first fan, rising, rad.
 std::vector<double> launch_angles(const ArcTracer& tracer);
 
-// Two rays of one history between which zeta is their cubic.
+// Two rays of one bounce sequence, between which a cubic in the launch angle describes zeta.
 struct Branch {
   FanRay a, b;
   bool is_monotone;
-  double low, high;  // of zeta between them
+  double low, high;  // range of zeta between the two rays, m
 };
 
-// Which parts of a fan hold paths: between neighbours the unfolded depth is halved until it is a cubic; such
-// branches are solved by branch_solver.h, for one receiver or collected for many. One for each search, not
-// shared between threads.
+// Search of a fan for the intervals that contain eigenrays. The interval between two neighbours is halved
+// until the unfolded depth is a cubic; branch_solver.h then solves such branches for one receiver, or they
+// are collected for many receivers. One object per search, not shared between threads.
 class ProfileSearch {
  public:
-  // Refers to both, which have to outlive this.
+  // Refers to tracer and fan, which have to outlive this object.
   ProfileSearch(const ArcTracer& tracer, FanTracer& fan)
       : tracer_(tracer), branch_(tracer, fan), windows_(tracer) {}
 
-  // Rays are shared with searches for receivers at other depths.
+  // Shares rays with searches for receivers at other depths.
   void share(ColumnCache* cache) {
     branch_.share(cache);
     cache_ = cache;
   }
-  // Rays launched between the first and the last of `angles`, finished; none within `core_edge` of the
-  // horizontal, which is one of the angles, as is its opposite.
+  // Finished arrivals of the rays launched between the first and the last of `angles`. Rays within
+  // `core_edge` of the horizontal are left out; that angle and its negative are among `angles`.
   std::vector<Arrival> run(const std::vector<double>& angles, double core_edge);
-  // All branches between them, wherever the receiver is; empty over a rough bottom.
+  // All branches between the angles, independent of the receiver's depth; empty over a rough bottom.
   std::optional<std::vector<Branch>> branches(const std::vector<double>& angles);
-  // After that: whether paths are weak by their own pressure rather than beside the strongest.
+  // To be called after run(): true when a path counts as weak by its own pressure, false when relative to the
+  // strongest path.
   bool is_weak_by_pressure() const { return windows_.is_by_pressure(); }
 
  private:
   std::vector<FanRay> traced(const std::vector<double>& angles);
-  // Of each ray of the fan, whether those on both sides tell where it arrives.
+  // For each ray of the fan, true when its neighbours predict where it arrives.
   std::vector<bool> predicted(const std::vector<FanRay>& fan) const;
-  // Of three neighbours in the fan, whether the one in the middle is where a cubic through the others has it;
-  // one right beside another says nothing.
+  // True when a cubic through rays `a` and `b` predicts the ray between them. A ray right beside another is
+  // no test and gives false.
   bool is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b) const;
-  // Whether rays diverge so much that each search for them would find others between.
+  // True when rays diverge so strongly that any search between two of them would find others in between.
   bool is_rough(const std::vector<FanRay>& fan) const;
-  // Between neighbours of the fan; `predicted`: those are that lie on a cubic through the rays on both sides.
+  // Searches between neighbours of the fan. `predicted` marks the rays that lie on a cubic through their
+  // neighbours.
   void search(const std::vector<FanRay>& fan, const std::vector<bool>& predicted, double core_edge);
-  // All rays between two; what is traced for it is forgotten. `error`: of a cubic, at one of the two.
+  // Searches between two rays and then forgets what was traced for it. `error` is that of a cubic at one of
+  // the two.
   void scan(const FanRay& a, const FanRay& b, int depth, double error = BranchSolver::kUnknownError);
   void look_between(const FanRay& a, const FanRay& b, int depth, double error);
-  // The same over a rough bottom: to where a window is narrow, or what lies in it weak.
+  // The same over a rough bottom: halving ends where a window of launch angles is narrow or its paths are
+  // weak.
   void look_into_window(const FanRay& a, const FanRay& b, int depth, double error);
+  // Splits the interval at the angle at which the event of index `event` changes, and searches both parts.
   void part(const FanRay& a, const FanRay& b, std::size_t event, int depth);
-  // From a ray to one at the edge of its family. Rays that all but graze the bottom there change the faster
-  // the less they bounce: they are looked at in steps that shrink towards the edge.
+  // Searches from a ray to one at the edge of its family. Rays that nearly graze the bottom there change the
+  // faster the closer they are to grazing, so the steps shrink towards the edge.
   void scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, int depth);
-  // A branch without a turn, or any: solved, or collected.
+  // Solves a branch, or collects it when collecting: one without a turn of zeta, or any.
   void take_monotone(const FanRay& a, const FanRay& b);
   void take(const FanRay& a, const FanRay& b);
   bool is_without_path(const FanRay& a, const FanRay& b, double error) const {
@@ -99,7 +109,7 @@ class ProfileSearch {
   const ArcTracer& tracer_;
   BranchSolver branch_;
   DiffuseWindows windows_;
-  double narrow_window_ = 0;  // rad; 0: the bottom is smooth
+  double narrow_window_ = 0;  // width below which a window is not divided, rad; 0: the bottom is smooth
   std::vector<Branch>* collected_ = nullptr;
   ColumnCache* cache_ = nullptr;
 };
