@@ -16,14 +16,15 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kOffBoundary = 1e-6;          // m, as in acoustics/rays/layered_path.cc
-constexpr std::uint64_t kTurnsFrom = 100'000;  // numbers of turns follow those of facets
-constexpr int kMaxSteps = 200'000;             // crossings of layers: a guard, never met
+constexpr std::uint64_t kTurnsFrom = 100'000;  // family numbers of turns follow those of facets
+constexpr int kMaxSteps = 200'000;             // layers crossed: a guard that is never reached
 
 }  // namespace
 
 struct ArcTracer::State : ArcPoint {
-  double q, p;    // the tube
-  double qx, px;  // the same for rays as they are reflected, facet by facet: the slope of zeta
+  double q, p;  // the ray tube
+  // The ray tube for rays as the facets reflect them, which gives the slope of zeta.
+  double qx, px;
   double orientation = 1, images = 0;  // o and k of zeta
 };
 
@@ -51,8 +52,9 @@ void ArcTracer::move_receiver(double depth_m) {
 }
 
 void ArcTracer::add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const {
-  // The arc is part of a circle of radius 1 / (xi g). With ds/dr = -xi g of the sine, delay = integral of xi
-  // dr / cos^2 = atanh(xi g dr / (1 - s1 s2)) / g, and length = 2 R asin(chord / 2 R).
+  // The arc is part of a circle of radius R = 1 / (xi g), along which the sine changes by ds/dr = -xi g:
+  //   delay  = integral of xi dr / cos^2 = atanh(xi g dr / (1 - s1 s2)) / g
+  //   length = 2 R asin(chord / (2 R))
   const double g = sea_.water.gradients_per_s()[s.layer], mix = 1 - s.sine * sine;
   const double chord = std::sqrt(dr * dr + (z - s.z) * (z - s.z));
   const double length = chord * asin_over(s.xi * g * chord / 2);
@@ -65,7 +67,8 @@ void ArcTracer::add_details(const State& s, double dr, double z, double sine, Tr
   if (s.sine * sine >= 0) {
     details.absorption_db +=
         length * mean_absorption(restricted(layer, u1, u2), std::abs(s.sine), std::abs(sine));
-  } else {  // through a turn: two ways, of lengths as their sines
+    // Through a turn: two pieces, with lengths in proportion to the sines at the ends.
+  } else {
     const double turn = (1 / s.xi - sea_.water.speeds_mps()[s.layer]) / g / height;
     const double share = std::abs(s.sine) / (std::abs(s.sine) + std::abs(sine));
     details.absorption_db +=
@@ -76,7 +79,8 @@ void ArcTracer::add_details(const State& s, double dr, double z, double sine, Tr
 
 void ArcTracer::add_to_track(const State& s, double dr, double z, double sine,
                              std::vector<RayPoint>& track) const {
-  // Depth bends by d2z/dr2 = -xi g / cos^3, so a chord of length dr leaves the arc by dr^2 xi g / (8 cos^3).
+  // The depth curves by d2z/dr2 = -xi g / cos^3, so a chord of length dr departs from the arc by
+  //   dr^2 xi g / (8 cos^3).
   constexpr double kMaxPieces = 32;
   const double g = sea_.water.gradients_per_s()[s.layer];
   const double cosine = std::sqrt(std::max(1 - std::max(s.sine * s.sine, sine * sine), kMinCosine));
@@ -91,8 +95,9 @@ void ArcTracer::add_to_track(const State& s, double dr, double z, double sine,
 }
 
 void ArcTracer::go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const {
-  // Dynamic ray tracing (Cerveny 2001; Jensen and others 2011, section 3.3): dq/ds = c p, dp/ds = -q c_nn /
-  // c^2. Where c is linear c_nn = 0: p stays and dq = p dr / xi.
+  // Dynamic ray tracing (Cerveny 2001; Jensen and others 2011, section 3.3):
+  //   dq/ds = c p,  dp/ds = -q c_nn / c^2
+  // Where c is linear c_nn = 0: p is constant and dq = p dr / xi.
   const double way = dr * s.per_xi, q = s.q + s.p * way;
   if (q * s.q < 0) ++ray.caustics;
   s.q = q;
@@ -111,7 +116,7 @@ void ArcTracer::cross_knot(State& s, bool down) const {
   const double before = sea_.water.gradients_per_s()[s.layer];
   s.layer = down ? s.layer + 1 : s.layer - 1;
   s.c = sea_.water.speeds_mps()[down ? s.layer : s.layer + 1];
-  // p loses q xi^2 (g2 - g1) / sin where the gradient jumps.
+  // Where the gradient jumps, p decreases by q xi^2 (g2 - g1) / sin.
   const double change = (sea_.water.gradients_per_s()[s.layer] - before) * (down ? 1 : -1);
   const double kink = s.xi * s.xi * change / std::max(std::abs(s.sine), kMinSine);
   s.p -= s.q * kink;
@@ -121,7 +126,7 @@ void ArcTracer::cross_knot(State& s, bool down) const {
 bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) const {
   const double g = sea_.water.gradients_per_s()[0], sine = std::max(std::abs(s.sine), kMinSine);
   s.c = sea_.water.speeds_mps()[0];
-  // The mirrored water has the gradient -g: a jump of 2 g.
+  // The mirrored water has the gradient -g, which is a jump of 2 g: p decreases by 2 q xi^2 g / sin.
   s.p -= 2 * s.q * s.xi * s.xi * g / sine;
   s.px -= 2 * s.qx * s.xi * s.xi * g / sine;
   s.sine = -s.sine;
@@ -130,19 +135,20 @@ bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) c
 }
 
 bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedDetails* details) const {
-  // The direction is mirrored at the reflecting slope (bounce_off), which gives xi' = cos(out) / c. The tube:
-  //   p' = p + q (g (xi + xi') cot G + 2 k / sin G) / c, G the grazing angle, k the bend of the bottom per
-  //   metre
-  // (Cerveny 2001, reflection at a curved boundary, in the plane of the ray).
+  // The direction is mirrored at the reflecting slope (bounce_off), which gives xi' = cos(out) / c. The tube
+  // changes as at a curved boundary in the plane of the ray (Cerveny 2001),
+  //   p' = p + q (g (xi + xi') cot G + 2 k / sin G) / c,
+  // with G the grazing angle and k the bend of the bottom per metre.
   const Facet& facet = sea_.profile.facets()[index];
   const double g = sea_.water.gradients_per_s()[s.layer], ct = s.xi * s.c, st = s.sine;
   const FacetBounce bounce = bounce_off(facet, s);
   const double sin_g = bounce.sine, cos_g = bounce.cosine, bend = bounce.bend_per_m;
   const double out_sine = bounce.out_sine, out_cosine = bounce.out_cosine;
   if (out_cosine < kMinCosine) return false;
-  // As the rays are: they meet the facet itself, and leave it at another angle than they came.
+  // The second tube is that of rays that meet the facet itself, at another angle than the one at which they
+  // leave.
   const double in_s = bounce.facet_sine, in_c = ct * facet.cosine + st * facet.sine;
-  // One division for all: it takes as long as a dozen products.
+  // A single division serves all quotients: it takes as long as a dozen products.
   const double sines = sin_g * in_s, per_all = 1 / (s.c * out_cosine * sines),
                per_sines = per_all * out_cosine;
   const double xi = per_sines * sines * out_cosine;
@@ -168,8 +174,8 @@ void ArcTracer::arrive(const State& s, double bottom_m, TracedRay& ray) {
   ray.xi = s.xi;
   ray.q = s.q;
   ray.p = s.p;
-  // zeta = o z + 2 H k; its slope is the tube's width along the vertical, q / cos, of rays as the facets
-  // reflect them.
+  // zeta = o z + 2 H k. Its slope is the width of the tube along the vertical, q / cos, for rays as the
+  // facets reflect them.
   ray.zeta = s.orientation * s.z + 2 * bottom_m * s.images;
   ray.zeta_slope = s.qx / std::sqrt(std::max(1 - s.sine * s.sine, kMinCosine * kMinCosine));
 }
@@ -179,7 +185,7 @@ ArcTracer::State ArcTracer::start(double theta, TracedRay& ray) const {
   const double sine = elementary::sin(theta), xi = elementary::cos(theta) / source_speed_,
                p = 1 / source_speed_;
   State s{{0, source_depth_, sine, xi, source_speed_, 1 / xi, source_layer_, source_facet_}, 0, p, 0, p};
-  // At a knot the layer is the one into which the ray goes.
+  // At a knot the layer is the one into which the ray runs.
   const bool rises = sine < 0 || (sine == 0 && sea_.water.gradients_per_s()[s.layer] > 0);
   if (s.z == sea_.water.depths_m()[s.layer] && rises) --s.layer;
   return s;
@@ -192,7 +198,7 @@ void ArcTracer::note_turn(bool lower, std::size_t layer, TracedRay& ray) {
 }
 
 void ArcTracer::go_part(State& s, double dr, TracedRay& ray, TracedDetails* details) const {
-  // ds/dr = -xi g; z2 - z1 = dr (s1 + s2) / (xi (c1 + c2)), c = cos / xi.
+  // ds/dr = -xi g; z2 - z1 = dr (s1 + s2) / (xi (c1 + c2)); c = cos / xi.
   const double sine = s.sine - s.xi * sea_.water.gradients_per_s()[s.layer] * dr;
   const double c = std::sqrt(std::max(1 - sine * sine, 0.0)) * s.per_xi;
   if (s.sine * sine < 0) note_turn(s.sine > 0, s.layer, ray);
@@ -264,7 +270,7 @@ void ArcTracer::trace_past(double theta, std::span<const double> ranges_m, const
     }
     if (next == ranges_m.size()) return;
     if (hits ? !go_to_bottom(s, hit, ray, &details) : !go_to_knot(s, step, ray, &details)) return;
-    ray.events.clear();  // copied at each range
+    ray.events.clear();  // they would be copied at each range
   }
 }
 

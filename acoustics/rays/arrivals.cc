@@ -16,18 +16,19 @@ namespace {
 
 using std::numbers::pi;
 
-// Nearer in both, two paths of one kind are the two sides of a fold that no receiver can resolve.
+// Limits below which, in both delay and angle, two paths of one kind are the two sides of a fold that no
+// receiver can resolve.
 constexpr double kMergedDelay = 1e-6;  // s
 const double kMergedAngle = to_radians(0.02);
 
-// What sorting looks at: paths themselves are large and are moved once.
+// Sort key: paths are large and are moved only once.
 struct Key {
   std::uint64_t kind;
   double launch_rad, delay_s;
   std::size_t index;
 };
 
-// All of an identity but its branch; counts are below 16 384.
+// All of an identity but its branch, packed; counts are below 16 384.
 std::uint64_t kind(const Arrival& path) {
   const PathIdentity& id = path.identity;
   std::uint64_t packed = id.launched_up ? 1 : 0;
@@ -42,8 +43,8 @@ bool are_one_fold(const Key& a, const Key& b) {
          std::abs(a.launch_rad - b.launch_rad) < kMergedAngle;
 }
 
-// Of an angle, 0..2 pi.
-// The stronger of the two, with the pressure of both: the sum of A e^(i (phi - 2 pi f t)) at the carrier f.
+// The stronger of two paths with the pressure of both, the sum at the carrier f:
+//   A e^(i (phi - 2 pi f t))
 Arrival merged(const Arrival& a, const Arrival& b, double frequency_hz) {
   const auto phasor = [frequency_hz](const Arrival& path) {
     return elementary::polar(path.amplitude,
@@ -57,7 +58,8 @@ Arrival merged(const Arrival& a, const Arrival& b, double frequency_hz) {
   return both;
 }
 
-// Keys of the paths that are kept, by kind and launch angle; paths of a fold become one.
+// Keys of the paths that are kept, sorted by kind and launch angle; the paths of an unresolved fold are
+// merged.
 std::vector<Key> keys_by_kind(std::vector<Arrival>& paths, const RayOptions& options) {
   std::vector<Key> keys, kept;
   keys.reserve(paths.size());
@@ -87,9 +89,9 @@ void number_branches(const std::vector<Key>& keys, std::vector<Arrival>& paths) 
   }
 }
 
-// Two rays of a fold next to each other, by their places among the paths, and where they are about it.
+// Two neighbouring rays of a fan that form a fold, by their indices among the paths, and their x.
 struct FoldPair {
-  std::size_t less, more;  // of the caustics touched
+  std::size_t less, more;  // the ray that has touched fewer caustics, and the other
   double x;
 };
 
@@ -118,7 +120,7 @@ std::vector<FoldPair> fold_pairs(const std::vector<Arrival>& paths, const std::v
   return pairs;
 }
 
-// Each ray has the field of the fold that is nearest to it.
+// Applies to each ray the field of the fold nearest to it.
 void apply_folds(std::vector<Arrival>& paths, const std::vector<FoldMember>& members, double frequency_hz) {
   std::vector<bool> done(paths.size(), false);
   for (const FoldPair& pair : fold_pairs(paths, members, frequency_hz)) {

@@ -12,23 +12,25 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kFirstStep = 1e-6;  // m/s: of the search for c*
-constexpr int kHalvings = 40;
+constexpr double kFirstStep = 1e-6;  // m/s: first step of the search for c*
+constexpr int kHalvings = 40;        // of the search
 
-// What a ray of greatest speed c* makes of a channel; not bounded where it meets surface or bottom.
+// The loop of a ray of greatest speed c* in a channel; not bounded when it meets surface or bottom.
 struct Swing {
   bool bounded = false;
   double loop_s = 0;  // J / omega
   double height_m = 0;
 };
 
-// Integral of sqrt(1/c^2 - 1/c*^2) dz over a height along which s^2 = 1 - (c/c*)^2 goes evenly from s1^2 to
-// s2^2, as it does where |c* - c| is far below c: (2 h / 3 c) (s1^2 + s1 s2 + s2^2) / (s1 + s2).
+// Integral of sqrt(1/c^2 - 1/c*^2) dz over a height along which s^2 = 1 - (c/c*)^2 changes linearly from s1^2
+// to s2^2, as it does for |c* - c| << c:
+//   (2 h / 3 c) (s1^2 + s1 s2 + s2^2) / (s1 + s2)
 double half_loop_s(double height_m, double speed, double s1, double s2) {
   const double sum = s1 + s2;
   return sum > 0 ? 2 * height_m / (3 * speed) * (s1 * s1 + s1 * s2 + s2 * s2) / sum : 0;
 }
 
+// Accumulates the loop of a ray layer by layer.
 class SwingSum {
  public:
   SwingSum(const RayWater& water, double greatest_speed) : water_(water), greatest_(greatest_speed) {}
@@ -40,7 +42,7 @@ class SwingSum {
     swing_.height_m += height_m;
     swing_.loop_s += 2 * half_loop_s(height_m, c1, sine_at(c1), sine_at(c2));
   }
-  // From `z` to where the ray turns, upward or downward; false when it meets `end_m` before.
+  // Adds the part from `z` to the turning point above or below; false when the ray meets `end_m` first.
   bool add_to_turn(double z, double end_m, bool down) {
     const auto& knots = water_.depths_m();
     double c = water_.speed_at(z);
@@ -70,6 +72,7 @@ class SwingSum {
   Swing swing_;
 };
 
+// The loop of the ray of greatest speed `greatest` around both ends.
 Swing swing_of(const RayWater& water, double bottom_m, double upper_m, double lower_m, double greatest) {
   SwingSum sum(water, greatest);
   const auto& knots = water.depths_m();
@@ -85,6 +88,7 @@ Swing swing_of(const RayWater& water, double bottom_m, double upper_m, double lo
   return sum.bounded();
 }
 
+// Greatest sound speed between two depths, m/s.
 double greatest_between(const RayWater& water, double upper_m, double lower_m) {
   double greatest = std::max(water.speed_at(upper_m), water.speed_at(lower_m));
   for (std::size_t knot = water.layer_at(upper_m) + 1; water.depths_m()[knot] < lower_m; ++knot)
@@ -114,7 +118,7 @@ std::optional<ChannelCore> channel_core(const RayWater& water, double bottom_m, 
     (is_core(at(middle)) ? inside : outside) = middle;
   }
   const Swing widest = at(inside);
-  // J = omega loop: kappa = 4 J c0 / (pi omega H^2).
+  // J = omega loop_s, so kappa = 4 J c0 / (pi omega H^2) = 4 loop_s c0 / (pi H^2).
   return ChannelCore{inside, 4 * widest.loop_s * inside / (pi * widest.height_m * widest.height_m)};
 }
 

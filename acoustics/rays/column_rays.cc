@@ -17,16 +17,17 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kZetaTolerance = 5e-3;   // m: the two cubics of a path
-constexpr double kSlopeTolerance = 4e-3;  // their slopes, of them
+constexpr double kZetaTolerance = 5e-3;   // m: zeta, between the two cubics of a path
+constexpr double kSlopeTolerance = 4e-3;  // relative: between the slopes of the two cubics
+// Seconds: slope of the delay over the span between the two paths; the error of the delay is an eighth of it.
 constexpr double kDelayTolerance =
     3e-7;                            // s: the slopes of delay over the span; an eighth of that is its error
-constexpr double kMostSpread = 0.1;  // of the two's spreading beside their slopes
-constexpr double kMostLossDb = 0.5;  // between the two, of bounces and of absorption
+constexpr double kMostSpread = 0.1;  // relative difference of the two paths' spreading over slope
+constexpr double kMostLossDb = 0.5;  // between the two paths, of bounces and of absorption
 constexpr double kMostPhaseRad = 0.3;
 constexpr double kMostSlack = 100, kMostDelaySlack = 10;
 
-// 1 / A^2 without the losses of bounces.
+// Spreading of a path: 1 / A^2 without the losses of bounces.
 double spreading(const Arrival& path) {
   return elementary::exp10(-path.bounce_loss_db() / 10) / (path.amplitude * path.amplitude);
 }
@@ -95,7 +96,7 @@ double PathChains::slack_of(const Node& a, const Node& b) const {
   return std::clamp(std::min(weakness(a), weakness(b)), 1.0, kMostSlack);
 }
 
-// Snell's xi is even between the two, whatever the water does there.
+// Snell's xi is interpolated linearly between the two nodes, whatever the profile does there.
 std::optional<PathChains::Direction> PathChains::arrival_between(const Node& a, const Node& b, double sine_a,
                                                                  double sine_b, double share) const {
   const double speed_mps = tracer_.water_at_receiver().speed_at(mixed(a.depth_m, b.depth_m, share));
@@ -134,7 +135,7 @@ std::optional<ProfilePath> PathChains::interpolated(const Node& a, const Node& b
   const auto arrival = arrival_between(a, b, sine_a, sine_b, share);
   if (!arrival) return std::nullopt;
   const HermiteCubic delay(one.delay_s, sine_a / a.speed_mps, other.delay_s, sine_b / b.speed_mps, height);
-  // The slope of what a cubic errs by is greatest near the quarters.
+  // The error of a cubic has its steepest slope near the quarters.
   for (const double part : {0.25, 0.75}) {
     const auto there = arrival_between(a, b, sine_a, sine_b, part);
     if (!there || std::abs(delay.slope(part) - there->sine / there->speed_mps * height) >
@@ -215,7 +216,7 @@ class ColumnRays::Column {
   FanTracer fan_;
   ColumnCache cache_;
   std::vector<double> angles_;
-  std::optional<std::vector<Branch>> branches_;  // over a bottom that is not rough
+  std::optional<std::vector<Branch>> branches_;  // empty over a rough bottom
 };
 
 ColumnRays::ColumnRays() = default;
@@ -223,7 +224,8 @@ ColumnRays::~ColumnRays() = default;
 
 std::vector<Arrival> ColumnRays::at(const ProfiledSea& sea, const RayLink& link) {
   validate(sea.options);
-  if (sea.core_speed_mps > 0) return profile_rays(sea, link);  // which rays are left out changes with depth
+  // The rays that are left out depend on the receiver's depth.
+  if (sea.core_speed_mps > 0) return profile_rays(sea, link);
   ProfiledSea wide = sea;
   if (!columns_.empty()) wide.options = widened(sea.options);
   auto column = std::find_if(columns_.begin(), columns_.end(), [&](const auto& one) {

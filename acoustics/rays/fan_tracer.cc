@@ -12,15 +12,17 @@ namespace {
 
 constexpr std::size_t kLossSteps = 64;
 constexpr double kMaxLossOfABounceDb = 400;
-constexpr double kKnotMargin = 1e-6;        // m: by which the bottom lies below a layer that is crossed whole
-constexpr double kGiveUpDb = 6;             // beyond what a path may lose
-constexpr int kMaxSteps = 200'000;          // arcs of one ray: a guard, never met
-constexpr std::size_t kUsualEvents = 4096;  // of one search
+constexpr double kKnotMargin = 1e-6;  // m by which the bottom has to lie below a layer that is crossed whole
+constexpr double kGiveUpDb = 6;       // margin on the loss of a path
+constexpr int kMaxSteps = 200'000;    // arcs per ray: a guard that is never reached
+constexpr std::size_t kUsualEvents = 4096;  // per search, for the first allocation
 
+// `sine` with its magnitude bounded below by kMinSine, for divisions by it.
 double away_from_zero(double sine) {
   return std::abs(sine) > kMinSine ? sine : std::copysign(kMinSine, sine);
 }
 
+// Value at `sine` of a table at evenly spaced sines 0..1, by linear interpolation.
 double interpolated(const std::vector<double>& table, double sine) {
   const double place = sine * static_cast<double>(kLossSteps);
   const std::size_t i = std::min(static_cast<std::size_t>(place), kLossSteps - 1);
@@ -30,12 +32,12 @@ double interpolated(const std::vector<double>& table, double sine) {
 }  // namespace
 
 struct FanTracer::State : ArcPoint {
-  double q, p;  // the tube of rays as they are reflected, facet by facet
+  double q, p;  // ray tube for rays as the facets reflect them: qx and px of arc_tracer.cc
   double theta;
   double orientation = 1, images = 0;  // o and k of zeta
   double loss_db = 0;
   int bounces = 0;
-  bool hits = false;  // `hit` is known already
+  bool hits = false;  // `hit` is already known
   ArcHit hit{};
 };
 
@@ -68,7 +70,7 @@ FanTracer::State FanTracer::start(double theta) const {
           0,
           1 / c,
           theta};
-  // At a knot the layer is the one into which the ray goes.
+  // At a knot the layer is the one into which the ray runs.
   const bool rises = sine < 0 || (sine == 0 && water_.gradients_per_s()[s.layer] > 0);
   if (s.z == water_.depths_m()[s.layer] && rises) --s.layer;
   return s;
@@ -97,9 +99,9 @@ void FanTracer::go_part(State& s, double dr) {
 bool FanTracer::bounce(State& s, const Facet& facet) const {
   const FacetBounce one = bounce_off(facet, s);
   if (one.out_cosine < kMinCosine) return false;
-  // The tube of rays as the facets reflect them: as qx and px of acoustics/rays/arc_tracer.cc.
+  // The ray tube for rays as the facets reflect them: qx and px of acoustics/rays/arc_tracer.cc.
   const double g = water_.gradients_per_s()[s.layer], ct = s.xi * s.c;
-  // One division for all: it takes as long as a dozen products.
+  // A single division serves all quotients: it takes as long as a dozen products.
   const double per_all = 1 / (s.c * one.facet_sine * one.out_cosine), per_in = per_all * one.out_cosine;
   const double xi = per_in * one.facet_sine * one.out_cosine;
   const double in_c = ct * facet.cosine + s.sine * facet.sine;
@@ -154,8 +156,8 @@ void FanTracer::stand_at_knot(State& s, std::size_t knot, bool down) const {
   s.facet = profile_.facet_from(s.facet, s.r);
 }
 
-// A ray that rises more steeply than the bottom does anywhere leaves it behind; within a layer its sine lies
-// between those at its ends.
+// A ray that rises more steeply than the bottom does anywhere cannot meet it. Within a layer the ray's sine
+// lies between those at the layer's ends.
 bool FanTracer::clears_bottom(double sine, double next_sine) const {
   return std::max(sine, next_sine) < -steepest_rise_;
 }
@@ -177,8 +179,9 @@ bool FanTracer::next_layer_is_whole(State& s, std::size_t knot, bool down) const
 }
 
 bool FanTracer::run_through_layers(State& s, std::size_t knot) {
-  // Between bounces at the bottom E = d xi / d theta = -(sin p + g xi^2 q) stays, and X = -q / sin grows by
-  // E d(dr)/dxi a layer (acoustics/rays/arcs/ray_column.h).
+  // Between bottom bounces (acoustics/rays/arcs/ray_column.h):
+  //   E = d xi/d theta = -(sin p + g xi^2 q) is constant,
+  //   X = -q / sin grows by E d(dr)/dxi in each layer.
   if (column_.xi() != s.xi) column_.set(s.xi);
   const double xi2 = s.xi * s.xi, sine_before = away_from_zero(s.sine);
   double turning = -(sine_before * s.p + water_.gradients_per_s()[s.layer] * xi2 * s.q);  // E
@@ -196,7 +199,7 @@ bool FanTracer::run_through_layers(State& s, std::size_t knot) {
       down = true;
     } else if (away || (!down && knot == 0)) {
       if (!meet_surface(s, column_.sine_at(0))) return false;
-      off = -off;  // the tube is seen unfolded, in the mirror
+      off = -off;  // the unfolded tube is mirrored at the surface
       turning = -turning;
       down = true;
     }

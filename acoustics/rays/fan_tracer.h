@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Traces the fan of rays among which a search brackets its eigenrays: fast, depth and its slope only.
+// Traces the fan of rays among which a search brackets its eigenrays; it computes only the depth of arrival
+// and its slope, and is fast.
 //
-// Model: that of acoustics/rays/arc_tracer.h, arc by arc, without step error; whole layers between two
-// bounces at the bottom come from a column (acoustics/rays/arcs/ray_column.h), all that lies above the
-// shallowest bottom as one excursion. Its zeta and d zeta/d theta are those of ArcTracer to rounding (1e-7 m
-// and 1e-7 of the slope over links of kilometres; more within a microradian of a ray that grazes). Rays that
-// lose 6 dB more than paths may are given up, by interpolated losses. Where the water changes along the link
-// rays are those of ArcTracer.
+// Model: that of acoustics/rays/arc_tracer.h, arc by arc, without step error. Whole layers between two bottom
+// bounces come from a column (acoustics/rays/arcs/ray_column.h), and everything above the shallowest bottom
+// is one excursion. zeta and d zeta/d theta are those of ArcTracer to rounding: 1e-7 m and 1e-7 of the slope
+// over links of kilometres, more within a microradian of a ray that grazes. A ray stops when its losses,
+// which are interpolated, exceed those of any path by 6 dB. For water that changes along the link, rays come
+// from ArcTracer.
 //
-// Keeps a column and the rays' events between calls: one for each search, not shared between threads.
+// The object keeps a column and the rays' events between calls: one per search, not shared between threads.
 #pragma once
 
 #include <cmath>
@@ -28,17 +29,19 @@
 
 namespace halocline::acoustics {
 
+// A ray of the fan.
 struct FanRay {
-  double theta = 0;                         // launch angle, rad, positive down
-  bool arrived = false;                     // false: too faint, turned back or too many bounces
-  double zeta = 0;                          // unfolded depth at the receiver's range, m
-  double zeta_slope = 0;                    // d zeta / d theta
-  double slowness = 0;                      // sin / c there, s/m
-  double loss_db = 0;                       // of the bounces
-  std::size_t first_event = 0, events = 0;  // of what happened to it; the tracer keeps that
+  double theta = 0;       // launch angle, rad, positive down
+  bool arrived = false;   // false: too faint, turned back or too many bounces
+  double zeta = 0;        // unfolded depth at the receiver's range, m
+  double zeta_slope = 0;  // d zeta / d theta, m/rad
+  double slowness = 0;    // sin / c at the receiver's range, s/m
+  double loss_db = 0;     // loss of all bounces
+  // Its events as kept by the tracer: index of the first, and number.
+  std::size_t first_event = 0, events = 0;
 };
 
-// Unfolded depth between two rays.
+// The unfolded depth between two rays as a cubic in the launch angle.
 inline HermiteCubic cubic_of(const FanRay& a, const FanRay& b) {
   return {a.zeta, a.zeta_slope, b.zeta, b.zeta_slope, b.theta - a.theta};
 }
@@ -47,12 +50,12 @@ inline double bend_between(const FanRay& a, const FanRay& b) {
   return std::abs((b.zeta_slope - a.zeta_slope) / (b.theta - a.theta));
 }
 
-// As if all between two rays were one fold.
+// The fold between two rays, as if the interval contained a single one.
 inline Fold fold_between(const FanRay& a, const FanRay& b) {
   const double width = b.theta - a.theta;
   return {(b.zeta_slope - a.zeta_slope) / width, (b.slowness - a.slowness) / width};
 }
-// At a ray between two, by parabolas.
+// The fold at a ray between two others, by linear interpolation of its two derivatives.
 inline Fold fold_at(const FanRay& a, const FanRay& middle, const FanRay& b) {
   const Fold before = fold_between(a, middle), after = fold_between(middle, b);
   const double t = (middle.theta - a.theta) / (b.theta - a.theta);
@@ -62,12 +65,12 @@ inline Fold fold_at(const FanRay& a, const FanRay& middle, const FanRay& b) {
 
 class FanTracer {
  public:
-  // Refers to the tracer, which has to outlive this.
+  // Refers to the tracer, which has to outlive this object.
   explicit FanTracer(const ArcTracer& exact);
 
   static constexpr std::size_t kAllEvents = std::numeric_limits<std::size_t>::max();
-  // Traces the ray of `theta` to the receiver's range, or until it has `enough_events`; then it has not
-  // arrived.
+  // Traces the ray launched at `theta` to the receiver's range, or until it has `enough_events` events; in
+  // the latter case it has not arrived.
   FanRay trace(double theta, std::size_t enough_events = kAllEvents);
   // The events of a ray of this tracer, in order.
   std::span<const EventCode> events_of(const FanRay& ray) const {
@@ -87,11 +90,13 @@ class FanTracer {
   [[nodiscard]] bool go_to_bottom(State& s, ArcHit hit);
   [[nodiscard]] bool bounce(State& s, const Facet& facet) const;
   [[nodiscard]] bool go_to_knot(State& s, const ArcStep& step);
-  // From a knot through whole layers to the last knot before the ray turns, meets the bottom or arrives.
+  // Moves from a knot through whole layers to the last knot before the ray turns, meets the bottom or
+  // arrives.
   [[nodiscard]] bool run_through_layers(State& s, std::size_t knot);
+  // Sets the state to the knot on the ray's way up or down.
   void stand_at_knot(State& s, std::size_t knot, bool down) const;
-  // Whether the ray crosses the layer beside `knot` from end to end. Near the bottom the state is brought to
-  // that knot.
+  // True when the ray crosses the layer beside `knot` from end to end. Near the bottom this moves the state
+  // to that knot.
   bool next_layer_is_whole(State& s, std::size_t knot, bool down) const;
   bool clears_bottom(double sine, double next_sine) const;
   [[nodiscard]] bool meet_surface(State& s, double sine);
@@ -102,11 +107,13 @@ class FanTracer {
   const RayWater& water_;
   const BottomProfile& profile_;
   RayColumn column_;
-  TracedRay traced_;                                         // a buffer
-  std::vector<EventCode> events_;                            // of all rays
-  double range_, shallowest_, max_loss_db_, steepest_rise_;  // of the bottom, sine
-  std::vector<double> bottom_loss_db_;                       // at sines 0..1, evenly
-  std::vector<double> surface_loss_db_;  // times the sine, which makes an even curve of the bubbles' 1 / sine
+  TracedRay traced_;               // scratch buffer for rays through a section
+  std::vector<EventCode> events_;  // those of all rays
+  // Steepest_rise_: greatest sine of the slope at which the bottom rises.
+  double range_, shallowest_, max_loss_db_, steepest_rise_;
+  std::vector<double> bottom_loss_db_;  // at evenly spaced sines 0..1
+  // Loss times sine, which is smooth even where bubbles give a loss proportional to 1 / sine.
+  std::vector<double> surface_loss_db_;
 };
 
 }  // namespace halocline::acoustics

@@ -12,12 +12,12 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr std::uint64_t kTurnOfSection = 100'000;  // numbers of turns follow those of facets
-constexpr int kMaxSteps = 1'000'000;               // of one ray: a guard, never met
+constexpr std::uint64_t kTurnOfSection = 100'000;  // family numbers of turns follow those of facets
+constexpr int kMaxSteps = 1'000'000;               // per ray: a guard that is never reached
 constexpr double kLongestStep = 15;                // m along the ray
 constexpr double kOnEdge = 1e-9;                   // m
-constexpr double kLeastShare = 1e-6;               // of a step: a turn nearer than that is behind
-constexpr int kMaxCorrections = 4;                 // of where a step ends: a guard, two suffice
+constexpr double kLeastShare = 1e-6;               // of a step: a turn closer than that has been passed
+constexpr int kMaxCorrections = 4;                 // of the end of a step: a guard, two suffice
 
 }  // namespace
 
@@ -26,12 +26,13 @@ struct SectionTracer::State {
   Carried ray;
   SectionCell cell;
   SpeedPatch patch;
-  double c, xi, sine, cosine;  // at the place
-  Stage first;                 // of the next step
+  double c, xi, sine, cosine;  // at the present place
+  Stage first;                 // first stage of the next step
   std::size_t facet;
   bool on_facet = false;
   double orientation = 1, images = 0;  // o and k of zeta
 
+  // Updates what depends on the place.
   void look() {
     c = patch.at(r, ray.z).c;
     sine = ray.s * c;
@@ -63,6 +64,8 @@ SectionTracer::Stage SectionTracer::stage(const SpeedPatch& patch, double r, con
           cosine * per_c};
 }
 
+// One step of the fourth-order Runge-Kutta scheme:
+//   y(r + dr) = y + dr (k1 + 2 k2 + 2 k3 + k4) / 6
 SectionTracer::Step SectionTracer::stepped(const State& s, double dr) {
   const auto moved = [&s](const Carried& d, double by) {
     const Carried& a = s.ray;
@@ -111,8 +114,8 @@ SectionTracer::State SectionTracer::start(double theta, TracedRay& ray) const {
   return s;
 }
 
-// By the cubic through depths and slopes at both ends, a millimetre off at most: on both sides of an edge
-// speed and gradient are the same. To the surface by Newton's method from there.
+// The depth is met by the cubic through depths and slopes at both ends of the step, to a millimetre; that
+// suffices at an edge, where speed and gradient are continuous. The surface is then met by Newton's method.
 SectionTracer::Step SectionTracer::until_depth(const State& s, const Step& step, double depth_m, Edge edge) {
   const HermiteCubic depths(s.ray.z, step.stages[0].slope.z, step.end.z, step.stages[3].slope.z, step.dr);
   Step part = stepped(s, step.dr * depths.crossing(depth_m));
@@ -128,8 +131,8 @@ SectionTracer::Step SectionTracer::until_depth(const State& s, const Step& step,
   return part;
 }
 
-// Along the circle through the step's ends (acoustics/rays/arcs/arc_steps.h), then by Newton's method to the
-// facet's line.
+// The bottom is met along the circle through the step's ends (acoustics/rays/arcs/arc_steps.h), then by
+// Newton's method on the facet's line.
 SectionTracer::Step SectionTracer::until_bottom(const State& s, const Step& step) const {
   const double sine = step.end.s / step.stages[3].per_c, curvature = (sine - s.sine) / step.dr;
   const ArcPoint at{s.r, s.ray.z, s.sine, s.xi, s.c, 1 / s.xi, 0, s.facet, s.on_facet};
@@ -169,7 +172,8 @@ SectionTracer::Step SectionTracer::next_step(const State& s) const {
 }
 
 void SectionTracer::add_details(const State& s, const Step& step, TracedDetails& details) const {
-  // The scheme's own mean of what changes with range alone: d tau = dr / (c^2 xi), length dr / (c xi).
+  // Quantities whose derivative depends on range alone, by the weights of the scheme:
+  //   d tau = dr / (c^2 xi),  d length = dr / (c xi)
   const auto mean = [&](const auto& of) {
     const auto& k = step.stages;
     return (of(k[0], 0) + 2 * (of(k[1], 0.5) + of(k[2], 0.5)) + of(k[3], 1)) / 6;
@@ -182,7 +186,7 @@ void SectionTracer::add_details(const State& s, const Step& step, TracedDetails&
       step.dr * mean([&](const Stage& k, double share) {
         return length(k, share) * section_.absorption_db_per_m(s.cell, s.r + share * step.dr, k.z);
       });
-  // A chord of 15 m is within 0.1 m of any ray that a gradient of 5 /s or less bends.
+  // A chord of 15 m stays within 0.1 m of a ray that is bent by a gradient of at most 5 1/s.
   if (details.track != nullptr) details.track->push_back({s.r + step.dr, step.end.z});
 }
 
@@ -214,7 +218,7 @@ bool SectionTracer::cross(State& s, const Step& step, TracedRay& ray, TracedDeta
 }
 
 bool SectionTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) const {
-  // The mirrored water has the gradient (a, -b): a jump of 2 b along the normal (0, -1).
+  // The mirrored water has the gradient (a, -b), which is a jump of 2 b along the normal (0, -1).
   const double sine = std::max(std::abs(s.sine), kMinSine);
   const double kink = 2 * s.patch.at(s.r, 0).down * s.cosine * s.cosine / (s.c * s.c * sine);
   s.ray.p -= s.ray.q * kink;
@@ -229,9 +233,10 @@ bool SectionTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, Tra
   const Facet& facet = profile_.facets()[index];
   const FacetBounce bounce = bounce_off(facet, {s.r, s.ray.z, s.sine, s.xi, s.c, 1 / s.xi, 0, index});
   if (bounce.out_cosine < kMinCosine) return false;
-  // As at the bottom of arc_tracer.cc, with u = g . n = b cos - a sin of the ray as it comes and u' as it
-  // goes in the place of g cos: p' = p + q ((u + u') cot G / c + 2 k / sin G) / c. Likewise for rays that
-  // meet the facet itself and leave it at another angle.
+  // As at the bottom in arc_tracer.cc. In place of g cos stands u = g . n = b cos - a sin, with the gradient
+  // (a, b), for the incident ray and u' for the reflected one:
+  //   p' = p + q ((u + u') cot G / c + 2 k / sin G) / c
+  // The second tube, qx and px, is that of rays that meet the facet itself and leave it at another angle.
   const LocalSpeed g = s.patch.at(s.r, s.ray.z);
   const double in = g.down * s.cosine - g.along * s.sine;
   const double out = g.down * bounce.out_cosine - g.along * bounce.out_sine;
@@ -269,7 +274,7 @@ void SectionTracer::trace(double theta, TracedRay& ray, TracedDetails* details) 
     const bool is_there = s.r + step.dr > ends_.range_m - kOnEdge;
     go(s, step, ray, details);
     if (s.cosine < kMinCosine) return;
-    // A step to the receiver may end at the bottom of the last facet before it: then the ray is reflected
+    // A step to the receiver may end at the bottom of the last facet before it; the ray is then reflected
     // first.
     if (is_there && step.edge != Edge::kBottom && !(step.edge == Edge::kAbove && s.cell.layer == 0))
       return arrive(s, ray);

@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Traces one ray through water that changes smoothly along the link, over a bottom that does.
+// Traces one ray through water that changes smoothly along the link, over a range-dependent bottom.
 //
-// Model: within a rectangle of acoustics/sea/ray_section.h sound speed is a polynomial. With s = sin / c the
-// vertical slowness and xi = sqrt(1 / c^2 - s^2) that along the link, Hamilton's equations in range (Jensen
-// and others 2011, section 3.2) are
+// Model. Within a rectangle of acoustics/sea/ray_section.h the sound speed is a polynomial. With the vertical
+// slowness s = sin / c and the slowness along the link xi = sqrt(1 / c^2 - s^2), Hamilton's equations in
+// range (Jensen and others 2011, section 3.2) are
 //   dz/dr = s / xi,  ds/dr = -c_z / (c^3 xi),  d tau/dr = 1 / (c^2 xi),
-// and dynamic ray tracing (Cerveny 2001; section 3.3 there), c_nn the second derivative across the ray,
+// and the equations of dynamic ray tracing (Cerveny 2001; section 3.3 of Jensen and others), with c_nn the
+// second derivative across the ray, are
 //   dq/dr = p / xi,  dp/dr = -q c_nn / (c^3 xi),  c_nn = c_rr sin^2 - 2 c_rz sin cos + c_zz cos^2.
-// Runge and Kutta's scheme of fourth order takes them along in steps of at most 15 m that end at edges
-// of rectangles, at turns and at boundaries, so that within a step all is analytic; the bottom is sought
-// along the circle through a step's ends, a millimetre off at most, and met by Newton's method. Speed and
-// gradient are the same on both sides of an edge: nothing happens to the tube there. The tube at boundaries
-// is that of acoustics/rays/arc_tracer.h.
+// The fourth-order Runge-Kutta scheme integrates them in steps of at most 15 m. Steps end at edges of
+// rectangles, at turns and at boundaries, so that all is analytic within a step. The bottom is found along
+// the circle through a step's ends, to a millimetre, and then met by Newton's method. Speed and gradient are
+// the same on both sides of an edge, so the ray tube does not change there. At boundaries it changes as in
+// acoustics/rays/arc_tracer.h.
 //
-// Error: 1e-8 s and 1e-3 dB over 6 km, for the section given. Immutable: calls may overlap between threads.
-// Left out: rays that turn back; gradients across the link, which turn rays out of its plane.
+// Error: 1e-8 s and 1e-3 dB over 6 km, for the given section.
+//
+// Thread rule: immutable; threads may call at the same time.
+//
+// Neglected: rays that turn back towards the source; gradients across the link, which would bend rays out of
+// its plane.
 #pragma once
 
 #include <array>
@@ -27,6 +32,7 @@
 
 namespace halocline::acoustics {
 
+// Ends of the link: depth of the source, range of the receiver and depth of the bottom there.
 struct SectionEnds {
   double source_depth_m, range_m, bottom_at_receiver_m;
 };
@@ -41,12 +47,12 @@ class SectionTracer {
   void trace(double theta, TracedRay& ray, TracedDetails* details) const;
 
  private:
-  // What the equations carry along; qx and px are the tube of rays as they are reflected, facet by facet: the
-  // slope of zeta.
+  // The variables of the equations. qx and px are the ray tube for rays as the facets reflect them, which
+  // gives the slope of zeta.
   struct Carried {
     double z, s, q, p, qx, px;
   };
-  // Its derivative along range, and where it was taken.
+  // Their derivatives along the range, and the place at which these were taken: depth, 1 / c and xi.
   struct Stage {
     Carried slope;
     double z, per_c, xi;
@@ -59,13 +65,14 @@ class SectionTracer {
   static Stage stage(const SpeedPatch& patch, double r, const Carried& at);
   static Step stepped(const State& s, double dr);
   Step next_step(const State& s) const;
-  // The step that ends at a depth above or below, within this one.
+  // The part of a step up to a depth above or below.
   static Step until_depth(const State& s, const Step& step, double depth_m, Edge edge);
+  // The part of a step up to the bottom, or all of it.
   Step until_bottom(const State& s, const Step& step) const;
   void go(State& s, const Step& step, TracedRay& ray, TracedDetails* details) const;
   void add_details(const State& s, const Step& step, TracedDetails& details) const;
   void enter(State& s, const SectionCell& cell) const;
-  // At the edge where a step has ended; false when the ray is given up there.
+  // Handles the edge at which a step has ended; false when the ray stops there.
   [[nodiscard]] bool cross(State& s, const Step& step, TracedRay& ray, TracedDetails* details) const;
   [[nodiscard]] bool meet_surface(State& s, TracedRay& ray, TracedDetails* details) const;
   [[nodiscard]] bool meet_bottom(State& s, std::size_t facet, TracedRay& ray, TracedDetails* details) const;

@@ -10,9 +10,9 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kGiveUpFactor = 0.25;  // of the least factor
+constexpr double kGiveUpFactor = 0.25;  // of the least boundary factor
 constexpr std::size_t kFactorSteps = 64;
-constexpr std::size_t kReservedEvents = 48;  // of one ray: its history rarely has to grow
+constexpr std::size_t kReservedEvents = 48;  // per ray, so that its list of events rarely grows
 
 }  // namespace
 
@@ -44,7 +44,7 @@ double BounceLosses::rough_bottom_factor(double sine) const {
   return bottom_factor_[i] + (place - static_cast<double>(i)) * (bottom_factor_[i + 1] - bottom_factor_[i]);
 }
 
-// Pressure release, V = -1, less the loss by wind.
+// A pressure release surface, V = -1, with the loss by wind and bubbles.
 bool BounceLosses::at_surface(double sine, TracedRay& ray, TracedDetails* details) const {
   ray.events.push_back({RayEvent::kSurface, 0});
   ray.family = continued_family(ray.family, 0);
@@ -59,7 +59,7 @@ bool BounceLosses::at_surface(double sine, TracedRay& ray, TracedDetails* detail
   return ray.factor >= min_factor_;
 }
 
-// Rayleigh's V (acoustics/sea/boundary_reflection.h).
+// Rayleigh's reflection coefficient V (acoustics/sea/boundary_reflection.h).
 bool BounceLosses::at_bottom(const Facet& facet, double sine, double speed_mps, TracedRay& ray,
                              TracedDetails* details) const {
   ray.events.push_back({RayEvent::kBottom, facet.smooth_group});

@@ -6,6 +6,7 @@
 // - U, from the upper end up to the upper turning point or the surface;
 // - S, from the upper to the lower end;
 // - D, from the lower end down to the lower turning point or the bottom.
+//
 // A ray with n whole cycles consists of
 //   2 (n + u) U + (2 n + 1) S + 2 (n + d) D,
 // where u and d, 0 or 1, give the directions in which it leaves and arrives. Range and its derivative are,
