@@ -20,16 +20,17 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kNoLessDb = 250;                 // of bounces: what is left of a path then counts nowhere
-constexpr double kWidening = 3;                   // of the loss searched, while no path is found
-constexpr double kStrongestMayLoseDb = 6;         // before losses are compared with its own
-constexpr double kLoudestFocus = 10;              // of a path's amplitude over that of spherical spreading
-constexpr int kBouncesThatTell = 40;              // of rays that are searched only to know why none is kept
-const double kNearlyVertical = to_radians(89.5);  // rays over a profile stop at 89.9 degrees
+constexpr double kNoLessDb = 250;          // loss of bounces beyond which a path is negligible everywhere
+constexpr double kWidening = 3;            // of the searched loss, per step, while no path is found
+constexpr double kStrongestMayLoseDb = 6;  // beyond it, losses are compared with that of the strongest path
+constexpr double kLoudestFocus = 10;       // greatest amplitude of a path over that of spherical spreading
+constexpr int kBouncesThatTell = 40;       // limit of the search that only finds out why no path is kept
+const double kNearlyVertical = to_radians(89.5);  // rays over a profile are traced up to 89.9 degrees
 
 double factor_of(double loss_db) { return elementary::exp10(-loss_db / 20); }
 
-// By received pressure, which is at most the amplitude; of paths that are not diffuse, if there is one.
+// The path of the greatest received pressure, which is at most the amplitude. Diffuse arrivals count only
+// when there are no others.
 const Arrival& strongest(const std::vector<Arrival>& paths) {
   const bool all_diffuse =
       std::all_of(paths.begin(), paths.end(), [](const Arrival& path) { return path.diffuse; });
@@ -45,7 +46,7 @@ const Arrival& strongest(const std::vector<Arrival>& paths) {
   return *best;
 }
 
-// One search: what depends on the options alone beside the sea and the link.
+// A search for the paths of one link; only the options change from one solver call to the next.
 class LinkSearch {
  public:
   LinkSearch(const RaySea& sea, const RayLink& link, RaySolver solver, SharedRays* shared)
@@ -58,9 +59,9 @@ class LinkSearch {
                   : channel_core(sea.water, sea.bottom_profile.shallowest_m(), link,
                                  sea.options.frequency_hz)) {}
 
-  // Within the limits, those on the bounces' loss relative to the strongest path.
+  // All paths within the limits. The limit on the loss of bounces is relative to the strongest path.
   std::vector<Arrival> paths() const;
-  // Why there are none.
+  // The reason why there are no paths.
   PathLack lack() const;
 
  private:
@@ -97,7 +98,7 @@ std::vector<Arrival> LinkSearch::solved(const RayOptions& options) const {
   return {};
 }
 
-// Rays over a profile are not followed where they all but stand: there the direct one is that of a flat sea.
+// Over a profile, nearly vertical rays are not traced. The direct ray is then that of a flat sea.
 void LinkSearch::add_vertical(const RayOptions& options, std::vector<Arrival>& paths) const {
   const double down = std::abs(link_.receiver_depth_m - link_.source_depth_m);
   if (solver_ != RaySolver::kArcs || elementary::atan2(down, link_.range_m) < kNearlyVertical) return;
@@ -112,7 +113,7 @@ void LinkSearch::add_vertical(const RayOptions& options, std::vector<Arrival>& p
                    [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
 }
 
-// In place of all rays within the core of a channel, unless a direct one runs outside of it.
+// Replaces all rays within the core of a channel by the axial ray, unless a direct ray runs outside the core.
 void LinkSearch::add_axial(std::vector<Arrival>& paths) const {
   std::erase_if(paths, [&](const Arrival& path) { return runs_within(*core_, path); });
   const bool is_direct = std::any_of(paths.begin(), paths.end(), [](const Arrival& path) {
@@ -132,7 +133,7 @@ std::vector<Arrival> LinkSearch::paths_with(const RayOptions& options) const {
   add_vertical(options, paths);
   if (core_) add_axial(paths);
   if (options.keep_steep_direct) return paths;
-  // The solvers find paths that do not bounce at every angle.
+  // The solvers find paths without bounces at every launch angle.
   std::erase_if(paths, [limit = options.max_launch_angle_rad](const Arrival& path) {
     return std::abs(path.launch_angle_rad) > limit;
   });
@@ -145,7 +146,7 @@ RayOptions LinkSearch::with_bounce_loss(double loss_db) const {
   return options;
 }
 
-// Of a path that the least amplitude leaves.
+// Greatest loss of bounces of a path that still reaches the least amplitude, dB.
 double LinkSearch::most_bounce_loss_db() const {
   if (sea_.options.min_amplitude <= 0) return kNoLessDb;
   const double spherical = kLoudestFocus / std::max(link_.range_m, kMinDistance);
@@ -186,7 +187,7 @@ PathLack LinkSearch::lack() const {
   return some_too_steep ? PathLack::kTooSteep : PathLack::kTooWeak;
 }
 
-// The link with its ends 1 m apart or more. What the bottom does within that metre is left out.
+// The link with its ends at least 1 m apart. Changes of the bottom within that metre are neglected.
 RayLink held_apart_over(const BottomProfile& bottom, const RayLink& link) {
   require_in_range(link.range_m, 0, 1e7, "range", "m");
   RayLink held = held_apart(link);

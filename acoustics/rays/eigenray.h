@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Eigenrays: the paths of sound between two points, by one of three exact solvers.
+// Eigenrays: the paths of sound between two points, found by one of three exact solvers.
 //
 //   const RayOptions options{.frequency_hz = 11'520};
 //   const RaySea sea{ray_water(environment, options.frequency_hz), BottomProfile::flat(100),
-//   *sediment("MediumSand"),
-//                    RaySurface{.wind_mps = 5}, options};
+//                    *sediment("MediumSand"), RaySurface{.wind_mps = 5}, options};
 //   const Arrivals found = arrivals(sea, {.source_depth_m = 30, .receiver_depth_m = 50, .range_m = 2000});
-//   for (const Arrival& path : found.paths) std::cout << path.delay_s << ' ' << path.received_pressure() <<
-//   '\n'; if (found.shadow()) std::cout << "no ray gets there\n";
+//   for (const Arrival& path : found.paths)
+//     std::cout << path.delay_s << ' ' << path.received_pressure() << '\n';
+//   if (found.shadow()) std::cout << "no ray gets there\n";
 //
-// Solvers: images (one sound speed, flat bottom: acoustics/rays/image_rays.h), Snell (water of depth alone,
-// flat bottom: acoustics/rays/layered_rays.h), arcs (any bottom profile: acoustics/rays/profile_rays.h). The
-// simplest that is exact is chosen; the user may name one instead. All are exact for the knots and facets
-// given; what each leaves out is in its header.
+// Solvers:
+// - images: one sound speed, flat bottom (acoustics/rays/image_rays.h);
+// - Snell: water that depends on depth alone, flat bottom (acoustics/rays/layered_rays.h);
+// - arcs: any bottom profile (acoustics/rays/profile_rays.h).
 //
-// Values, immutable: calls may overlap between threads. A link between two vehicles is searched from the
-// transmitter to the receiver; the other way has the same delays and amplitudes (with launch and arrival
-// angles exchanged and turned), but which rays the limit on the launch angle drops depends on the end they
-// leave from.
+// The simplest solver that is exact for a link is chosen unless the caller names one. All are exact for the
+// given knots and facets; the header of each states what it neglects.
+//
+// A link between two vehicles is searched from the transmitter to the receiver. The reverse link has the same
+// delays and amplitudes, with launch and arrival angles exchanged and reversed, but the limit on the launch
+// angle may drop other rays, because it applies at the end from which they leave.
+//
+// Thread rule: immutable values; threads may call at the same time.
 #pragma once
 
 #include <memory>
@@ -33,33 +37,36 @@
 
 namespace halocline::acoustics {
 
-// What rays depend on, along one link: ranges of the profile are from the source.
+// The sea along one link, with all that rays depend on. Ranges of the profile are measured from the source.
 struct RaySea {
   RayWater water;
   BottomProfile bottom_profile;
   FluidBottom bottom;
   RaySurface surface;
   RayOptions options;
-  // Water that changes along the link, whose first column is `water`; null: water of depth alone.
+  // Water that changes along the link and whose first column is `water`; null: the water depends on depth
+  // alone.
   std::shared_ptr<const RaySection> section = nullptr;
 };
 
-// The water of an environment at a frequency, Hz: 50 us for a profile of 15 rows, so keep it. With a
-// tolerance above 0, m/s, those of its knots are left out that linear interpolation between the others meets
-// to within it.
+// The water of an environment at a frequency, Hz. It takes 50 us for a profile of 15 rows, so callers should
+// keep it. A tolerance above 0, m/s, thins the profile: knots are left out that linear interpolation between
+// the others matches to within the tolerance.
 RayWater ray_water(const Environment& environment, double frequency_hz, double thinning_tolerance_mps = 0);
 
 // The simplest solver that is exact for this link.
 RaySolver choose_solver(const RaySea& sea, const RayLink& link);
 
-// All paths; none in a shadow zone, which is no error. Where no path is strong enough for the limits on
-// bounces, they are widened until there is one, to 250 dB of loss; why there is none in the end is found by
-// one more search. Depths of the link have to lie between surface and bottom, each at its range
-// (InvalidArgument otherwise), and the solver named has to be able to do it: images and Snell refuse what
-// they would get wrong. Between ends nearer than 1 m sound takes as long as the distance asks for, at the
-// level of 1 m.
-// Links from one end that share rays (acoustics/rays/column_rays.h, bearing_rays.h) do so where the solver is
-// arcs; the sea has to outlive them.
+// Returns all paths of a link; none in a shadow zone, which is not an error. When no path is strong enough
+// for the limits on bounces, the limits are widened until one is, up to 250 dB of loss; when there is none in
+// the end, one more search finds the reason (Arrivals::lack).
+//
+// The depths of the link have to lie between surface and bottom, each at its range, and a solver that is
+// named has to be exact for the link: images and Snell refuse other seas. Both throw InvalidArgument. Between
+// ends closer than 1 m the delay is that of the true distance and the level that at 1 m.
+//
+// Links with one common end can share rays through `shared` (acoustics/rays/column_rays.h, bearing_rays.h),
+// which takes effect when the solver is arcs. The sea then has to outlive `shared`.
 Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver = std::nullopt,
                   SharedRays* shared = nullptr);
 

@@ -9,19 +9,20 @@
 namespace halocline::acoustics {
 namespace {
 
-// How far the ends have moved: apart, and each down, m.
+// Displacement of the ends, m: the growth of the range, and of the depth of each end.
 struct Displacement {
   double apart, source_down, receiver_down;
 };
 
-// Angle of a straight ray of `angle_rad` and `length_m` once its end has moved: the direction of the moved
+// Angle of a straight ray of `angle_rad` and `length_m` after its end has moved: the direction to the moved
 // end.
 double turned(double angle_rad, double length_m, double apart_m, double down_m) {
   return elementary::atan2(length_m * elementary::sin(angle_rad) + down_m,
                            length_m * elementary::cos(angle_rad) + apart_m);
 }
 
-// The path with another length, of which one is within the metre where sound does not spread.
+// The path with another length, when the old or the new length lies within the metre in which sound does not
+// spread.
 Arrival grown_near_source(Arrival path, double length_m) {
   const double before_m = path.path_length_m;
   path.amplitude *= std::max(before_m, kMinDistance) / std::max(length_m, kMinDistance);
@@ -31,18 +32,20 @@ Arrival grown_near_source(Arrival path, double length_m) {
 }
 
 Arrival extrapolated(Arrival path, const EndSpeeds& speeds, const Displacement& moved) {
-  // Fermat: d tau = <cos / c> dr + sin(arrival) / c_r dz_r - sin(launch) / c_s dz_s.
+  // Fermat's principle:
+  //   d tau = <cos / c> dr + sin(arrival) / c_r dz_r - sin(launch) / c_s dz_s
   const double delay_s = path.delay_s, length_m = path.path_length_m;
   const double speed_mps = length_m > 0 ? length_m / delay_s : speeds.source_mps;
   const double gradient_s =
       path.range_slowness_spm * moved.apart +
       elementary::sin(path.arrival_angle_rad) / speeds.receiver_mps * moved.receiver_down -
       elementary::sin(path.launch_angle_rad) / speeds.source_mps * moved.source_down;
-  // Unfolded as the source sees it, the receiver's down is up after an odd number of bounces and turns.
+  // Unfolded as seen from the source, the receiver's downward direction is reversed by an odd number of
+  // bounces.
   const bool flipped = (path.surface_bounces + path.bottom_bounces) % 2 != 0;
   const double turn = flipped ? -1 : 1, down = turn * moved.receiver_down - moved.source_down;
-  // A spherical front of radius L about the source, c = L / tau, d the displacement:
-  // tau'^2 = (tau + d tau)^2 + (w / c)^2, w^2 = |d|^2 - (c d tau)^2.
+  // A spherical wavefront of radius L about the source, with c = L / tau and the displacement d:
+  //   tau'^2 = (tau + d tau)^2 + (w / c)^2,  w^2 = |d|^2 - (c d tau)^2
   const double along = speed_mps * gradient_s;
   const double across_squared = std::max(moved.apart * moved.apart + down * down - along * along, 0.0);
   path.delay_s =

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Extrapolates the arrivals of one link to another whose ends lie a little off, to first order: microseconds
-// a link.
+// Extrapolates the arrivals of one link to another whose ends are slightly displaced, to first order; it
+// takes microseconds per link.
 //
-// Model: the travel time's gradient is exact (Fermat): it grows by sin / c of the arrival angle per metre
-// that the receiver goes down, falls by that of the launch angle per metre of the source, and grows with the
-// range, when the bottom legs along with it, by the mean of cos / c over the range. The wave front that comes
-// in is taken for a sphere about the source as the path unfolds it, of radius path length L: with a
-// displacement of which w lies across the ray, tau' = sqrt((tau + gradient)^2 + (w / c)^2), c = L / tau.
-// Length and absorption grow as tau does, pressure falls so, but not within 1 m of the source; both angles
-// turn as that sphere's rays do.
+// Model. The gradient of the travel time is exact (Fermat's principle). The travel time grows by sin / c of
+// the arrival angle per metre that the receiver descends, falls by sin / c of the launch angle per metre that
+// the source descends, and grows per metre of range, if the bottom moves along with the receiver, by the mean
+// of cos / c over the range. The incoming wavefront is taken as a sphere about the source, as the unfolded
+// path sees it, with the path length L as its radius. For a displacement with the component w across the ray,
+//   tau' = sqrt((tau + gradient)^2 + (w / c)^2),  c = L / tau.
+// Length and absorption grow in proportion to tau, and pressure falls in proportion, except within 1 m of the
+// source. Both angles turn like the rays of that sphere.
 //
-// Exact in water of one speed over a level bottom. Else delays err by the square of the displacement d: below
-// d^2 / (c L) away from caustics; levels and angles by the first power, d / L, as focusing and bounces stay
-// those of the link that was searched. Where the bottom's slope is smoothed (acoustics/sea/bottom_profile.h),
-// its bends take part in the first power as well. Left out: paths that exist for one of the two links alone.
+// Error. The result is exact in water of one sound speed over a level bottom. Otherwise delays err by the
+// square of the displacement d, less than d^2 / (c L) away from caustics. Levels and angles err by the first
+// power, d / L, because focusing and bounces remain those of the original link. Where the bottom's slope is
+// smoothed (acoustics/sea/bottom_profile.h), its bends add an error of first power too. Neglected: paths that
+// exist for only one of the two links.
 //
-// Pure: calls may overlap between threads.
+// Thread rule: pure functions, which threads may call at the same time.
 #pragma once
 
 #include <vector>
@@ -24,12 +26,12 @@
 
 namespace halocline::acoustics {
 
-// Sound speeds, m/s, at the ends of the link that was searched.
+// Sound speeds, m/s, at the ends of the original link.
 struct EndSpeeds {
   double source_mps = 0, receiver_mps = 0;
 };
 
-// `found` are the arrivals of `from`; the result is those of `to` in the order of their delays.
+// Returns the arrivals of `to` in the order of their delays, given the arrivals `found` of the link `from`.
 std::vector<Arrival> extrapolate_arrivals(const std::vector<Arrival>& found, const RayLink& from,
                                           const EndSpeeds& speeds, const RayLink& to);
 

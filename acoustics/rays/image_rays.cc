@@ -17,11 +17,11 @@ namespace {
 
 using std::numbers::pi;
 
-// One image: its whole cycles n, and i and j of acoustics/rays/image_rays.h.
+// An image source: its number n of whole cycles, and i and j of acoustics/rays/image_rays.h.
 struct Image {
   int cycles;
   bool up, down;
-  double drop_m;  // vertical way
+  double drop_m;  // vertical distance to the image
 };
 
 // base^exponent for a small exponent >= 0.
@@ -33,6 +33,7 @@ double power(double base, int exponent) {
   return result;
 }
 
+// The sum over the images of one link.
 class ImageSum {
  public:
   ImageSum(const FlatSea& sea, const RayLink& link)
@@ -65,14 +66,15 @@ class ImageSum {
   }
 
  private:
-  // Vertical distance to the image: 2 (n + i) u + (2 n + 1) s + 2 (n + j) d (Jensen and others 2011, section
-  // 2.4).
+  // Vertical distance to the image (Jensen and others 2011, section 2.4):
+  //   2 (n + i) u + (2 n + 1) s + 2 (n + j) d
   Image image(int n, bool up, bool down) const {
     return {n, up, down,
             2.0 * (n + (up ? 1 : 0)) * up_ + (2.0 * n + 1) * between_ + 2.0 * (n + (down ? 1 : 0)) * down_};
   }
 
-  // Mean of the absorption between two depths, dB/m: Simpson's rule, exact for the parabola of one layer.
+  // Mean of the absorption between two depths, dB/m, by Simpson's rule, which is exact for the parabola
+  // within a layer.
   double mean_absorption_over(double top, double base) const {
     const RayWater& water = sea_.water;
     return (water.absorption_db_per_m(top) + 4 * water.absorption_db_per_m((top + base) / 2) +
@@ -81,7 +83,7 @@ class ImageSum {
   }
 
   double absorption_db(const Image& image, double length) const;
-  // False when this image and all after it are too steep or too faint.
+  // Adds an image; returns false when this image and all later ones are too steep or too faint.
   bool add(const Image& image);
   void set_phase(const Image& image, const Reflection& one, int surface, int bottom, Arrival& path) const;
 
@@ -95,7 +97,7 @@ class ImageSum {
 };
 
 double ImageSum::absorption_db(const Image& image, double length) const {
-  // A straight line takes each depth in proportion: legs u, s and d have their own means.
+  // A straight line covers all depths evenly, so the parts u, s and d each contribute their own mean.
   if (image.drop_m <= 0) return length * absorption_level_;
   const double u = 2.0 * (image.cycles + (image.up ? 1 : 0)) * up_, s = (2.0 * image.cycles + 1) * between_;
   const double d = 2.0 * (image.cycles + (image.down ? 1 : 0)) * down_;
@@ -107,15 +109,16 @@ bool ImageSum::add(const Image& image) {
   const int surface = image.cycles + (image.up ? 1 : 0), bottom = image.cycles + (image.down ? 1 : 0);
   const RayOptions& options = sea_.options;
   if (surface + bottom > options.max_bounces) return false;
-  // A straight line of length L = sqrt(r^2 + drop^2): delay L / c, pressure (-1)^surface V^bottom / L.
+  // A straight line of length L = sqrt(r^2 + drop^2) has the delay L / c and the pressure (-1)^surface
+  // V^bottom / L.
   const double length = std::max(std::sqrt(range_ * range_ + image.drop_m * image.drop_m), 1e-6);
   const double sine = image.drop_m / length;
   if (surface + bottom > 0 && sine > min_sine_) return false;
   const Reflection one = bottom > 0 ? bottom_reflection_at_sine(sea_.bottom, sine, speed_) : Reflection{};
   double factor = power(one.magnitude, bottom);
   if (factor < options.min_boundary_factor) {
-    // Steeper ones have more bounces; the coefficient has one least value at most, so the rest is fainter
-    // unless the steepest of all comes back up.
+    // Steeper images have more bounces. The reflection coefficient has at most one minimum, so all of them
+    // are fainter unless the coefficient at the steepest angle is greater again.
     return power(std::max(one.magnitude, steepest_factor_), bottom) >= options.min_boundary_factor;
   }
   const double angle = angle_of(image.drop_m, range_);

@@ -18,20 +18,24 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kCoarseness = 0.1;  // of the fan beside that of a search
+constexpr double kCoarseness = 0.1;  // of the fan, relative to the first fan of a search
+// Share of the ranges: if the bounce sequences of two rays differ at more, others lie between the two.
 constexpr double kDiffering =
     0.3;  // of the ranges: two rays whose histories differ at more have others between them
-constexpr int kHalvings = 2;         // of an interval of the fan
+constexpr int kHalvings = 2;         // halvings of an interval of the fan
 constexpr double kSameRange = 1e-3;  // m
-constexpr double kLeastSlope = 1;    // m: of a ray on a caustic
-constexpr double kLeastBend = 0.2;   // of slopes beside each other
-constexpr double kGoesOn = 0.3;  // of zeta between two rays: how far it may be from where their slopes lead
-constexpr double kTurned = 1;    // rad between the phases of two rays: beyond, that of the nearer
+constexpr double kLeastSlope = 1;    // m: lower bound of a ray on a caustic
+constexpr double kLeastBend = 0.2;   // lower bound of slopes, relative to those beside them
+// Share of zeta between two rays by which it may differ from where their slopes lead.
+constexpr double kGoesOn = 0.3;
+// Radians between the phases of two rays, beyond which the nearer ray's phase is taken.
+constexpr double kTurned = 1;
 
+// Linear interpolation from `a` to `b`.
 double mixed(double a, double b, double share) { return a + share * (b - a); }
 
-// No narrower than at a fold. tube_slope(0)^6 = 0.25 d2u^4 / (omega dp)^2 tells without roots where that is
-// far from so.
+// The slope of a ray tube, at least that at the fold. tube_slope(0)^6 = 0.25 d2u^4 / (omega dp)^2 tells
+// without roots when the slope is clearly greater.
 double held_wide(double slope, const Fold& fold, double frequency_hz) {
   const double square = slope * slope, bent = fold.curvature * fold.curvature;
   const double turned = 2 * pi * frequency_hz * fold.slowness_slope;
@@ -39,7 +43,7 @@ double held_wide(double slope, const Fold& fold, double frequency_hz) {
   return std::max(slope, fold.tube_slope(0, frequency_hz));
 }
 
-// Where rays differ by a turn alone zeta goes on.
+// True when zeta is continuous between two rays: they may differ by turns, but not by bounces.
 bool are_alike(const Arrival& a, const Arrival& b) {
   return a.surface_bounces == b.surface_bounces && a.bottom_bounces == b.bottom_bounces;
 }
@@ -116,7 +120,7 @@ Fold BearingRays::fold_between(const Ray& one, const Ray& other) {
   return {(other.zeta_slope - one.zeta_slope) / width, (other.slowness - one.slowness) / width};
 }
 
-// Of the ray `i` for an image beside it.
+// The path to an image beside the ray `i`.
 Arrival BearingRays::beside(const Range& range, std::size_t i, double target) {
   const Ray& ray = range.rays[i];
   Arrival path = ray.path;
@@ -127,7 +131,8 @@ Arrival BearingRays::beside(const Range& range, std::size_t i, double target) {
   return path;
 }
 
-// All but what depends on where between the two the image lies otherwise than evenly.
+// The mean of two arrivals, `share` of the way from one to the other, for all fields that are interpolated
+// linearly.
 Arrival BearingRays::mean_of(const Ray& one, const Ray& other, double share) {
   Arrival path = share < 0.5 ? one.path : other.path;
   const auto mix = [&](double Arrival::*field) {
@@ -144,7 +149,7 @@ Arrival BearingRays::mean_of(const Ray& one, const Ray& other, double share) {
   return path;
 }
 
-// Of the rays `b` and the one before it, between which zeta does not turn.
+// The path to an image between the rays `b` - 1 and `b`, between which zeta does not turn.
 Arrival BearingRays::between(const Range& range, std::size_t b, double target, double frequency_hz) {
   const Ray &one = range.rays[b - 1], &other = range.rays[b];
   const double zeta = range.places[b - 1].zeta, height = range.places[b].zeta - zeta;
@@ -155,7 +160,8 @@ Arrival BearingRays::between(const Range& range, std::size_t b, double target, d
   const HermiteCubic delay(one.path.delay_s, one.slowness, other.path.delay_s, other.slowness, height);
   const double along = (angle(share) - one.path.launch_angle_rad) / width;
   const double bend = angle.slope(share) / width;
-  // Where the cubic does not rise as the angles do, something lies between the two that they do not show.
+  // Where the cubic does not rise as the angles do, there is structure between the two rays that they do not
+  // show.
   const bool is_smooth = along > 0 && along < 1 && bend > kLeastBend;
   double slope = std::abs(is_smooth ? mean_slope / bend : mean_slope);
   slope = std::max(slope, kLeastBend * std::min(std::abs(one.zeta_slope), std::abs(other.zeta_slope)));
@@ -166,20 +172,20 @@ Arrival BearingRays::between(const Range& range, std::size_t b, double target, d
   return path;
 }
 
-// Of the rays `b` and the one before it, between which zeta turns: as a parabola about the turn
-// (acoustics/math/fold_field.h).
+// Adds the paths to an image near the fold between the rays `b` - 1 and `b`, with zeta a parabola about its
+// turn (acoustics/math/fold_field.h).
 void BearingRays::add_fold(const Range& range, std::size_t b, double target, double frequency_hz,
                            std::vector<Arrival>& paths) {
   const Ray &one = range.rays[b - 1], &other = range.rays[b];
   const double width = other.path.launch_angle_rad - one.path.launch_angle_rad;
   const Fold fold = fold_between(one, other);
-  const double at_turn = -one.zeta_slope / fold.curvature;  // rad after the first
+  const double at_turn = -one.zeta_slope / fold.curvature;  // rad from the first ray
   const double turn = range.places[b - 1].zeta + 0.5 * one.zeta_slope * at_turn;
   const double x = (target - turn) / std::copysign(fold.length_m(frequency_hz), fold.curvature);
   if (x < kDarkFold) return;
   const auto add = [&](double after, double slope) {
     Arrival path = mean_of(one, other, after / width);
-    // Delay and zeta at the ray itself, by the slowness half way from the nearer ray.
+    // Delay by the mean slowness between the nearer ray and the path.
     const Ray& nearer = after < 0.5 * width ? one : other;
     const double zeta = range.places[after < 0.5 * width ? b - 1 : b].zeta;
     path.delay_s =
