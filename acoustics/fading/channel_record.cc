@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kHighestRateHz = 1e7;
 
-// Rounding of a carrier and a rate leaves the edge of the band this share of its width aside.
+// Tolerance at the edges of the band, as a share of its width, for the rounding of carrier and rate.
 constexpr double kEdgeTolerance = 1e-9;
 
 std::string text_of(const Band& band) {

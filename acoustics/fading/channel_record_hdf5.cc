@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measured channels from HDF5 files. Part of the module halocline_channel_records.so, which only
-// channel_record_reader.cc loads.
+// Reads measured channels from HDF5 files. This file is part of the module halocline_channel_records.so,
+// which only channel_record_reader.cc loads.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -22,10 +22,11 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kOldestVersion = 1, kFirstUnknownVersion = 2;
-// Of a number in the file; HDF5 allocates what a damaged header claims.
+// Largest size of one number in a file. A limit is needed because HDF5 allocates whatever a damaged header
+// claims.
 constexpr std::size_t kMaxNumberBytes = 16;
 
-// An identifier of HDF5 that is closed by the function of its kind.
+// Owner of an HDF5 identifier, which it closes by the function for its kind.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -43,7 +44,7 @@ class Handle {
   Close close_;
 };
 
-// A dataset with its place, for messages.
+// A dataset, with its place in the file for messages.
 class Dataset {
  public:
   Dataset(hid_t file, const std::string& path, const std::string& name)
@@ -93,7 +94,7 @@ double read_number(hid_t file, const std::string& path, const std::string& name)
   return require_finite(value, set.place());
 }
 
-// The names of a complex number's parts in the file.
+// Names of the real and imaginary parts of a complex number in the file.
 std::pair<const char*, const char*> complex_names(const Dataset& set) {
   if (H5Tget_class(set.type()) == H5T_COMPOUND && H5Tget_size(set.type()) <= 2 * kMaxNumberBytes &&
       H5Tget_nmembers(set.type()) == 2) {
@@ -124,8 +125,8 @@ std::vector<std::complex<float>> read_taps(const Dataset& set, std::size_t recei
   return taps;
 }
 
-// Motion of the measured ends: of the record's duration and receivers, to the half instant that rounding
-// leaves.
+// Checks the size of the motion of the measured ends, if the file has it: it has to cover the record's
+// duration, within the half instant that rounding permits, and its receivers.
 void check_motion(hid_t file, const std::string& path, const std::string& name, const ChannelRecord& record,
                   hsize_t receivers) {
   if (!has(file, name)) return;
@@ -168,7 +169,8 @@ ChannelRecord read_record(const std::string& path, std::size_t receiver) {
           taps.place() + ": is of size " + taps.dimensions_text() + "; allowed are " +
               std::to_string(kMaxRecordDelays) + " delays and " + std::to_string(kMaxRecordTaps) +
               " values a receiver");
-  // Deflate makes a byte of 1032 at most; a damaged header claims what no file of its size holds.
+  // Deflate expands a byte to at most 1032 bytes; the check rejects sizes that a damaged header claims but no
+  // file of this size can contain.
   constexpr std::uintmax_t kMaxCompression = 1032;
   hsize_t file_bytes = 0;
   require(H5Fget_filesize(file.id(), &file_bytes) >= 0, path + ": has no size");

@@ -13,7 +13,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Normal quantiles of the middles of equal parts, as many in each stratum.
+// Table of normal quantiles at the midpoints of equal intervals of probability, with equally many per
+// stratum.
 constexpr std::size_t kQuantiles = 1024;
 constexpr std::size_t kInStratum = kQuantiles / ComplexNoise::kSines;
 
@@ -41,6 +42,7 @@ ComplexNoise::ComplexNoise(DrawAddress address) {
     sum += frequencies_[k];
   }
   const double mean = sum / kSines;
+  // Shifts the frequencies to mean 0 and scales them to rms 1.
   for (double& f : frequencies_) {
     f -= mean;
     squares += f * f;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bounds of what any link of a mean ratio delivers, however it fades: by which links that deliver nothing are
-// recognised before anything of them is computed.
+// Upper bounds of the delivery probability of a link with a given mean ratio, whatever its fading. Links that
+// deliver nothing are recognised by them before anything else of the link is computed.
 //
-// A power that sums many paths is spread most where it is one that is wholly scattered: exponentially
-// distributed. Large-scale fading multiplies it by 10^(X/10), X normal. Both are divided into intervals of
-// which the upper end counts.
+// Among all sums of paths, the power has the widest distribution when it is a single path that is wholly
+// scattered: the exponential distribution. Large-scale fading multiplies it by 10^(X/10) with X normal. Both
+// distributions are divided into intervals, each evaluated at its upper end.
 #pragma once
 
 #include <numbers>
@@ -15,10 +15,11 @@
 
 namespace halocline::acoustics {
 
-// The mean of `chance`, 0..1 and rising with the ratio, over an exponentially distributed one.
+// Upper bound of the mean of `chance(ratio)`, a function that rises with the ratio from 0 to 1, over an
+// exponential distribution of the ratio.
 template <typename Chance>
 double most_over_rayleigh_fading(double mean_sinr, Chance chance) {
-  constexpr int kIntervals = 14;  // of one mean each; what is beyond counts as certain
+  constexpr int kIntervals = 14;  // each as wide as the mean; `chance` counts as 1 beyond them
   double most = elementary::exp(-static_cast<double>(kIntervals));
   for (int i = 0; i < kIntervals; ++i) {
     const double share = elementary::exp(-static_cast<double>(i)) - elementary::exp(-(i + 1.0));
@@ -27,12 +28,13 @@ double most_over_rayleigh_fading(double mean_sinr, Chance chance) {
   return most;
 }
 
-// Over large-scale fading as well, whose mean is 1; without fading, the chance itself.
+// The same over large-scale fading of mean 1 as well; without fading, `chance` itself.
 template <typename Chance>
 double most_over_fading(const FadingModel& model, double mean_sinr, Chance chance) {
   if (!model.enabled) return chance(mean_sinr);
   if (!(model.large_scale_db > 0)) return most_over_rayleigh_fading(mean_sinr, chance);
-  constexpr double kStep = 0.25, kMost = 5;  // standard deviations; what is beyond (3e-7) counts as certain
+  // In standard deviations; `chance` counts as 1 beyond them (probability 3e-7).
+  constexpr double kStep = 0.25, kMost = 5;
   const double deviation = std::numbers::ln10 / 10 * model.large_scale_db;
   double most = 1 - normal_probability(kMost), below = 0;
   for (double z = -kMost + kStep; z <= kMost; z += kStep) {
@@ -44,6 +46,7 @@ double most_over_fading(const FadingModel& model, double mean_sinr, Chance chanc
 }
 
 // The mean ratio, -80..60 dB, below which `bound(mean ratio)`, which rises with it, is less than `least`.
+// Found by bisection to 0.01 dB.
 template <typename Bound>
 double least_mean_db(double least, Bound bound) {
   double low_db = -80, high_db = 60;

@@ -21,23 +21,24 @@ using Complex = std::complex<double>;
 using std::numbers::pi;
 constexpr std::size_t kSines = ComplexNoise::kSines;
 
-constexpr double kAngleScale = to_radians(4);  // so that paths within 2 degrees cross the same water
-// Weaker than this share of the mean power, a component of a path is left out of the sum of sines: 1e-5 dB.
+constexpr double kAngleScale = to_radians(4);  // rad: paths within 2 degrees cross the same water
+// Share of the mean power below which a component of a path is left out of the sum, an error of 1e-5 dB.
 constexpr double kNegligible = 1e-6;
-constexpr double kFarApart = 60;  // square of a distance at which nothing is shared: e^-30
+constexpr double kFarApart = 60;  // squared distance beyond which paths share nothing: e^-30
 
 std::uint64_t pair_of(const FadingLink& link) { return std::uint64_t{link.lower_id} << 32 | link.higher_id; }
 
 DrawAddress address_of(const FadingLink& link, std::string_view purpose, std::uint64_t path = 0) {
-  // The pair and the path do not fit into `who`: they become part of the seed.
+  // The pair and the path do not fit into `who`, so they become part of the seed.
   return {.seed = identity_of({link.seed, pair_of(link), path}), .purpose = purpose_of(purpose)};
 }
 
-// Place of a path in the water that its medium's fading is a function of.
+// Coordinates of a path in the random field of the medium, in the field's correlation lengths.
 struct MediumPlace {
   double delay, launch, arrival;
 };
 
+// Mean of the delays, weighted by power.
 double mean_delay_s(const std::vector<SoundPath>& paths) {
   double sum = 0, weight = 0;
   for (const SoundPath& path : paths) {
@@ -54,10 +55,10 @@ MediumPlace place_of(const SoundPath& path, double mean_delay_s, const Band& ban
   return {2 * band.width_hz() * (path.delay_s - mean_delay_s), launch / kAngleScale, arrival / kAngleScale};
 }
 
-// A sum of sines that steps from instant to instant: each sine turns by a constant factor.
+// A sum of complex exponentials that steps from instant to instant, each rotating by a constant factor.
 class TurningSines {
  public:
-  // Phases in cycles; `cycles_per_step` by which each turns.
+  // Sets term `k`: its phase in cycles, and the cycles by which it rotates per step.
   void set(std::size_t k, double phase, double cycles_per_step) {
     const double at = 2 * pi * (phase - std::floor(phase)), turn = 2 * pi * cycles_per_step;
     re_[k] = elementary::cos(at);
@@ -85,7 +86,7 @@ class TurningSines {
   std::array<double, kSines> re_{}, im_{}, turn_re_{}, turn_im_{};
 };
 
-// The medium's field: sines over time and place.
+// The random field of the medium: a sum of complex exponentials over time and coordinates.
 struct MediumField {
   ComplexNoise noise;
   std::array<std::array<double, 3>, kSines> wave_numbers;  // rad per unit of each coordinate
@@ -111,6 +112,7 @@ struct MediumField {
   }
 };
 
+// The scattered component of a path as a sum of complex exponentials.
 TurningSines scattered_sines(const FadingLink& link, const SoundPath& path, double time_s, double step_s) {
   const ComplexNoise noise(address_of(link, "fading-scattered", path.identity));
   TurningSines sines;
@@ -121,13 +123,13 @@ TurningSines scattered_sines(const FadingLink& link, const SoundPath& path, doub
   return sines;
 }
 
-// What the mean power of two paths together depends on, of each: products of these take the place of sines of
-// differences.
+// The quantities of one path that the cross terms of the mean power depend on. Products of sines and cosines
+// of single paths replace the sines of differences.
 struct CrossingPath {
-  double coherent, medium;      // pressures
+  double coherent, medium;      // pressures: sqrt(P c) and sqrt(P m)
   double cos_phase, sin_phase;  // at the centre of the band
-  double turns;                 // W (delay - mean delay), W the band's width
-  double cos_half, sin_half;    // of pi times that
+  double turns;                 // W (delay - mean delay), with W the band's width
+  double cos_half, sin_half;    // of pi times `turns`
   MediumPlace place;
 };
 
@@ -145,8 +147,10 @@ CrossingPath crossing_path(const SoundPath& path, double mean_delay_s, const Ban
           place_of(path, mean_delay_s, band, false)};
 }
 
-// Real part of the mean of h_p h_q* over the band: sqrt(P_p P_q) (sqrt(c_p c_q) + sqrt(m_p m_q) e^(-apart^2 /
-// 2)) cos(phase difference) sinc(W (delay difference)); 0 where it is at most `negligible`.
+// Cross term of two paths: the real part of the mean of h_p h_q* over the band,
+//   sqrt(P_p P_q) (sqrt(c_p c_q) + sqrt(m_p m_q) e^(-apart^2 / 2))
+//   cos(phase difference) sinc(W (delay_p - delay_q));
+// 0 where it is at most `negligible`.
 double cross_power(const CrossingPath& p, const CrossingPath& q, double negligible) {
   const double coherent = p.coherent * q.coherent, medium = p.medium * q.medium;
   if (coherent + medium < negligible) return 0;
@@ -183,8 +187,8 @@ std::vector<Complex> LinkFading::responses(const std::vector<SoundPath>& paths, 
   const double medium_spread_hz = doppler_spread_of(model_.medium_coherence_s);
   std::optional<MediumField> medium;
   for (const SoundPath& path : paths) {
-    // h = sqrt(P) 10^(X/20) (sqrt(c) e^(j phi) + e^(j phi) sqrt(m) g_m + sqrt(s) g_s): the medium turns what
-    // is coherent.
+    // The medium modulates the coherent component:
+    //   h = sqrt(P) 10^(X/20) (sqrt(c) e^(j phi) + e^(j phi) sqrt(m) g_m + sqrt(s) g_s)
     const PathFading& shares = path.fading;
     const double pressure = std::sqrt(to_power_ratio(path.level).value) * large_scale;
     const Complex phase = elementary::polar(1.0, path.phase_rad);

@@ -17,12 +17,12 @@ namespace {
 using Complex = std::complex<double>;
 using std::numbers::pi;
 
-constexpr double kLobes = 16;                        // of the sinc, to either side
-constexpr double kKeptPower = 0.999;                 // share of the mean power that the kept taps hold
-constexpr double kFirstTapPower = 0.01;              // of the strongest's: 20 dB below
-constexpr double kSameFromInstantToInstant = 1e-12;  // 1 - |R1| / R0 of a tap that stands still
+constexpr double kLobes = 16;                        // lobes of the sinc to either side
+constexpr double kKeptPower = 0.999;                 // share of the mean power in the kept taps
+constexpr double kFirstTapPower = 0.01;              // relative to the strongest tap: 20 dB below
+constexpr double kSameFromInstantToInstant = 1e-12;  // 1 - |R1| / R0 of a tap that does not change
 
-// Every tap of the band over all instants, from `first` samples after delay 0 on.
+// All taps of the band at all instants; the first tap lies `first` samples from delay 0.
 struct BandTable {
   std::ptrdiff_t first = 0;
   std::size_t taps = 0;
@@ -46,7 +46,7 @@ BandTable band_table(const ChannelRecord& record, const Band& band) {
     const auto to = static_cast<std::ptrdiff_t>(std::floor(place + kLobes));
     for (std::ptrdiff_t n = from; n <= to; ++n) {
       const Complex factor = turn * sinc(static_cast<double>(n) - place);
-      if (std::norm(factor) < 1e-24) continue;  // rounding of the sinc's zeros
+      if (std::norm(factor) < 1e-24) continue;  // rounding error at the sinc's zeros
       const auto tap = static_cast<std::size_t>(n - table.first);
       for (std::size_t i = 0; i < record.instants(); ++i) {
         table.values[i * table.taps + tap] += factor * Complex(record.taps[i * record.delays + k]);
@@ -56,12 +56,14 @@ BandTable band_table(const ChannelRecord& record, const Band& band) {
   return table;
 }
 
-// Of tap `n` of the table. Its delay and phase are set by the caller.
+// Statistics of tap `n` of the table. The caller sets its delay and phase.
 MeasuredTap statistics(const BandTable& table, std::size_t n, double time_rate_hz) {
   const std::size_t instants = table.values.size() / table.taps;
   const auto at = [&](std::size_t i) { return table.values[i * table.taps + n]; };
   Complex sum, next_product;
-  double between = 0, neighbours = 0;  // mean power with that of the lines in between; R0 without the seam
+  // The mean power with that of the linear interpolation in between, and R0 without the step from the last to
+  // the first instant.
+  double between = 0, neighbours = 0;
   for (std::size_t i = 0; i < instants; ++i) {
     const Complex a = at(i), b = at((i + 1) % instants);
     sum += a;
@@ -120,7 +122,7 @@ MeasuredChannel::MeasuredChannel(const ChannelRecord& record, const Band& band)
   for (std::size_t p = 0; p < kept.size(); ++p) {
     MeasuredTap tap = every[kept[p]];
     tap.delay_s = static_cast<double>(kept[p] - kept.front()) / band.width_hz();
-    // A path's response lacks exp(-j 2 pi f0 delay), which g has.
+    // A path's response does not include exp(-j 2 pi f0 delay), but g does.
     const double cycles = std::fmod(band.centre_hz() * tap.delay_s, 1.0);
     const Complex turn = elementary::polar(1.0, 2 * pi * cycles);
     tap.phase_rad = std::remainder(tap.phase_rad + 2 * pi * cycles, 2 * pi);

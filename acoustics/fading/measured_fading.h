@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A measured channel in the place of a link's fading paths.
+// Replaces a link's modelled fading paths by a measured channel.
 //
-// A link is somewhere else in the record than others: its own time 0 is drawn from (seed, pair of ends), and
-// both directions have the same. So a value is a function of (seed, pair, absolute time of arrival), like
-// acoustics/fading/link_fading.h. The channel's taps become paths: the first of them arrives when the
-// reference, a path of the modelled sea, does, with its angles and Doppler shift; powers are those of the
-// record, scaled to a level in all. Large-scale fading remains the model's, since a record of a minute holds
-// none. For predictions a tap is its steady mean and otherwise scattered. Left out: that the measured channel
-// belongs to another place than that of the link's ends.
+// Each link starts at another time in the record: its offset is drawn from (seed, pair of ends), and both
+// directions of a link share it. A value is therefore a function of (seed, pair, absolute time of arrival),
+// as in acoustics/fading/link_fading.h. The taps of the channel become paths. The first tap arrives when the
+// reference does, a path of the modelled sea, and all taps have the reference's angles and Doppler shift.
+// Powers are those of the record, scaled to a given total level. Large-scale fading comes from the model,
+// because a record of a minute contains none. For predictions, the steady mean of a tap is its coherent share
+// and the rest is scattered. Neglected: the measured channel belongs to another place than the ends of the
+// link.
 #pragma once
 
 #include <complex>
@@ -24,7 +25,7 @@
 
 namespace halocline::acoustics {
 
-// One path a tap, by delay; their powers sum to `level`.
+// One path per tap, by delay; their powers sum to `level`.
 std::vector<SoundPath> measured_paths(const MeasuredChannel& channel, const SoundPath& reference,
                                       Decibels level);
 
@@ -32,10 +33,10 @@ class MeasuredFading : public PathResponses {
  public:
   MeasuredFading(std::shared_ptr<const MeasuredChannel> channel, const FadingLink& link);
 
-  // Where in the record the link is at time 0, s, from 0 to its duration.
+  // The time in the record at which the link starts, s, from 0 to the record's duration.
   double offset_s() const { return offset_s_; }
 
-  // `paths` are all of measured_paths(), at any level.
+  // Responses of the paths. `paths` are all paths of measured_paths(), at any level.
   std::vector<std::complex<double>> responses(const std::vector<SoundPath>& paths, const Band& band,
                                               SimTime start, const FadingTimes& times,
                                               double large_scale) const override;

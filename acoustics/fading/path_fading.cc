@@ -18,7 +18,7 @@ using std::numbers::pi;
 using std::numbers::sqrt2;
 
 constexpr double kGravity = 9.81;        // m/s2
-constexpr double kSoundSpeedMps = 1500;  // of the wave number, as in Eckart's loss
+constexpr double kSoundSpeedMps = 1500;  // for the wave number, as in Eckart's loss
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void validate(const FadingModel& model) {
   require_in_range(model.bottom_roughness_m, 0, 1, "rms roughness of the bottom", "m");
 }
 
-// exp(-(2 pi B T)^2 / 2) = 1/e.
+// Solves exp(-(2 pi B T)^2 / 2) = 1/e for B.
 double doppler_spread_of(double coherence_s) { return 1 / (sqrt2 * pi * coherence_s); }
 
 double coherence_time_of(double doppler_spread_hz) {
@@ -38,8 +38,10 @@ double coherence_time_of(double doppler_spread_hz) {
                                : std::numeric_limits<double>::infinity();
 }
 
+// omega_m = omega_p / 0.71, omega_p = 0.877 g / U (Pierson and Moskowitz).
 double mean_wave_frequency_radps(double wind_mps) { return 0.877 * kGravity / wind_mps / 0.71; }
 
+// Gamma^2 = (2 k sigma sin(theta))^2, k = 2 pi f / c.
 double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_squares) {
   const double one = 2 * (2 * pi * frequency_hz / kSoundSpeedMps) * rms_height_m;
   return one * one * sine_squares;
@@ -54,6 +56,7 @@ PathFading path_fading(const FadingModel& model, double wind_mps, double frequen
   const double steady = elementary::exp(std::min(-surface - bottom - log_kept, 0.0));  // E / kept
   const double rice = to_power_ratio(Decibels{model.rice_factor_db}).value;
   PathFading fading;
+  // c = E K / (1 + K), m = E / (1 + K), s = 1 - E, with E / kept in place of E.
   fading.coherent = steady * rice / (1 + rice);
   fading.medium = steady / (1 + rice);
   fading.scattered = -elementary::expm1(std::min(-surface - bottom - log_kept, 0.0));

@@ -1,62 +1,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the power of one path is shared between what stays steady, what the water turns and what rough
-// boundaries scatter.
+// Fading of one path: the shares of its power that are steady, fluctuate with the water, or are scattered by
+// rough boundaries.
 //
 // Model, for a path of mean power P:
 //   h(t) = sqrt(P) 10^(X(t)/20) [sqrt(c) e^(j phi) + sqrt(m) g_m(t) + sqrt(s) g_s(t)],  c + m + s = 1
-// - Surface: Rayleigh parameter of bounce i, Gamma_i = 2 k sigma_h sin(theta_i), k at the centre frequency,
-//   sigma_h the rms height of Pierson and Moskowitz. Bottom alike with its own rms roughness. What stays
-//   coherent after all bounces is E = exp(-sum Gamma_i^2) of the power (Eckart 1953; Jensen, Kuperman, Porter
-//   and Schmidt 2011, section 1.6); the rest is scattered: s = 1 - E. What rough boundaries scatter out of
-//   the water is lost beforehand (scattering_loss.h).
-// - Medium: of the coherent power 1 / (1 + K) follows internal waves and fine structure, K the Rice factor
-//   (Qarabaqi and Stojanovic 2013): c = E K / (1 + K), m = E / (1 + K).
-// - Time: g_s and g_m are complex Gaussian with autocorrelation exp(-(2 pi B tau)^2 / 2). The surface moves
-//   with the mean frequency of the waves, omega_m = omega_p / 0.71, omega_p = 0.877 g / U (Pierson and
-//   Moskowitz), which spreads a path by B = omega_m / (2 pi) sqrt(sum Gamma_i^2) Hz rms. The medium's B is
-//   that of its coherence time; what is scattered crosses the same water, so both spreads add in square.
-// Left out: shadowing by wave crests, swell, motion of the ends over a rough bottom.
+// - Surface: the Rayleigh parameter of bounce i is Gamma_i = 2 k sigma_h sin(theta_i), with k the wave number
+//   at the centre frequency and sigma_h the rms wave height of Pierson and Moskowitz. The bottom is treated
+//   in the same way with its own rms roughness. After all bounces the share E = exp(-sum Gamma_i^2) of the
+//   power is coherent (Eckart 1953; Jensen, Kuperman, Porter and Schmidt 2011, section 1.6); the rest is
+//   scattered, s = 1 - E. Power that rough boundaries scatter out of the water is removed beforehand
+//   (scattering_loss.h).
+// - Medium: internal waves and fine structure modulate the share 1 / (1 + K) of the coherent power, with K
+//   the Rice factor (Qarabaqi and Stojanovic 2013): c = E K / (1 + K), m = E / (1 + K).
+// - Time: g_s and g_m are complex Gaussian with the autocorrelation exp(-(2 pi B tau)^2 / 2). The surface
+//   moves at the mean frequency of the waves, omega_m = omega_p / 0.71 with omega_p = 0.877 g / U (Pierson
+//   and Moskowitz), which spreads a path by B = omega_m / (2 pi) sqrt(sum Gamma_i^2) Hz rms. B of the medium
+//   follows from its coherence time. Scattered sound crosses the same water, so the squares of both spreads
+//   add.
+//
+// Neglected: shadowing by wave crests, swell, motion of the ends over a rough bottom.
 #pragma once
 
 namespace halocline::acoustics {
 
-// Numbers of the model; defaults are our choices unless a source is named.
+// Parameters of the model; defaults are our choices unless a source is named.
 struct FadingModel {
-  bool enabled = false;            // false: nothing fades, powers of paths add
+  bool enabled = false;            // false: nothing fades, and the powers of paths add
   double rice_factor_db = 10;      // K of the medium, -20..60
-  double medium_coherence_s = 20;  // time in which the medium's autocorrelation falls to 1/e, 0.1..1e6
-  double large_scale_db = 3;  // standard deviation of X, 0..20 (Qarabaqi and Stojanovic 2013: log-normal)
-  double large_scale_time_s = 120;   // correlation time of X, 0.1..1e6
-  double bottom_roughness_m = 0.02;  // rms height of the bottom, 0..1
-  bool scattering_loss = false;      // acoustics/fading/scattering_loss.h
+  double medium_coherence_s = 20;  // time in which the medium's autocorrelation falls to 1/e, s, 0.1..1e6
+  // Standard deviation of X, 0..20 dB (Qarabaqi and Stojanovic 2013: log-normal).
+  double large_scale_db = 3;
+  double large_scale_time_s = 120;   // correlation time of X, s, 0.1..1e6
+  double bottom_roughness_m = 0.02;  // rms height of the bottom, m, 0..1
+  bool scattering_loss = false;      // true: with the loss of acoustics/fading/scattering_loss.h
   bool operator==(const FadingModel&) const = default;
 };
 
-// Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
+// Throws InvalidArgument, naming the field, its value and the permitted range, unless every field is in
+// range.
 void validate(const FadingModel& model);
 
-// Shares of the power of one path, and the speed of its fading.
+// Shares of the power of one path, and the rate of its fading.
 struct PathFading {
   double coherent = 1, medium = 0, scattered = 0;  // their sum is 1
-  double doppler_spread_hz = 0;                    // rms, of the scattered part
+  double doppler_spread_hz = 0;                    // rms, of the scattered share
   bool operator==(const PathFading&) const = default;
 };
 
-// Spread of a process whose autocorrelation falls to 1/e within `coherence_s`, Hz rms: 1 / (sqrt(2) pi T).
+// Doppler spread of a process whose autocorrelation falls to 1/e within `coherence_s`, Hz rms:
+//   B = 1 / (sqrt(2) pi T)
 double doppler_spread_of(double coherence_s);
-// The inverse; infinity for 0.
+// Coherence time of a Doppler spread, s; infinity for 0.
 double coherence_time_of(double doppler_spread_hz);
 
 // Mean angular frequency of the waves under `wind_mps` > 0, rad/s.
 double mean_wave_frequency_radps(double wind_mps);
 
-// Sum of squared Rayleigh parameters, (2 k sigma)^2 sum sin^2(grazing angle), of bounces at a boundary of
-// that rms height.
+// Sum of the squared Rayleigh parameters of bounces at a boundary of that rms height:
+//   (2 k sigma)^2 sum of sin^2(grazing angle)
 double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_squares);
 
-// Fading of a path whose bounces have these sums of squared sines of the grazing angle
-// (acoustics/rays/arrivals.h), at `frequency_hz` > 0 under `wind_mps` >= 0; shares of what is `kept` of its
-// power (scattering_loss.h): E / kept is steady. A model that is not enabled leaves everything coherent.
+// Fading of a path at `frequency_hz` > 0 under `wind_mps` >= 0, given the sums over its bounces of the
+// squared sine of the grazing angle (acoustics/rays/arrivals.h). Shares refer to the share `kept` of the
+// power that scattering leaves (scattering_loss.h), so that E / kept is coherent. A model that is not enabled
+// leaves everything coherent.
 PathFading path_fading(const FadingModel& model, double wind_mps, double frequency_hz,
                        double surface_sine_squares, double bottom_sine_squares, double kept = 1);
 

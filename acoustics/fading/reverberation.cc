@@ -14,11 +14,11 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kSoundSpeedMps = 1500;
-constexpr double kLeastDecay = 7;  // nepers of power: 30 dB down, the tail ends
-// Numbers that no traced path has: it would bounce 16 383 times.
+constexpr double kLeastDecay = 7;  // nepers of power: the tail ends 30 dB down
+// First identity of the tail's paths; no traced path has such an identity, for it would bounce 16 383 times.
 constexpr std::uint64_t kTailIdentity = ~std::uint64_t{0} - kTailPaths;
 
-// Share of the power of one bounce that Lambert's law scatters: the integral of mu sin(theta) over the
+// Share pi mu of the power of a bounce that Lambert's law scatters: the integral of mu sin(theta) over the
 // hemisphere.
 double scattered_by_bounce(double scattering_db) {
   return std::numbers::pi * to_power_ratio(Decibels{scattering_db}).value;
@@ -32,6 +32,7 @@ void validate(const Reverberation& reverberation) {
   require_in_range(reverberation.bounce_loss_db, 0.01, 100, "loss of reverberation at a bounce", "dB");
 }
 
+// b = bounces per second times the loss in nepers, with c (2/3) sin(theta_c) / (2 D) bounces per second.
 double tail_decay_per_s(const Reverberation& reverberation, const Duct& duct) {
   // sin(theta_c) = sqrt(q); the mean sine of Lambert's angles below theta_c is 2/3 of it.
   const double bounces_per_s =
@@ -60,7 +61,8 @@ std::vector<SoundPath> with_reverberation(const Reverberation& reverberation, co
   const double step = elementary::acosh(1 + kLeastDecay / x) / kTailPaths;
   tail.fading = {.scattered = 1, .doppler_spread_hz = spread_hz};
   for (std::size_t k = 0; k < kTailPaths; ++k) {
-    // exp(-x (cosh u - 1)) du, by the middle of each of the equal steps of u.
+    // With t = t0 cosh u the power of a tail path is R exp(-x (cosh u - 1)) du, by the midpoint rule over
+    // equal steps of u.
     const double later = elementary::cosh((static_cast<double>(k) + 0.5) * step) - 1;
     tail.delay_s = begin_s * (1 + later);
     tail.level = to_decibels(PowerRatio{fed * elementary::exp(-x * later) * step});
