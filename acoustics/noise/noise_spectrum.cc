@@ -30,6 +30,7 @@ Decibels NoiseSpectrum::level(double frequency_hz) const {
   if (above == frequencies_hz_.end()) return {levels_db_.back()};
   const auto i = static_cast<std::size_t>(std::distance(frequencies_hz_.begin(), above));
   const double low = frequencies_hz_[i - 1], high = frequencies_hz_[i];
+  // Linear in the logarithm of the frequency.
   const double share = elementary::log10(frequency_hz / low) / elementary::log10(high / low);
   return {levels_db_[i - 1] + share * (levels_db_[i] - levels_db_[i - 1])};
 }

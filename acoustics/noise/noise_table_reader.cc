@@ -14,8 +14,9 @@
 namespace halocline::acoustics {
 namespace {
 
+// The rows of one time.
 struct Rows {
-  int line = 0;  // the first
+  int line = 0;  // number of the first line
   std::vector<double> frequencies_hz, levels_db;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ambient noise as a table by time and frequency, from a file.
+// Reads ambient noise by time and frequency from a table in a file.
 #pragma once
 
 #include <memory>
@@ -11,14 +11,15 @@
 
 namespace halocline::acoustics {
 
+// A noise spectrum and the time from which it applies.
 struct TimedSpectrum {
-  SimTime from;  // it holds until the next
+  SimTime from;  // it applies until the next one
   std::shared_ptr<const NoiseSpectrum> spectrum;
 };
 
-// A CSV with the columns t_s, frequency_khz and level_db (dB re 1 uPa^2/Hz), its rows by time, then by
-// frequency. At least one spectrum; the first also holds before its time. Throws InvalidArgument, with the
-// file and the line, where it cannot be read or is impossible.
+// Reads a CSV file with the columns t_s, frequency_khz and level_db (dB re 1 uPa^2/Hz), sorted by time, then
+// by frequency. Returns at least one spectrum; the first one also applies before its time. Throws
+// InvalidArgument, with the file and the line, when the file cannot be read or a value is out of range.
 std::vector<TimedSpectrum> read_noise_table(const std::string& path);
 
 }  // namespace halocline::acoustics

@@ -31,6 +31,7 @@ double burst_power(double exponent, std::uint64_t seed, std::uint32_t receiver, 
     return uniform_at(
         {.seed = seed, .purpose = purpose, .who = receiver, .which = static_cast<std::uint64_t>(burst)});
   };
+  // The logarithm of A = sin(a U) / sin(U)^(1 / a) (sin((1 - a) U) / W)^((1 - a) / a) (Kanter 1975).
   const double a = exponent / 2;
   if (a >= 1) return 1;
   const double u = std::numbers::pi * draw(kAngle), w = -elementary::log(draw(kSize));
