@@ -8,10 +8,10 @@ namespace halocline::acoustics {
 Airy airy(double z) {
   constexpr double kAi0 = 0.355028053887817239, kSlope0 = 0.258819403792806798;  // Ai(0), -Ai'(0)
   constexpr int kTerms = 22;
-  // f = sum of f_k z^3k and g = sum of g_k z^(3k + 1); the slope of each term is (3k) and (3k + 1) of it over
-  // z.
+  // Ai = Ai(0) f + Ai'(0) g and Bi = sqrt(3) (Ai(0) f - Ai'(0) g), with f = sum of f_k z^(3k) and g = sum of
+  // g_k z^(3k + 1). The derivative of a term is the term times (3k) / z and (3k + 1) / z.
   const double square = z * z, cube = z * square;
-  double f = 1, g = z, f_slope = 0, g_slope = 1, f_term = 1, g_term = 1;  // g's without its factor z
+  double f = 1, g = z, f_slope = 0, g_slope = 1, f_term = 1, g_term = 1;  // g_term: without its factor z
   for (int k = 0; k < kTerms; ++k) {
     const double f_ratio = 1.0 / ((3 * k + 2) * (3 * k + 3)), g_ratio = 1.0 / ((3 * k + 3) * (3 * k + 4));
     f_slope += f_term * square * f_ratio * (3 * k + 3);

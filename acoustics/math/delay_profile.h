@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moments of a delay profile: when the power of many paths arrives.
+// Moments of a delay profile: mean delay and delay spread of the power of many paths.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,16 @@
 namespace halocline::acoustics {
 
 struct WeightedDelay {
-  double delay_s, power;  // power in any unit, at least 0
+  double delay_s, power;  // power in any unit, >= 0
 };
 
 struct DelayMoments {
-  double mean_s = 0;    // sum of P t / sum of P; the first delay where there is no power
-  double spread_s = 0;  // rms about it, s^2 = sum of P (t - mean)^2 / sum of P
+  // Sum of P t / sum of P; the first delay when the power is 0.
+  double mean_s = 0;
+  double spread_s = 0;  // rms about the mean: s^2 = sum of P (t - mean)^2 / sum of P
 };
 
-// Of no path: zeros.
+// The moments of `paths`; zeros for an empty list.
 DelayMoments delay_moments(const std::vector<WeightedDelay>& paths);
 
 }  // namespace halocline::acoustics

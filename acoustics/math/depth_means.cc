@@ -14,7 +14,7 @@ namespace {
 
 using Terms = std::array<double, DepthMeans::kTerms>;
 
-// Chebyshev's points of the second kind, -cos(pi i / 9).
+// Chebyshev points of the second kind, x_i = -cos(pi i / 9).
 Terms chebyshev_points() {
   Terms points;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -23,8 +23,8 @@ Terms chebyshev_points() {
   return points;
 }
 
-// The powers of x of the polynomial through `values` at `points`: Newton's divided differences, multiplied
-// out.
+// Coefficients of the powers of x of the polynomial through `values` at `points`: Newton's divided
+// differences, multiplied out.
 Terms powers_through(const Terms& points, Terms values) {
   for (std::size_t order = 1; order < points.size(); ++order) {
     for (std::size_t i = points.size(); i-- > order;) {

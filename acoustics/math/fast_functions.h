@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exponential, logarithm, sine and cosine for inner loops, inline and without branches, so that compilers
-// make loops of them vectors: relative error of the first and absolute errors of the others below 1e-9. The
-// same bits on every machine with IEEE 754 arithmetic.
+// Exponential, logarithm, sine and cosine for inner loops. They are inline and free of branches, so that
+// compilers vectorise the loops. The relative error of the exponential and the absolute errors of the others
+// are below 1e-9. Results are the same to the last bit on every machine with IEEE 754 arithmetic.
 #pragma once
 
 #include <bit>
@@ -12,7 +12,7 @@
 
 namespace halocline::acoustics {
 
-// exp(x), x held within -700..700: x = n ln 2 + r, |r| <= ln 2 / 2, by the series of r.
+// exp(x), with x limited to -700..700: x = n ln 2 + r with |r| <= ln 2 / 2, and the series of exp(r).
 inline double fast_exp(double x) {
   using elementary::detail::kRound;
   const double low = x < -700 ? -700 : x, held = low > 700 ? 700 : low;
@@ -24,7 +24,7 @@ inline double fast_exp(double x) {
   return elementary::detail::times_power_of_two(series, rounded);
 }
 
-// ln(x), x a normal number above 0: x = 2^n (1 + f), by the series of f / (2 + f).
+// ln(x) of a normal number x > 0: x = 2^n (1 + f), and the series in f / (2 + f).
 inline double fast_log(double x) {
   const auto [n, f] = elementary::detail::split(x);
   const double s = f / (2 + f), s2 = s * s, s4 = s2 * s2;
@@ -33,7 +33,7 @@ inline double fast_log(double x) {
   return n * std::numbers::ln2 + 2 * s * series;
 }
 
-// exp(j x), |x| below 1e6: x = n pi / 2 + r, |r| <= pi / 4, by the series of r.
+// exp(j x) for |x| < 1e6: x = n pi / 2 + r with |r| <= pi / 4, and the series in r.
 struct FastTurn {
   double cosine, sine;
 };
@@ -52,11 +52,11 @@ inline FastTurn fast_turn(double x) {
   return {((quarter + 1) & 2) != 0 ? -cosine : cosine, (quarter & 2) != 0 ? -sine : sine};
 }
 
-// A ratio above 0 in dB, and the ratio of a level in dB.
+// The level in dB of a ratio above 0, and the ratio of a level in dB.
 inline double fast_decibels(double ratio) { return 10 / std::numbers::ln10 * fast_log(ratio); }
 inline double fast_power(double level_db) { return fast_exp(std::numbers::ln10 / 10 * level_db); }
 
-// What is left of x after whole periods, with its sign; |x / period| below 2^63.
+// The remainder of x after whole periods, with the sign of x; |x / period| below 2^63.
 inline double turned(double x, double period) {
   return x - period * static_cast<double>(static_cast<std::int64_t>(x / period));
 }

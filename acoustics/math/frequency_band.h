@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The frequencies at which integrals over a modem's band are taken.
+// Nodes and weights of integrals over a modem's band.
 //
-// Method: composite Gauss-Legendre, 16 nodes a panel unless stated. Noise, absorption and capacity are smooth
-// in the logarithm of frequency, so panels are equal there: each spans at most a ratio of kPanelRatio,
-// whatever the band. One panel over a whole band errs by 5e-4 in capacity; these err by less than 1e-10
-// (tests/acoustics/link/capacity_test.cc measures it).
+// Method: composite Gauss-Legendre quadrature with 16 nodes per panel unless stated otherwise. Noise,
+// absorption and capacity are smooth in the logarithm of frequency, so panels have equal ratios of
+// frequencies, at most kPanelRatio for any band. A single panel over a whole band errs by 5e-4 in capacity;
+// these panels err by less than 1e-10 (measured in tests/acoustics/link/capacity_test.cc).
 #pragma once
 
 #include <vector>
@@ -13,9 +13,10 @@
 
 namespace halocline::acoustics {
 
-inline constexpr double kPanelRatio = 1.08;  // highest over lowest frequency of one panel, at most
+// Greatest ratio of the highest to the lowest frequency of a panel.
+inline constexpr double kPanelRatio = 1.08;
 
-// Panels end here: the piecewise form of Thorp's absorption steps at this frequency.
+// A panel ends at this frequency, because the piecewise form of Thorp's absorption has a step there.
 inline constexpr double kThorpJointHz = 400;
 
 // A band of frequencies, Hz, 0 < low_hz < high_hz.
@@ -26,17 +27,18 @@ struct Band {
   double centre_hz() const { return (low_hz + high_hz) / 2; }
 };
 
-// The share of `of` that lies within `in`, 0..1: of sound spread evenly over the one band, that much of its
-// power lies in the other.
+// The share, 0..1, of the band `of` that lies within `in`: of the power of sound spread evenly over `of`,
+// this share lies in `in`.
 double band_share(const Band& of, const Band& in);
 
+// A node of the quadrature.
 struct FrequencyNode {
   double frequency_hz;
   double weight_hz;  // the weights of a band sum to its width
 };
 
-// Nodes from `low_hz` to `high_hz`, 0 < low_hz <= high_hz; rising frequency, those of `rule` in each panel. A
-// band of no width has weights of 0.
+// The nodes from `low_hz` to `high_hz`, 0 < low_hz <= high_hz, with rising frequency and the nodes of `rule`
+// in each panel. A band of zero width has weights of 0.
 std::vector<FrequencyNode> frequency_nodes(double low_hz, double high_hz, double panel_ratio = kPanelRatio,
                                            const GaussLegendreRule& rule = gauss_legendre_16());
 

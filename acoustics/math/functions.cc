@@ -16,8 +16,8 @@ double sinc(double x) { return std::abs(x) < 1e-9 ? 1 : elementary::sin(pi * x) 
 
 double normal_probability(double x) { return elementary::erfc(-x / sqrt2) / 2; }
 
-// Abramowitz and Stegun 1964, 26.2.23, to 4.5e-4, and Newton's steps from there. Boost's inverse is not used:
-// it calls the functions of the C library.
+// The approximation 26.2.23 of Abramowitz and Stegun 1964, to 4.5e-4, refined by Newton's method. The inverse
+// of Boost is not used, because it calls functions of the C library, whose last bits differ between machines.
 double normal_quantile(double probability) {
   if (probability > 0.5) return -normal_quantile(1 - probability);
   const double t = std::sqrt(-2 * elementary::log(probability));
@@ -30,14 +30,15 @@ double normal_quantile(double probability) {
   return z;
 }
 
-// P(k, x) = x^k e^-x / Gamma(k + 1) (1 + x / (k + 1) + x^2 / ((k + 1) (k + 2)) + ...).
+// The series P(k, x) = x^k e^-x / Gamma(k + 1) (1 + x / (k + 1) + x^2 / ((k + 1) (k + 2)) + ...).
 double gamma_probability(double k, double x) {
   double term = 1, sum = 1;
   for (double n = k + 1; term > 1e-17 * sum; ++n) sum += term *= x / n;
   return sum * elementary::exp(k * elementary::log(x) - x - elementary::lgamma(k + 1));
 }
 
-// Newton's steps for ln x from Wilson and Hilferty 1931, or, far below, from the first term of the series.
+// Newton's method for ln x. It starts from the approximation of Wilson and Hilferty 1931 or, for small
+// probabilities, from the first term of the series.
 double gamma_quantile_at(double k, double z) {
   const double probability = normal_probability(z);
   const double root = 1 - 1 / (9 * k) + z / (3 * std::sqrt(k));

@@ -24,7 +24,8 @@ LegendreValue legendre(int n, double x) {
   return {value, n * (x * value - before) / (x * x - 1)};
 }
 
-// The i-th root from above; the start is Tricomi's estimate, close enough for Newton to converge.
+// The i-th root from above. Newton's method starts at Tricomi's estimate, which is close enough for it to
+// converge.
 double legendre_root(int n, int i) {
   constexpr int kNewtonSteps = 12;  // quadratic convergence: 5 suffice for n = 64
   double x = elementary::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cubic through values and slopes at both ends of an interval: predicts a function within a cell of a
-// table, where it turns, and where it passes a value.
+// The cubic Hermite interpolant through values and slopes at both ends of an interval. It predicts a function
+// within a cell of a table, where the function turns, and where it passes a value.
 #pragma once
 
 #include <algorithm>
@@ -10,18 +10,18 @@
 
 namespace halocline::acoustics {
 
-// Over t = 0..1, which stands for an interval of width h: a + b t + c t^2 + d t^3.
+// The cubic a + b t + c t^2 + d t^3 over t = 0..1, which represents an interval of width h.
 class HermiteCubic {
  public:
-  // Values f0, f1 and slopes s0, s1 (per unit of the interval's own measure) at both ends.
+  // Values f0, f1 and slopes s0, s1 at both ends; slopes are per unit of the interval's own coordinate.
   HermiteCubic(double f0, double s0, double f1, double s1, double h)
       : a_(f0), b_(s0 * h), c_(3 * (f1 - f0) - (2 * s0 + s1) * h), d_(2 * (f0 - f1) + (s0 + s1) * h) {}
 
   double operator()(double t) const { return a_ + t * (b_ + t * (c_ + t * d_)); }
   double slope(double t) const { return b_ + t * (2 * c_ + t * 3 * d_); }
 
-  // How far the function is from it at t, by value and by slope: the larger of the error of the value
-  // and of what the error of the slope would make over an eighth of the width `h`.
+  // Error of the cubic at t, given the function's value and slope there: the larger of the error of the value
+  // and of the effect of the error of the slope over an eighth of the width `h`.
   double error_at(double t, double value, double slope_there, double h) const {
     return std::max(std::abs((*this)(t)-value), std::abs(slope(t) - slope_there * h) / 8);
   }
@@ -29,7 +29,7 @@ class HermiteCubic {
     return error_at(0.5, value, slope_there, h);
   }
 
-  // Where it turns strictly inside 0..1, rising: at most two places.
+  // The values of t strictly inside 0..1 at which the cubic turns, rising; at most two.
   struct Turns {
     std::array<double, 2> at{};
     int count = 0;
@@ -49,7 +49,7 @@ class HermiteCubic {
     return turns;
   }
 
-  // Its least and its greatest value over 0..1.
+  // Least and greatest value over 0..1.
   std::pair<double, double> extremes() const {
     std::pair<double, double> values = std::minmax(a_, (*this)(1));
     for (const double t : turns()) {
@@ -58,7 +58,7 @@ class HermiteCubic {
     return values;
   }
 
-  // The least |slope| over 0..1 of one that does not turn there.
+  // Least |slope| over 0..1 of a cubic that does not turn there.
   double least_slope() const {
     double least = std::min(std::abs(slope(0)), std::abs(slope(1)));
     const double bend = -c_ / (3 * d_);
@@ -66,7 +66,8 @@ class HermiteCubic {
     return least;
   }
 
-  // About where it passes `value`, 0..1, when its ends lie on both sides of it: a start for Newton's method.
+  // Approximate t in 0..1 at which the cubic passes `value`, which has to lie between the values at the ends.
+  // Meant as a start for Newton's method.
   double crossing(double value) const {
     const double end = (*this)(1);
     const bool rising = end > a_;
