@@ -28,12 +28,12 @@ double most_over_rayleigh_fading(double mean_sinr, Chance chance) {
   return most;
 }
 
-// The same over large-scale fading of mean 1 as well; without fading, `chance` itself.
+// Upper bound over large-scale fading of mean 1 as well; without fading, `chance` itself.
 template <typename Chance>
 double most_over_fading(const FadingModel& model, double mean_sinr, Chance chance) {
   if (!model.enabled) return chance(mean_sinr);
   if (!(model.large_scale_db > 0)) return most_over_rayleigh_fading(mean_sinr, chance);
-  // In standard deviations; `chance` counts as 1 beyond them (probability 3e-7).
+  // Step and limit in standard deviations; `chance` counts as 1 beyond them (probability 3e-7).
   constexpr double kStep = 0.25, kMost = 5;
   const double deviation = std::numbers::ln10 / 10 * model.large_scale_db;
   double most = 1 - normal_probability(kMost), below = 0;

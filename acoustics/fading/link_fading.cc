@@ -129,7 +129,7 @@ struct CrossingPath {
   double coherent, medium;      // pressures: sqrt(P c) and sqrt(P m)
   double cos_phase, sin_phase;  // at the centre of the band
   double turns;                 // W (delay - mean delay), with W the band's width
-  double cos_half, sin_half;    // of pi times `turns`
+  double cos_half, sin_half;    // cosine and sine of pi times `turns`
   MediumPlace place;
 };
 

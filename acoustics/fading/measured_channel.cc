@@ -22,7 +22,7 @@ constexpr double kKeptPower = 0.999;                 // share of the mean power 
 constexpr double kFirstTapPower = 0.01;              // relative to the strongest tap: 20 dB below
 constexpr double kSameFromInstantToInstant = 1e-12;  // 1 - |R1| / R0 of a tap that does not change
 
-// All taps of the band at all instants; the first tap lies `first` samples from delay 0.
+// The taps of the band at all instants; the first tap lies `first` samples from delay 0.
 struct BandTable {
   std::ptrdiff_t first = 0;
   std::size_t taps = 0;

@@ -40,7 +40,7 @@ class MeasuredChannel {
   // Throws InvalidArgument as validate(record), and unless the record covers the band.
   MeasuredChannel(const ChannelRecord& record, const Band& band);
 
-  const std::vector<MeasuredTap>& taps() const { return taps_; }  // by delay; never empty
+  const std::vector<MeasuredTap>& taps() const { return taps_; }  // sorted by delay; never empty
   double power() const { return power_; }                         // sum of the taps' powers
   double duration_s() const { return static_cast<double>(instants_) / time_rate_hz_; }
 

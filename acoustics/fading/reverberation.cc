@@ -61,8 +61,8 @@ std::vector<SoundPath> with_reverberation(const Reverberation& reverberation, co
   const double step = elementary::acosh(1 + kLeastDecay / x) / kTailPaths;
   tail.fading = {.scattered = 1, .doppler_spread_hz = spread_hz};
   for (std::size_t k = 0; k < kTailPaths; ++k) {
-    // With t = t0 cosh u the power of a tail path is R exp(-x (cosh u - 1)) du, by the midpoint rule over
-    // equal steps of u.
+    // The power of a tail path, by the midpoint rule over equal steps of u, where t = t0 cosh u:
+    //   R exp(-x (cosh u - 1)) du
     const double later = elementary::cosh((static_cast<double>(k) + 0.5) * step) - 1;
     tail.delay_s = begin_s * (1 + later);
     tail.level = to_decibels(PowerRatio{fed * elementary::exp(-x * later) * step});

@@ -16,8 +16,8 @@ struct SoundPath {
   double launch_angle_rad = 0;
   double arrival_angle_rad = 0;
   int surface_bounces = 0, bottom_bounces = 0;
-  double phase_rad = 0;        // of reflections and caustics, without the phase of the delay
-  std::uint64_t identity = 0;  // the same for both directions of a link and under small motions of its ends
+  double phase_rad = 0;        // phase of reflections and caustics, without the phase of the delay
+  std::uint64_t identity = 0;  // unchanged for both directions of a link and under small motions of its ends
   PathFading fading = {};
   bool diffuse = false;  // not one path but many weak ones in a window of angles (acoustics/rays/arrivals.h)
 };

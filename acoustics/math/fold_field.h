@@ -22,8 +22,7 @@ namespace halocline::acoustics {
 inline constexpr double kLitFold = 4;        // x beyond which plain ray theory holds, to 0.1 %
 inline constexpr double kMergedFold = 0.37;  // x below which the two rays are one path: Ai = Bi
 // x in the shadow beyond which there is no path: 31 dB below the greatest field.
-inline constexpr double kDarkFold =
-    -2.5;  // further in the dark there is no path, 31 dB below the greatest field
+inline constexpr double kDarkFold = -2.5;
 
 // x of the two rays of a fold that arrive `time_s` apart: x = (3/4 omega dt)^(2/3).
 double fold_place(double time_s, double frequency_hz);

@@ -63,7 +63,7 @@ TurningShare turning_at_knot(double x) {
 }
 
 double knot_widening(double change) {
-  // At x = 0 the phase is 16 / 105 2^(3/2) = 0.431 times `change`, and it grows with the power 3/2 of the
+  // The phase at x = 0 is 16 / 105 2^(3/2) = 0.431 times `change`, and it grows with the power 3/2 of the
   // width.
   constexpr double kMostPhase = 0.05, kPhase = 0.431;  // rad
   const double widest = 10;

@@ -116,7 +116,7 @@ void ArcTracer::cross_knot(State& s, bool down) const {
   const double before = sea_.water.gradients_per_s()[s.layer];
   s.layer = down ? s.layer + 1 : s.layer - 1;
   s.c = sea_.water.speeds_mps()[down ? s.layer : s.layer + 1];
-  // Where the gradient jumps, p decreases by q xi^2 (g2 - g1) / sin.
+  // The jump of the gradient: p decreases by q xi^2 (g2 - g1) / sin.
   const double change = (sea_.water.gradients_per_s()[s.layer] - before) * (down ? 1 : -1);
   const double kink = s.xi * s.xi * change / std::max(std::abs(s.sine), kMinSine);
   s.p -= s.q * kink;
@@ -185,7 +185,7 @@ ArcTracer::State ArcTracer::start(double theta, TracedRay& ray) const {
   const double sine = elementary::sin(theta), xi = elementary::cos(theta) / source_speed_,
                p = 1 / source_speed_;
   State s{{0, source_depth_, sine, xi, source_speed_, 1 / xi, source_layer_, source_facet_}, 0, p, 0, p};
-  // At a knot the layer is the one into which the ray runs.
+  // A ray that starts at a knot belongs to the layer into which it runs.
   const bool rises = sine < 0 || (sine == 0 && sea_.water.gradients_per_s()[s.layer] > 0);
   if (s.z == sea_.water.depths_m()[s.layer] && rises) --s.layer;
   return s;

@@ -28,7 +28,7 @@ struct Key {
   std::size_t index;
 };
 
-// All of an identity but its branch, packed; counts are below 16 384.
+// An identity without its branch, packed into one number; counts are below 16 384.
 std::uint64_t kind(const Arrival& path) {
   const PathIdentity& id = path.identity;
   std::uint64_t packed = id.launched_up ? 1 : 0;

@@ -64,7 +64,7 @@ struct Arrival {
   double bounce_loss_db() const { return surface_loss_db + bottom_loss_db; }
 };
 
-// The same angle within 0..2 pi, rad.
+// The angle reduced to 0..2 pi, rad.
 inline double positive_angle(double angle_rad) {
   constexpr double kTurn = 2 * std::numbers::pi;
   return angle_rad - kTurn * std::floor(angle_rad / kTurn);
@@ -85,7 +85,7 @@ enum class PathLack {
 // Name of the reason: "shadow", "too weak" or "too steep".
 std::string_view to_name(PathLack lack);
 
-// All paths of one link in the order of their delays.
+// The paths of one link in the order of their delays.
 struct Arrivals {
   RaySolver solver = RaySolver::kImages;  // the solver that found them
   std::vector<Arrival> paths;

@@ -13,7 +13,7 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kCubicTolerance = 0.015;    // of the water depth
+constexpr double kCubicTolerance = 0.015;    // relative to the water depth
 constexpr double kDepthTolerance = 1e-4;     // m: error before the last step of Newton's method
 constexpr double kLastStepTolerance = 1e-5;  // m: predicted error after it
 constexpr double kTurnTolerance = 1e-6;      // m: greatest distance of zeta from its turn
@@ -21,11 +21,9 @@ constexpr double kTurnTolerance = 1e-6;      // m: greatest distance of zeta fro
 // kSpanReach times the interval of depths that it spans.
 constexpr double kErrorReach = 2, kSpanReach = 0.2;
 // Margin on what a path may lose: no path lies between two rays of one bounce sequence that both exceed it.
-constexpr double kFaintDb =
-    3;  // beyond what a path may lose: no path lies between two such rays of one history
-// Of the Airy length: greatest distance of a fold from where zeta turns.
-constexpr double kFoldTolerance =
-    2e-3;  // of a length of Airy: how far a fold is at most from where zeta turns
+constexpr double kFaintDb = 3;
+// Greatest distance of a fold from the turn of zeta, relative to the Airy length.
+constexpr double kFoldTolerance = 2e-3;
 constexpr int kMaxTurnSteps = 40;
 
 }  // namespace

@@ -39,7 +39,7 @@ class BranchSolver {
   FanRay traced(double theta, std::size_t enough_events = FanTracer::kAllEvents);
   // Number of rays traced so far, without those of Newton's method.
   int traces() const { return traces_; }
-  // As the functions of FanTracer; events that the cache keeps are not dropped.
+  // Functions of FanTracer; forget_since() does not drop events that the cache keeps.
   std::size_t kept_events() const { return fan_.kept_events(); }
   void forget_since(std::size_t kept_events) {
     fan_.forget_since(cache_ != nullptr ? std::max(kept_events, cache_->kept_events()) : kept_events);
@@ -61,17 +61,17 @@ class BranchSolver {
   // the field of a fold beyond them.
   bool may_pass_image(const FanRay& a, const FanRay& b, double error) const;
 
-  // The same for an interval of zeta, m, between two rays whose zeta is a cubic.
+  // True when an image may lie within an interval of zeta, m, between two rays whose zeta is a cubic.
   bool may_pass_image(double low, double high) const {
     return images_.any_between(low - kNearFold * depth_, high + kNearFold * depth_);
   }
 
   // Finds all paths between two rays of one bounce sequence.
   void solve(const FanRay& a, const FanRay& b);
-  // The same where zeta is monotone.
+  // Finds the paths between two rays of one bounce sequence between which zeta is monotone.
   void solve_monotone(const FanRay& a, const FanRay& b);
 
-  // All paths found, finished.
+  // Returns all paths found, finished.
   std::vector<Arrival> finished() const { return folds_.finished(paths_); }
 
  private:

@@ -13,7 +13,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kFirstStep = 1e-6;  // m/s: first step of the search for c*
-constexpr int kHalvings = 40;        // of the search
+constexpr int kHalvings = 40;        // bisections of the search
 
 // The loop of a ray of greatest speed c* in a channel; not bounded when it meets surface or bottom.
 struct Swing {

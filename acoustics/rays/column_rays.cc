@@ -20,8 +20,7 @@ namespace {
 constexpr double kZetaTolerance = 5e-3;   // m: zeta, between the two cubics of a path
 constexpr double kSlopeTolerance = 4e-3;  // relative: between the slopes of the two cubics
 // Seconds: slope of the delay over the span between the two paths; the error of the delay is an eighth of it.
-constexpr double kDelayTolerance =
-    3e-7;                            // s: the slopes of delay over the span; an eighth of that is its error
+constexpr double kDelayTolerance = 3e-7;
 constexpr double kMostSpread = 0.1;  // relative difference of the two paths' spreading over slope
 constexpr double kMostLossDb = 0.5;  // between the two paths, of bounces and of absorption
 constexpr double kMostPhaseRad = 0.3;

@@ -68,7 +68,7 @@ class PathChains {
  private:
   struct Node {
     double depth_m, speed_mps;  // depth of the receiver, and the sound speed there
-    std::size_t receiver;       // its number in the order of receivers
+    std::size_t receiver;       // index in the order of receivers
     ProfilePath path;
   };
   // The paths to one image with one bounce sequence.
@@ -92,7 +92,7 @@ class PathChains {
 
   const ArcTracer& tracer_;
   std::vector<double> strongest_;  // received pressure of the strongest path at each receiver, re 1 m
-  std::unordered_map<std::int64_t, std::vector<Chain>> chains_;  // by image
+  std::unordered_map<std::int64_t, std::vector<Chain>> chains_;  // keyed by image
 };
 
 // Rays and paths that the searches for receivers at several depths of one place share.
@@ -105,11 +105,11 @@ class ColumnCache {
   // Refers to tracer and fan, which have to outlive this object.
   ColumnCache(const ArcTracer& tracer, FanTracer& fan) : tracer_(tracer), fan_(fan), chains_(tracer) {}
 
-  // As FanTracer::trace, but each ray is traced only once.
+  // Returns the ray of FanTracer::trace; each ray is traced only once.
   FanRay traced(double theta, std::size_t enough_events);
   // Events of the fan up to this number belong to rays that are kept.
   std::size_t kept_events() const { return kept_events_; }
-  // As diffuse_ray(), but each ray is traced only once.
+  // Returns the ray of diffuse_ray(); each ray is traced only once.
   std::optional<DiffuseRay> diffuse(double theta, std::size_t window);
   PathChains& chains() { return chains_; }
 
@@ -143,7 +143,7 @@ class ColumnRays : public SharedRays {
   ColumnRays(const ColumnRays&) = delete;
   ColumnRays& operator=(const ColumnRays&) = delete;
 
-  // As SharedRays::at; from call to call only the receiver's depth and the options change.
+  // Implements SharedRays::at; only the receiver's depth and the options may change from call to call.
   std::vector<Arrival> at(const ProfiledSea& sea, const RayLink& link) override;
 
  private:

@@ -73,7 +73,7 @@ bool DiffuseWindows::is_weak_branch(const FanRay& a, const FanRay& b) const {
   const double most = std::max(strength(a), strength(b));
   if (a.zeta_slope * b.zeta_slope > 0)
     return most * (b.theta - a.theta) < weak_power() * cubic_of(a, b).least_slope();
-  // Both rays of the fold, and the field around it.
+  // The bound covers both rays of the fold and the field around it.
   const double tube = fold_between(a, b).tube_slope(0, tracer_.sea().options.frequency_hz);
   return most * kFoldPeak < weak_power() * tube;
 }

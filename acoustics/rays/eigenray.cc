@@ -21,7 +21,7 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kNoLessDb = 250;          // loss of bounces beyond which a path is negligible everywhere
-constexpr double kWidening = 3;            // of the searched loss, per step, while no path is found
+constexpr double kWidening = 3;            // factor on the searched loss, per step, while no path is found
 constexpr double kStrongestMayLoseDb = 6;  // beyond it, losses are compared with that of the strongest path
 constexpr double kLoudestFocus = 10;       // greatest amplitude of a path over that of spherical spreading
 constexpr int kBouncesThatTell = 40;       // limit of the search that only finds out why no path is kept
@@ -59,7 +59,7 @@ class LinkSearch {
                   : channel_core(sea.water, sea.bottom_profile.shallowest_m(), link,
                                  sea.options.frequency_hz)) {}
 
-  // All paths within the limits. The limit on the loss of bounces is relative to the strongest path.
+  // Returns all paths within the limits. The limit on the loss of bounces is relative to the strongest path.
   std::vector<Arrival> paths() const;
   // The reason why there are no paths.
   PathLack lack() const;

@@ -70,7 +70,7 @@ FanTracer::State FanTracer::start(double theta) const {
           0,
           1 / c,
           theta};
-  // At a knot the layer is the one into which the ray runs.
+  // A ray that starts at a knot belongs to the layer into which it runs.
   const bool rises = sine < 0 || (sine == 0 && water_.gradients_per_s()[s.layer] > 0);
   if (s.z == water_.depths_m()[s.layer] && rises) --s.layer;
   return s;

@@ -37,7 +37,7 @@ struct FanRay {
   double zeta_slope = 0;  // d zeta / d theta, m/rad
   double slowness = 0;    // sin / c at the receiver's range, s/m
   double loss_db = 0;     // loss of all bounces
-  // Its events as kept by the tracer: index of the first, and number.
+  // The events of the ray as kept by the tracer: index of the first, and number.
   std::size_t first_event = 0, events = 0;
 };
 
@@ -108,7 +108,7 @@ class FanTracer {
   const BottomProfile& profile_;
   RayColumn column_;
   TracedRay traced_;               // scratch buffer for rays through a section
-  std::vector<EventCode> events_;  // those of all rays
+  std::vector<EventCode> events_;  // events of all rays
   // Steepest_rise_: greatest sine of the slope at which the bottom rises.
   double range_, shallowest_, max_loss_db_, steepest_rise_;
   std::vector<double> bottom_loss_db_;  // at evenly spaced sines 0..1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All eigenrays between two points of water of one sound speed over a flat bottom, by the method of images.
+// Eigenrays between two points of water of one sound speed over a flat bottom, by the method of images.
 //
 // Model (Jensen, Kuperman, Porter and Schmidt 2011, section 2.4). Surface and bottom act as mirrors, so each
 // path is a straight line to an image of the receiver. With u the depth of the upper end, s the difference in
@@ -16,7 +16,7 @@
 
 namespace halocline::acoustics {
 
-// All eigenrays of `link`, by rising delay. The water has to have one sound speed down to
+// Returns all eigenrays of `link`, by rising delay. The water has to have one sound speed down to
 // the bottom; otherwise throws InvalidArgument.
 std::vector<Arrival> image_rays(const FlatSea& sea, const RayLink& link);
 

@@ -21,7 +21,8 @@ using std::numbers::pi;
 // has a direction before and after it. It changes delays by at most 1e-9 s.
 constexpr double kOffBoundary = 1e-6;  // m
 
-constexpr double kFoldStep = 1e-6;  // of a bracket: spacing of the rays that give the curvature of a fold
+constexpr double kFoldStep =
+    1e-6;  // spacing, relative to a bracket, of the rays that give the curvature of a fold
 constexpr double kFoldTolerance = 1e-2;  // m: error of the range
 constexpr int kMaxFoldSteps = 30;
 
@@ -154,7 +155,8 @@ LayeredLink::LayeredLink(const FlatSea& flat_sea, const RayLink& link)
   };
   const double source = inside(link.source_depth_m);
   double receiver = inside(link.receiver_depth_m);
-  // At smaller differences of depth a direct ray in a layer of constant speed is horizontal to rounding.
+  // Depths that differ by less count as equal: a direct ray in a layer of constant speed is horizontal to
+  // rounding.
   constexpr double kSameDepth = 1e-5;  // m
   if (std::abs(source - receiver) < kSameDepth) receiver = source;
   source_is_upper = source <= receiver;

@@ -27,9 +27,8 @@ constexpr double kDarkReach = 4;          // Airy lengths: twice the distance at
 // Natural log of a factor: cells are skipped only when clearly below the least factor.
 constexpr double kMarginOfFactor = 0.7;
 
-// In f: margin on its change over a cell, beyond what its slopes allow.
-constexpr double kClearOfRays =
-    0.02;  // of f: less than that and its slopes allow it does not change in a cell
+// Margin on the change of f over a cell, beyond what its slopes allow.
+constexpr double kClearOfRays = 0.02;
 constexpr std::size_t kUsualPaths = 64;  // per link, for the first allocation
 
 // f = (r - b) / X of the four families and its slope, at one angle of one interval between barriers.
@@ -51,8 +50,7 @@ struct Bracket {
 struct Run {
   int number = 0;
   // True when the run begins with rays that are horizontal at that end of the link and turn back at once.
-  bool at_upper = false,
-       at_lower = false;  // it begins where rays are horizontal at that end and turn back at once
+  bool at_upper = false, at_lower = false;
 };
 
 // The search for all rays of one link.
@@ -163,7 +161,7 @@ Node Search::node_at(double theta) const {
   node.sums = legs_.sums(sine, cosine);
   for (std::size_t k = 0; k < kFamilies.size(); ++k) {
     const RangeTerms t = range_terms(node.sums, kFamilies[k]);
-    // With dxi/dtheta = -sin / c*:
+    // The equation for f and its derivative, with dxi/dtheta = -sin / c*:
     //   f = (r / xi - b_q) / X_q,  df/dtheta = (b_m + f X_m) tan(theta) / X_q
     // As the ray becomes vertical (xi -> 0), f grows without bound.
     node.f[k] = (r - node.sums.xi * t.bq) / (node.sums.xi * t.xq);
@@ -189,7 +187,7 @@ void Search::refine(const Node& a, const Node& b, int depth) {
     if (too_faint(a, b, k, least - 0.5)) continue;
     any = true;
     const double error = cubic_of(a, b, k).error_at_middle(middle.f[k], middle.slope[k], b.theta - a.theta);
-    // Where f is large its rays are many, and the cubic only has to keep them apart.
+    // A large f means many rays, which the cubic only has to keep apart.
     fits = fits && error <= kCubicTolerance * (1 + 0.05 * std::abs(middle.f[k]));
   }
   if (!any) return;

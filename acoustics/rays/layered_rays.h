@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All eigenrays between two points of water that depends on depth alone, over a flat bottom.
+// Eigenrays between two points of water that depends on depth alone, over a flat bottom.
 //
 // Method. Each of the four families of acoustics/rays/arcs/layered_legs.h solves
 //   b(xi) + n X(xi) = r,
@@ -38,8 +38,8 @@ struct FlatSea {
   double core_speed_mps = 0;  // rays that nowhere exceed it are left out: acoustics/rays/channel_core.h
 };
 
-// All eigenrays of `link`. Its depths lie within 0..bottom_depth_m; an end at a boundary is moved off it by a
-// micrometre.
+// Returns all eigenrays of `link`. Its depths lie within 0..bottom_depth_m; an end at a boundary is moved off
+// it by a micrometre.
 std::vector<Arrival> layered_rays(const FlatSea& sea, const RayLink& link);
 
 }  // namespace halocline::acoustics

@@ -21,17 +21,17 @@ constexpr double kBesideGrazing = 1e-9;  // rad: distance of the two rays of a f
 
 constexpr double kMinTube = 1e-9;  // m, of |q|: a ray on a caustic, to rounding
 
-constexpr double kLeastFoldShare = 0.5;  // of the predicted distance from a fold to its rays
-constexpr double kFoldMargin = 1.25;     // of the Airy length
-constexpr double kFoldStep = 1e-4;       // rad: distance of the rays that give the curvature of a fold
+constexpr double kLeastFoldShare =
+    0.5;  // least and, inverted, greatest share of the predicted distance from a fold to its rays
+constexpr double kFoldMargin = 1.25;  // factor on the Airy length
+constexpr double kFoldStep = 1e-4;    // rad: distance of the rays that give the curvature of a fold
 
 constexpr int kDiffuseBounces = 16'383;  // more than RayOptions::max_bounces allows
 
 constexpr double kSimplifiedWithin = 0.05;  // m
 constexpr double kTouched = 1e-3;           // m: a point this close to a boundary is a bounce
 // Metres of depth at the receiver: a ray with other turns and a greater error is not the path.
-constexpr double kMissed =
-    1;  // m of depth at the receiver: a ray of other turns and further off is not the path
+constexpr double kMissed = 1;
 
 // The point of a polyline between two others that lies furthest from the line through them.
 struct Detour {

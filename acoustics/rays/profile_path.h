@@ -96,8 +96,8 @@ class ProfileFolds {
   double length_m(const Fold& fold) const;
   // Notes a fold: unfolded depth turns at the ray launched at `theta`, near an image of the receiver.
   void note(double theta);
-  // All arrivals, finished. A receiver on the shadow side of a fold or close to it gets a single path; one
-  // further on the illuminated side gets two, with the fold's field.
+  // Returns all arrivals, finished. A receiver on the shadow side of a fold or close to it gets a single
+  // path; one further on the illuminated side gets two, with the fold's field.
   std::vector<Arrival> finished(const std::vector<ProfilePath>& paths) const;
 
  private:

@@ -21,16 +21,14 @@ constexpr int kDeepestHalving = 14;
 constexpr int kDeepestEdgeHalving = 10;   // towards rays that are too faint or turn back
 constexpr int kDeepestWindowHalving = 5;  // between rays that do not arrive
 constexpr double kFinestGraze = 1e-7;     // rad: closest approach to the ray that grazes
-constexpr double kGrazeStep = 1.0 / 6;    // of the distance to it, per step
+constexpr double kGrazeStep = 1.0 / 6;    // factor on the distance to it, per step
 // Share of the tolerance that the predictions of both rays of an interval may err by for the interval not to
 // be halved.
-constexpr double kShareBeforehand =
-    0.3;  // of the tolerance that rays beside an interval may err for the interval to need no look
+constexpr double kShareBeforehand = 0.3;
 constexpr int kMaxTraces = 200'000;  // per link: a guard against profiles of endless detail
 // Sum of the prediction errors between neighbours in the fan, in water depths, beyond which a bottom counts
 // as rough.
-constexpr double kRough =
-    28;  // of the depth, sum of how far neighbours in the fan are apart: more makes a bottom rough
+constexpr double kRough = 28;
 // Limits over a rough bottom.
 constexpr double kNarrowWindow = 3e-5;  // times depth over range, rad: narrower windows are not divided
 // Radians: narrower windows are not divided when the rays beside them are weak.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All eigenrays between two points of layered water over a range-dependent bottom.
+// Eigenrays between two points of layered water over a range-dependent bottom.
 //
 // Method. A fan of exactly traced rays (acoustics/rays/arc_tracer.h) brackets the eigenrays. Between two
 // neighbours of the same bounce sequence the unfolded depth zeta(theta) at the receiver's range is smooth
@@ -34,11 +34,11 @@
 
 namespace halocline::acoustics {
 
-// All eigenrays of `link`. Its depths lie between the surface and the bottom at both ends; an end at a
-// boundary is moved off it by a micrometre.
+// Returns all eigenrays of `link`. Its depths lie between the surface and the bottom at both ends; an end at
+// a boundary is moved off it by a micrometre.
 std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link);
-// All eigenrays between the ends of the tracer, with a first fan of `angles` such as launch_angles(). With a
-// cache, rays are shared with the searches for receivers at other depths of the same place.
+// Returns all eigenrays between the ends of the tracer, with a first fan of `angles` such as launch_angles().
+// With a cache, rays are shared with the searches for receivers at other depths of the same place.
 std::vector<Arrival> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::vector<double> angles,
                                   ColumnCache* cache);
 
@@ -69,7 +69,7 @@ class ProfileSearch {
   // Finished arrivals of the rays launched between the first and the last of `angles`. Rays within
   // `core_edge` of the horizontal are left out; that angle and its negative are among `angles`.
   std::vector<Arrival> run(const std::vector<double>& angles, double core_edge);
-  // All branches between the angles, independent of the receiver's depth; empty over a rough bottom.
+  // Returns all branches between the angles, independent of the receiver's depth; empty over a rough bottom.
   std::optional<std::vector<Branch>> branches(const std::vector<double>& angles);
   // To be called after run(): true when a path counts as weak by its own pressure, false when relative to the
   // strongest path.
@@ -91,8 +91,8 @@ class ProfileSearch {
   // the two.
   void scan(const FanRay& a, const FanRay& b, int depth, double error = BranchSolver::kUnknownError);
   void look_between(const FanRay& a, const FanRay& b, int depth, double error);
-  // The same over a rough bottom: halving ends where a window of launch angles is narrow or its paths are
-  // weak.
+  // Searches between two rays over a rough bottom: halving ends where a window of launch angles is narrow or
+  // its paths are weak.
   void look_into_window(const FanRay& a, const FanRay& b, int depth, double error);
   // Splits the interval at the angle at which the event of index `event` changes, and searches both parts.
   void part(const FanRay& a, const FanRay& b, std::size_t event, int depth);

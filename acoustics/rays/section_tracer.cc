@@ -16,8 +16,8 @@ constexpr std::uint64_t kTurnOfSection = 100'000;  // family numbers of turns fo
 constexpr int kMaxSteps = 1'000'000;               // per ray: a guard that is never reached
 constexpr double kLongestStep = 15;                // m along the ray
 constexpr double kOnEdge = 1e-9;                   // m
-constexpr double kLeastShare = 1e-6;               // of a step: a turn closer than that has been passed
-constexpr int kMaxCorrections = 4;                 // of the end of a step: a guard, two suffice
+constexpr double kLeastShare = 1e-6;               // share of a step: a turn closer than that has been passed
+constexpr int kMaxCorrections = 4;                 // Newton steps to the end of a step: a guard, two suffice
 
 }  // namespace
 
@@ -233,8 +233,8 @@ bool SectionTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, Tra
   const Facet& facet = profile_.facets()[index];
   const FacetBounce bounce = bounce_off(facet, {s.r, s.ray.z, s.sine, s.xi, s.c, 1 / s.xi, 0, index});
   if (bounce.out_cosine < kMinCosine) return false;
-  // As at the bottom in arc_tracer.cc. In place of g cos stands u = g . n = b cos - a sin, with the gradient
-  // (a, b), for the incident ray and u' for the reflected one:
+  // The tube changes as at the bottom in arc_tracer.cc. In place of g cos stands u = g . n = b cos - a sin,
+  // with the gradient (a, b), for the incident ray and u' for the reflected one:
   //   p' = p + q ((u + u') cot G / c + 2 k / sin G) / c
   // The second tube, qx and px, is that of rays that meet the facet itself and leave it at another angle.
   const LocalSpeed g = s.patch.at(s.r, s.ray.z);

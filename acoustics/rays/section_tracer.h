@@ -43,7 +43,7 @@ class SectionTracer {
   SectionTracer(const ProfiledSea& sea, const BounceLosses& losses, const SectionEnds& ends)
       : section_(*sea.section), profile_(sea.profile), losses_(losses), ends_(ends) {}
 
-  // As ArcTracer::trace.
+  // Traces a ray with the results of ArcTracer::trace.
   void trace(double theta, TracedRay& ray, TracedDetails* details) const;
 
  private:
@@ -52,7 +52,8 @@ class SectionTracer {
   struct Carried {
     double z, s, q, p, qx, px;
   };
-  // Their derivatives along the range, and the place at which these were taken: depth, 1 / c and xi.
+  // The derivatives of these variables along the range, and the place at which these were taken: depth, 1 / c
+  // and xi.
   struct Stage {
     Carried slope;
     double z, per_c, xi;

@@ -10,7 +10,7 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kGiveUpFactor = 0.25;  // of the least boundary factor
+constexpr double kGiveUpFactor = 0.25;  // relative to the least boundary factor
 constexpr std::size_t kFactorSteps = 64;
 constexpr std::size_t kReservedEvents = 48;  // per ray, so that its list of events rarely grows
 

@@ -118,7 +118,7 @@ bool find_hit(double curvature, const BottomProfile& profile, const ArcPoint& s,
 
 FacetBounce bounce_off(const Facet& facet, const ArcPoint& s) {
   const double ct = s.xi * s.c, st = s.sine;
-  double sine = facet.sine, cosine = facet.cosine, bend = facet.bend_per_m;  // of the reflecting slope
+  double sine = facet.sine, cosine = facet.cosine, bend = facet.bend_per_m;  // the reflecting slope
   const double grazing_facet = st * cosine - ct * sine;                      // sin(angle - slope)
   if (facet.bent()) {
     const double share = (s.r - facet.r0) / (facet.r1 - facet.r0);
@@ -137,7 +137,7 @@ FacetBounce bounce_off(const Facet& facet, const ArcPoint& s) {
       bend = 0;
     }
   }
-  // With the grazing angle G = angle - slope, the reflected ray leaves at the angle slope - G.
+  // The reflected ray leaves at the angle slope - G, with the grazing angle G = angle - slope.
   const double sin_g = std::max(st * cosine - ct * sine, kMinSine), cos_g = ct * cosine + st * sine;
   return {sin_g,
           cos_g,

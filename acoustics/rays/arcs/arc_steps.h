@@ -81,8 +81,8 @@ inline double curvature_of(const RayWater& water, const ArcPoint& at) {
 // The reflection of a ray at a facet. The reflecting slope is the facet's own or, on a bent facet, the bent
 // slope, unless a ray reflected by the bent slope would enter the facet.
 struct FacetBounce {
-  double sine, cosine;          // of the grazing angle to the reflecting slope
-  double out_sine, out_cosine;  // of the angle at which the ray leaves, positive down
+  double sine, cosine;          // grazing angle to the reflecting slope
+  double out_sine, out_cosine;  // angle at which the ray leaves, positive down
   double facet_sine;            // sine of the grazing angle to the facet itself
   double bend_per_m;            // change of the reflecting slope's angle along the facet; 0: not bent
 };

@@ -242,7 +242,7 @@ void LayeredLegs::add_details(const std::vector<LegLayer>& layers, std::size_t r
     const double s0 = layer.turning_sine, range = layer.knot_s / xi * s0 * knot.share.sine;
     details.length_m[index_of(leg)] += range;
     details.absorption_db[index_of(leg)] += range * mean_absorption(restricted(layer.absorption, 1, 1), 1, 1);
-    // At a boundary the phase is accounted for by touch().
+    // The phase at a boundary is accounted for by touch().
     if (!layer.is_last)
       details.intercept_s[index_of(leg)] +=
           layer.knot_s * s0 * s0 * s0 / 2 * knot.share.phase / (1 - knot.square);
@@ -250,8 +250,7 @@ void LayeredLegs::add_details(const std::vector<LegLayer>& layers, std::size_t r
   if (reach == layers.size()) return;
   // The part of the layer up to the turning point, where c = 1 / xi; its height follows from
   //   1 / xi - c1 = s1^2 / (xi^2 (1 / xi + c1)).
-  LegLayer part =
-      layers[reach];  // as far as the turn, where c = 1 / xi: 1 / xi - c1 = s1^2 / (xi^2 (1 / xi + c1))
+  LegLayer part = layers[reach];
   part.c2 = 1 / xi;
   part.height_m = s1 * s1 / (xi * xi * (part.c2 + part.c1) * part.gradient);
   part.hc = part.height_m * (part.c1 + part.c2);

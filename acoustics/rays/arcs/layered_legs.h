@@ -51,8 +51,7 @@ struct LegDetails {
 // grazes it.
 struct BoundaryTouch {
   // Phase of the touch beyond half of what the ray itself has for it: pi / 2 for a turn, pi for a reflection.
-  double phase_rad =
-      0;  // of one leg, beside half of that of a ray: pi / 2 where it turns, pi where it is reflected
+  double phase_rad = 0;
   double turned_rad = 0;  // phase of the touch beyond that of a ray that turns, rad
   // Replaces 1 / sine of the grazing angle in the time that sound stays in a layer at the boundary; 0: the
   // ray's own sine holds.

@@ -27,7 +27,7 @@ void RayColumn::set(double xi) {
     const double cosine = xi * speed[i], square = (1 - cosine) * (1 + cosine);
     sine[i] = std::sqrt(square > 0 ? square : 0.0);
   }
-  // With K = h (c1 + c2) (acoustics/math/arc_math.h):
+  // Closed forms of acoustics/math/arc_math.h, with K = h (c1 + c2):
   //   dr        = K xi / (s1 + s2)
   //   d(dr)/dxi = K / ((s1 + s2) s1 s2)
   // Layers in which the ray turns get meaningless values, which are never read.
@@ -47,7 +47,7 @@ void RayColumn::sum_excursion() {
     slope += slope_[knot - 1];
   }
   excursion_.turns = knot > 0;
-  // From the knot to the vertex of the arc that turns:
+  // The arc from the knot to the turning point:
   //   r = sin / (xi |g|),  dr/dxi = -1 / (|g| xi^2 sin)
   if (excursion_.turns) {
     const double g = std::abs(water_.gradients_per_s()[knot - 1]);

@@ -18,10 +18,9 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kCoarseness = 0.1;  // of the fan, relative to the first fan of a search
+constexpr double kCoarseness = 0.1;  // spacing of the fan, relative to the first fan of a search
 // Share of the ranges: if the bounce sequences of two rays differ at more, others lie between the two.
-constexpr double kDiffering =
-    0.3;  // of the ranges: two rays whose histories differ at more have others between them
+constexpr double kDiffering = 0.3;
 constexpr int kHalvings = 2;         // halvings of an interval of the fan
 constexpr double kSameRange = 1e-3;  // m
 constexpr double kLeastSlope = 1;    // m: lower bound of a ray on a caustic
@@ -160,7 +159,7 @@ Arrival BearingRays::between(const Range& range, std::size_t b, double target, d
   const HermiteCubic delay(one.path.delay_s, one.slowness, other.path.delay_s, other.slowness, height);
   const double along = (angle(share) - one.path.launch_angle_rad) / width;
   const double bend = angle.slope(share) / width;
-  // Where the cubic does not rise as the angles do, there is structure between the two rays that they do not
+  // A cubic that does not rise as the angles do indicates structure between the two rays that they do not
   // show.
   const bool is_smooth = along > 0 && along < 1 && bend > kLeastBend;
   double slope = std::abs(is_smooth ? mean_slope / bend : mean_slope);

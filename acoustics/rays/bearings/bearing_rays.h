@@ -53,7 +53,7 @@ class BearingRays : public SharedRays {
     std::vector<Place> places;
     std::vector<Ray> rays;
   };
-  // All rays that reach one range, by launch angle.
+  // The rays that reach one range, by launch angle.
   struct Range {
     std::vector<Place> places;
     std::vector<Ray> rays;
