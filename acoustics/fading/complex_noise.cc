@@ -51,6 +51,7 @@ ComplexNoise::ComplexNoise(DrawAddress address) {
   for (double& f : frequencies_) f *= scale;
 }
 
+// g(t) = 1/sqrt(N) sum_k exp(j 2 pi (f_k B t + phase_k)), with f_k in units of B and phases in cycles.
 std::complex<double> ComplexNoise::at(double time_s, double doppler_spread_hz) const {
   std::complex<double> sum = 0;
   for (std::size_t k = 0; k < kSines; ++k) {

@@ -168,6 +168,7 @@ LinkFading::LinkFading(const FadingModel& model, const FadingLink& link) : model
   validate(model);
 }
 
+// 10^(X/20); the mean -sigma^2 ln(10) / 20 of X makes the mean power 1.
 double LinkFading::large_scale(SimTime time) const {
   if (!model_.enabled || model_.large_scale_db == 0) return 1;
   const GaussMarkovProcess process(model_.large_scale_db, model_.large_scale_time_s,

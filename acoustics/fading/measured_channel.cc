@@ -29,6 +29,7 @@ struct BandTable {
   std::vector<Complex> values;  // [instant * taps + tap]
 };
 
+// g_n = sum_k h_k exp(-j 2 pi (f0 - fc) tau_k) sinc(n - B tau_k), tau_k = k / fs_delay (measured_channel.h).
 BandTable band_table(const ChannelRecord& record, const Band& band) {
   const double samples_per_delay = band.width_hz() / record.delay_rate_hz;
   const auto last = static_cast<std::ptrdiff_t>(
@@ -56,7 +57,10 @@ BandTable band_table(const ChannelRecord& record, const Band& band) {
   return table;
 }
 
-// Statistics of tap `n` of the table. The caller sets its delay and phase.
+// Statistics of tap `n` of the table. The caller sets its delay and adjusts its phase. Between the instants a
+// and b the mean power of the linear interpolation is
+//   (|a|^2 + |b|^2 + Re(a* b)) / 3,
+// and the Doppler spread B solves |R1| / R0 = exp(-(2 pi B / fs_time)^2 / 2).
 MeasuredTap statistics(const BandTable& table, std::size_t n, double time_rate_hz) {
   const std::size_t instants = table.values.size() / table.taps;
   const auto at = [&](std::size_t i) { return table.values[i * table.taps + n]; };

@@ -50,6 +50,8 @@ double trapped_share(const FluidBottom& bottom) {
   return ratio > 1 ? 1 - 1 / (ratio * ratio) : 0;
 }
 
+// f = integral of (tan(theta) + a) N(a) over slopes a that turn sound beyond the critical angle, divided by
+// the integral over all slopes that face the sound, a > -tan(theta).
 double steepened_share(double wind_mps, double sine, double trapped_share) {
   const double slope = std::sqrt((0.003 + 5.12e-3 * wind_mps) / 2);
   const double grazing = std::clamp(sine, 1e-9, 1 - 1e-9), cosine = std::sqrt(1 - grazing * grazing);

@@ -7,6 +7,8 @@
 
 namespace halocline::acoustics {
 
+// Moments about the first delay, which keeps digits that the squares of absolute delays would lose:
+//   mean = sum of P t / sum of P,  spread^2 = sum of P (t - mean)^2 / sum of P
 DelayMoments delay_moments(const std::vector<WeightedDelay>& paths) {
   if (paths.empty()) return {};
   const double first_s = paths.front().delay_s;

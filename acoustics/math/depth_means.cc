@@ -77,6 +77,8 @@ DepthMeans::Place DepthMeans::place(double depth_m) const {
   return {depth_m, cell, 2 * ((depth_m - top_m(cell)) / (bottom_m(cell) - top_m(cell))) - 1};
 }
 
+// mean = (head + whole cells between + tail) / (z2 - z1), with head and tail the integrals within the two
+// cells.
 double DepthMeans::mean(std::size_t property, const Place& upper, const Place& lower) const {
   const double *above = terms(upper.cell) + property, *below = terms(lower.cell) + property;
   if (upper.cell == lower.cell) return mean_within_cell(above, count_, upper.x, lower.x);

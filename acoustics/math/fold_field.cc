@@ -30,11 +30,13 @@ FoldShare fold_share(double x) {
   return {std::sqrt(pi * std::sqrt(x)) * elementary::hypot(ai, bi), std::remainder(turned, 2 * pi)};
 }
 
+// L = (|d2u| / (2 omega^2 dp^2))^(1/3).
 double Fold::length_m(double frequency_hz) const {
   const double omega_p = 2 * pi * frequency_hz * slowness_slope;
   return elementary::cbrt(std::abs(curvature) / (2 * omega_p * omega_p));
 }
 
+// |du| = sqrt(2 L |d2u|) / (4 pi Ai(-x)^2).
 double Fold::tube_slope(double x, double frequency_hz) const {
   const double ai = airy(-x).ai;
   return std::sqrt(2 * length_m(frequency_hz) * std::abs(curvature)) / (4 * pi * ai * ai);

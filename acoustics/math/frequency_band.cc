@@ -12,7 +12,8 @@ namespace {
 
 void add_panels(std::vector<FrequencyNode>& nodes, double low_hz, double high_hz, double panel_ratio,
                 const GaussLegendreRule& rule) {
-  // Panels of equal ratio, f_k = low (high / low)^(k / n) with n = ceil(ln(high / low) / ln(panel_ratio)).
+  // Panels of equal ratio:
+  //   f_k = low (high / low)^(k / n),  n = ceil(ln(high / low) / ln(panel_ratio))
   const double wanted = elementary::log(high_hz / low_hz) / elementary::log(panel_ratio);
   const int panels = std::max(1, static_cast<int>(std::ceil(wanted)));
   double from = low_hz;

@@ -14,6 +14,7 @@ using std::numbers::sqrt2;
 
 double sinc(double x) { return std::abs(x) < 1e-9 ? 1 : elementary::sin(pi * x) / (pi * x); }
 
+// Phi(x) = erfc(-x / sqrt(2)) / 2.
 double normal_probability(double x) { return elementary::erfc(-x / sqrt2) / 2; }
 
 // The approximation 26.2.23 of Abramowitz and Stegun 1964, to 4.5e-4, refined by Newton's method. The inverse

@@ -13,7 +13,8 @@ struct LegendreValue {
   double value, derivative;
 };
 
-// P_n and its derivative by the three-term recurrence k P_k = (2k - 1) x P_(k-1) - (k - 1) P_(k-2).
+// P_n and its derivative, by the three-term recurrence
+//   k P_k = (2k - 1) x P_(k-1) - (k - 1) P_(k-2),  P_n' = n (x P_n - P_(n-1)) / (x^2 - 1)
 LegendreValue legendre(int n, double x) {
   double before = 1, value = x;
   for (int k = 2; k <= n; ++k) {
@@ -25,7 +26,8 @@ LegendreValue legendre(int n, double x) {
 }
 
 // The i-th root from above. Newton's method starts at Tricomi's estimate, which is close enough for it to
-// converge.
+// converge:
+//   x = cos(pi (i + 3/4) / (n + 1/2))
 double legendre_root(int n, int i) {
   constexpr int kNewtonSteps = 12;  // quadratic convergence: 5 suffice for n = 64
   double x = elementary::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
@@ -43,6 +45,7 @@ GaussLegendreRule make_gauss_legendre(int count) {
   GaussLegendreRule rule;
   for (int i = count - 1; i >= 0; --i) {
     const double x = legendre_root(count, i);
+    // w = 2 / ((1 - x^2) P_n'(x)^2).
     const double slope = legendre(count, x).derivative;
     rule.nodes.push_back(x);
     rule.weights.push_back(2 / ((1 - x * x) * slope * slope));

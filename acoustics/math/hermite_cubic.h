@@ -14,6 +14,7 @@ namespace halocline::acoustics {
 class HermiteCubic {
  public:
   // Values f0, f1 and slopes s0, s1 at both ends; slopes are per unit of the interval's own coordinate.
+  //   a = f0,  b = s0 h,  c = 3 (f1 - f0) - (2 s0 + s1) h,  d = 2 (f0 - f1) + (s0 + s1) h
   HermiteCubic(double f0, double s0, double f1, double s1, double h)
       : a_(f0), b_(s0 * h), c_(3 * (f1 - f0) - (2 * s0 + s1) * h), d_(2 * (f0 - f1) + (s0 + s1) * h) {}
 
@@ -29,7 +30,9 @@ class HermiteCubic {
     return error_at(0.5, value, slope_there, h);
   }
 
-  // The values of t strictly inside 0..1 at which the cubic turns, rising; at most two.
+  // The values of t strictly inside 0..1 at which the cubic turns, rising; at most two. They solve
+  //   3 d t^2 + 2 c t + b = 0,
+  // computed as w / (3 d) and b / w with w = -(c + sign(c) sqrt(c^2 - 3 b d)), which avoids cancellation.
   struct Turns {
     std::array<double, 2> at{};
     int count = 0;
@@ -58,7 +61,7 @@ class HermiteCubic {
     return values;
   }
 
-  // Least |slope| over 0..1 of a cubic that does not turn there.
+  // Least |slope| over 0..1 of a cubic that does not turn there: at an end, or at the inflection -c / (3 d).
   double least_slope() const {
     double least = std::min(std::abs(slope(0)), std::abs(slope(1)));
     const double bend = -c_ / (3 * d_);

@@ -17,6 +17,8 @@ constexpr double kFading = 2.5;  // x beyond which the differences to ray theory
 
 // Differences of a wave field to ray theory. `share` holds the field's own values; from kFading on the
 // differences fade out, with the phase tending to `far`.
+// Ray theory has S = sqrt(x), 2 S' = 1 / sqrt(x) and theta = (2/3) x^(3/2). The differences fade out by
+//   kept = 1 - 3 t^2 + 2 t^3,  t = (x - kFading) / (kSteepTurning - kFading).
 TurningShare less_rays(double x, TurningShare share, double far) {
   if (x <= 0) return share;
   const double root = std::sqrt(x);
@@ -72,6 +74,7 @@ double knot_widening(double change) {
              : 1;
 }
 
+// s0 = (2 g / omega)^(1/3) = (g / (pi f))^(1/3).
 double turning_sine(double gradient_per_s, double frequency_hz) {
   return elementary::cbrt(gradient_per_s / (pi * frequency_hz));
 }

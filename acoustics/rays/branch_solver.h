@@ -71,7 +71,7 @@ class BranchSolver {
   // Finds the paths between two rays of one bounce sequence between which zeta is monotone.
   void solve_monotone(const FanRay& a, const FanRay& b);
 
-  // Returns all paths found, finished.
+  // Returns all paths found, after finish() of arrivals.h.
   std::vector<Arrival> finished() const { return folds_.finished(paths_); }
 
  private:

@@ -35,6 +35,7 @@ class SwingSum {
  public:
   SwingSum(const RayWater& water, double greatest_speed) : water_(water), greatest_(greatest_speed) {}
 
+  // s = sqrt(1 - (c / c*)^2).
   double sine_at(double speed) const {
     return std::sqrt(std::max((greatest_ - speed) * (greatest_ + speed), 0.0)) / greatest_;
   }
@@ -122,6 +123,8 @@ std::optional<ChannelCore> channel_core(const RayWater& water, double bottom_m, 
   return ChannelCore{inside, 4 * widest.loop_s * inside / (pi * widest.height_m * widest.height_m)};
 }
 
+// A straight ray of length L at the mean speed of both ends, with the tube of the parabolic channel:
+//   A^2 = 1 / (L q),  q = |sin(kappa L)| / kappa, with |sin| at least 1/2 beyond a quarter of a loop
 Arrival axial_ray(const RayWater& water, const ChannelCore& core, const RayLink& link) {
   const double down = link.receiver_depth_m - link.source_depth_m;
   const double length = elementary::hypot(link.range_m, down);

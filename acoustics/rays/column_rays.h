@@ -97,9 +97,9 @@ class PathChains {
 
 // Rays and paths that the searches for receivers at several depths of one place share.
 //
-// Rays of the fan, and those that represent diffuse sound, depend on the launch angle alone, so they equal to
-// the last bit those of a search without the cache. Paths are interpolated (PathChains). Not shared between
-// threads.
+// Rays of the fan, and those that represent diffuse sound, depend on the launch angle alone, so they are the
+// same to the last bit as in a search without the cache. Paths are interpolated (PathChains). Not shared
+// between threads.
 class ColumnCache {
  public:
   // Refers to tracer and fan, which have to outlive this object.

@@ -97,6 +97,8 @@ void DiffuseWindows::weigh(Cell& cell, const FanRay& ray, double power) const {
   cell.theta = ray.theta;
 }
 
+// Each image contributes strength / |slope|, with |slope| = |zeta_b - zeta_a| / (theta_b - theta_a); the two
+// rays contribute half each.
 void DiffuseWindows::add_branch(const FanRay& a, const FanRay& b, int images) {
   const double apart = std::abs(b.zeta - a.zeta), width = b.theta - a.theta;
   if (images == 0 || !(apart > 0)) return;
@@ -117,6 +119,7 @@ void DiffuseWindows::add_mixed(const FanRay& a, const FanRay& b) {
   }
 }
 
+// The power strength p dtheta with the mean density p = 1 / H over the water depth H at the receiver.
 double DiffuseWindows::mixed_power(const FanRay& a, const FanRay& b) const {
   return 0.5 * (strength(a) + strength(b)) * (b.theta - a.theta) / tracer_.bottom_at_receiver_m();
 }

@@ -61,9 +61,9 @@ RaySolver choose_solver(const RaySea& sea, const RayLink& link);
 // for the limits on bounces, the limits are widened until one is, up to 250 dB of loss; when there is none in
 // the end, one more search finds the reason (Arrivals::lack).
 //
-// The depths of the link have to lie between surface and bottom, each at its range, and a solver that is
-// named has to be exact for the link: images and Snell refuse other seas. Both throw InvalidArgument. Between
-// ends closer than 1 m the delay is that of the true distance and the level that at 1 m.
+// Throws InvalidArgument unless the depths of the link lie between surface and bottom, each at its range, and
+// a solver that is named is exact for the link: images and Snell refuse other seas. Between ends closer than
+// 1 m the delay is that of the true distance and the level that at 1 m.
 //
 // Links with one common end can share rays through `shared` (acoustics/rays/column_rays.h, bearing_rays.h),
 // which takes effect when the solver is arcs. The sea then has to outlive `shared`.

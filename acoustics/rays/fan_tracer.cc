@@ -80,6 +80,7 @@ void FanTracer::note_turn(bool lower) {
   events_.push_back({lower ? RayEvent::kLowerTurn : RayEvent::kUpperTurn, 0});
 }
 
+// Within a layer q grows by p dr / xi, and p is constant.
 void FanTracer::go(State& s, double dr, double z, double sine) const {
   s.q += s.p * dr * s.per_xi;
   s.r += dr;
@@ -89,6 +90,7 @@ void FanTracer::go(State& s, double dr, double z, double sine) const {
 }
 
 void FanTracer::go_part(State& s, double dr) {
+  // ds/dr = -xi g; z2 - z1 = dr (s1 + s2) / (xi (c1 + c2)); c = cos / xi.
   const double sine = s.sine - s.xi * water_.gradients_per_s()[s.layer] * dr;
   const double c = std::sqrt(std::max(1 - sine * sine, 0.0)) * s.per_xi;
   if (s.sine * sine < 0) note_turn(s.sine > 0);
@@ -99,7 +101,9 @@ void FanTracer::go_part(State& s, double dr) {
 bool FanTracer::bounce(State& s, const Facet& facet) const {
   const FacetBounce one = bounce_off(facet, s);
   if (one.out_cosine < kMinCosine) return false;
-  // The ray tube for rays as the facets reflect them: qx and px of acoustics/rays/arc_tracer.cc.
+  // The ray tube for rays as the facets reflect them: qx and px of acoustics/rays/arc_tracer.cc. With the
+  // grazing angles G and G' to the facet of the incident and the reflected ray:
+  //   p' = p + q (g (xi cos G + xi' cos G') + 2 k) / (c sin G),  q' = q sin G' / sin G
   const double g = water_.gradients_per_s()[s.layer], ct = s.xi * s.c;
   // A single division serves all quotients: it takes as long as a dozen products.
   const double per_all = 1 / (s.c * one.facet_sine * one.out_cosine), per_in = per_all * one.out_cosine;

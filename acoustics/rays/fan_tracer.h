@@ -109,7 +109,7 @@ class FanTracer {
   RayColumn column_;
   TracedRay traced_;               // scratch buffer for rays through a section
   std::vector<EventCode> events_;  // events of all rays
-  // Steepest_rise_: greatest sine of the slope at which the bottom rises.
+  // `steepest_rise_` is the sine of the steepest slope at which the bottom rises.
   double range_, shallowest_, max_loss_db_, steepest_rise_;
   std::vector<double> bottom_loss_db_;  // at evenly spaced sines 0..1
   // Loss times sine, which is smooth even where bubbles give a loss proportional to 1 / sine.

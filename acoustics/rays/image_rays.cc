@@ -144,6 +144,7 @@ bool ImageSum::add(const Image& image) {
   return true;
 }
 
+// phase = pi (surface bounces) + (phase of one bottom bounce) (bottom bounces).
 void ImageSum::set_phase(const Image&, const Reflection& one, int surface, int bottom, Arrival& path) const {
   path.surface_bounces = surface;
   path.bottom_bounces = bottom;

@@ -21,8 +21,8 @@ using std::numbers::pi;
 // has a direction before and after it. It changes delays by at most 1e-9 s.
 constexpr double kOffBoundary = 1e-6;  // m
 
-constexpr double kFoldStep =
-    1e-6;  // spacing, relative to a bracket, of the rays that give the curvature of a fold
+// Spacing, relative to a bracket, of the rays that give the curvature of a fold.
+constexpr double kFoldStep = 1e-6;
 constexpr double kFoldTolerance = 1e-2;  // m: error of the range
 constexpr int kMaxFoldSteps = 30;
 

@@ -15,7 +15,7 @@
 
 namespace halocline::acoustics {
 
-// Eigenray family: whether the ray runs U, and D, once more (up and down) than its n whole cycles.
+// Eigenray family: whether the ray runs the legs U and D, there and back, once more than its n whole cycles.
 struct Family {
   bool up, down;
 };
@@ -80,8 +80,8 @@ struct FoldBracket {
 [[nodiscard]] bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldBracket& bracket,
                                  LayeredRay& ray, LegSums& sums);
 
-// The number of caustics and turns that a ray has touched, which tells on which side of a fold it is, and its
-// phase beyond that of a ray that turns at each of its bounces.
+// The number of a ray's turns and bounces, plus one behind a fold, which tells on which side of a fold it is;
+// and its phase beyond that of a ray that turns at each of its bounces.
 struct Passed {
   int touched = 0;
   double phase_rad = 0;

@@ -21,8 +21,8 @@ constexpr double kBesideGrazing = 1e-9;  // rad: distance of the two rays of a f
 
 constexpr double kMinTube = 1e-9;  // m, of |q|: a ray on a caustic, to rounding
 
-constexpr double kLeastFoldShare =
-    0.5;  // least and, inverted, greatest share of the predicted distance from a fold to its rays
+// Least and, inverted, greatest share of the predicted distance from a fold to its rays.
+constexpr double kLeastFoldShare = 0.5;
 constexpr double kFoldMargin = 1.25;  // factor on the Airy length
 constexpr double kFoldStep = 1e-4;    // rad: distance of the rays that give the curvature of a fold
 

@@ -20,9 +20,9 @@
 
 namespace halocline::acoustics {
 
-// rad: steepest launch angle that is traced
+// Steepest launch angle that is traced, rad.
 inline constexpr double kSteepestRay = 89.9 * std::numbers::pi / 180;
-// of the water depth: a turn of zeta this near to an image is located exactly
+// Share of the water depth: a turn of zeta this near to an image is located exactly.
 inline constexpr double kNearFold = 0.06;
 
 // Image sources seen from the receiver: its images in unfolded depth, +-z + 2 H k, with H the depth of the
@@ -96,8 +96,8 @@ class ProfileFolds {
   double length_m(const Fold& fold) const;
   // Notes a fold: unfolded depth turns at the ray launched at `theta`, near an image of the receiver.
   void note(double theta);
-  // Returns all arrivals, finished. A receiver on the shadow side of a fold or close to it gets a single
-  // path; one further on the illuminated side gets two, with the fold's field.
+  // Returns all arrivals, after finish() of arrivals.h. A receiver on the shadow side of a fold or close to
+  // it gets a single path; one further on the illuminated side gets two, with the fold's field.
   std::vector<Arrival> finished(const std::vector<ProfilePath>& paths) const;
 
  private:

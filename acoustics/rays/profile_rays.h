@@ -66,8 +66,8 @@ class ProfileSearch {
     branch_.share(cache);
     cache_ = cache;
   }
-  // Finished arrivals of the rays launched between the first and the last of `angles`. Rays within
-  // `core_edge` of the horizontal are left out; that angle and its negative are among `angles`.
+  // The arrivals, after finish(), of the rays launched between the first and the last of `angles`. Rays
+  // within `core_edge` of the horizontal are left out; that angle and its negative are among `angles`.
   std::vector<Arrival> run(const std::vector<double>& angles, double core_edge);
   // Returns all branches between the angles, independent of the receiver's depth; empty over a rough bottom.
   std::optional<std::vector<Branch>> branches(const std::vector<double>& angles);
@@ -99,7 +99,7 @@ class ProfileSearch {
   // Searches from a ray to one at the edge of its family. Rays that nearly graze the bottom there change the
   // faster the closer they are to grazing, so the steps shrink towards the edge.
   void scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, int depth);
-  // Solves a branch, or collects it when collecting: one without a turn of zeta, or any.
+  // Solve a branch, or collect it when run by branches(): one without a turn of zeta, and any branch.
   void take_monotone(const FanRay& a, const FanRay& b);
   void take(const FanRay& a, const FanRay& b);
   bool is_without_path(const FanRay& a, const FanRay& b, double error) const {

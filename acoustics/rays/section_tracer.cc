@@ -50,6 +50,8 @@ struct SectionTracer::Step {
   std::size_t facet = 0;
 };
 
+// The derivatives of section_tracer.h, with c_nn the second derivative of the sound speed across the ray:
+//   dz/dr = s / xi,  ds/dr = -c_z / (c^3 xi),  dq/dr = p / xi,  dp/dr = -q c_nn / (c^3 xi)
 SectionTracer::Stage SectionTracer::stage(const SpeedPatch& patch, double r, const Carried& at) {
   const LocalSpeed speed = patch.at(r, at.z);
   const double per_c = 1 / speed.c, sine = at.s * speed.c;
@@ -172,7 +174,7 @@ SectionTracer::Step SectionTracer::next_step(const State& s) const {
 }
 
 void SectionTracer::add_details(const State& s, const Step& step, TracedDetails& details) const {
-  // Quantities whose derivative depends on range alone, by the weights of the scheme:
+  // Integrals over the step, by the weights of the scheme:
   //   d tau = dr / (c^2 xi),  d length = dr / (c xi)
   const auto mean = [&](const auto& of) {
     const auto& k = step.stages;

@@ -14,8 +14,8 @@ namespace {
 constexpr double kTouching = 1e-9;  // m: a point nearer than that to a facet lies on it
 constexpr double kMargin = 1e-7;    // m: added to bounds of depth, against rounding
 
-// Returns sin(x): by its Taylor series, to 1e-16, for |x| <= 0.3, by the library beyond. More than half of
-// that angle occurs only with a wide crease angle.
+// Returns sin(x). For |x| <= 0.3, which few bends exceed unless the crease angle is wide, it sums the Taylor
+// series, to 1e-16.
 double sine_of_bend(double x) {
   if (std::abs(x) > 0.3) return elementary::sin(x);
   constexpr double k3 = 1.0 / 6, k5 = k3 / 20, k7 = k5 / 42, k9 = k7 / 72, k11 = k9 / 110;
@@ -116,6 +116,9 @@ bool find_hit(double curvature, const BottomProfile& profile, const ArcPoint& s,
   return false;
 }
 
+// Specular reflection, by sums and differences of angles a (of the ray, positive down) and b (of the slope):
+//   sin(a - b) = sin a cos b - cos a sin b,  cos(a - b) = cos a cos b + sin a sin b
+// On a bent facet the reflecting angle b + t changes linearly from t = turn0 to turn1 along the facet.
 FacetBounce bounce_off(const Facet& facet, const ArcPoint& s) {
   const double ct = s.xi * s.c, st = s.sine;
   double sine = facet.sine, cosine = facet.cosine, bend = facet.bend_per_m;  // the reflecting slope

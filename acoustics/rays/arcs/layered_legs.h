@@ -50,9 +50,10 @@ struct LegDetails {
 // Corrections to one touch of a boundary (a reflection at it or a turn just before it) by a ray that nearly
 // grazes it.
 struct BoundaryTouch {
-  // Phase of the touch beyond half of what the ray itself has for it: pi / 2 for a turn, pi for a reflection.
+  // Phase of one leg at the touch, rad, in excess of that of the plain ray, which is half of pi / 2 for a
+  // turn and half of pi for a reflection.
   double phase_rad = 0;
-  double turned_rad = 0;  // phase of the touch beyond that of a ray that turns, rad
+  double turned_rad = 0;  // the same in excess of that of a ray that turns
   // Replaces 1 / sine of the grazing angle in the time that sound stays in a layer at the boundary; 0: the
   // ray's own sine holds.
   double inverse_sine = 0;
