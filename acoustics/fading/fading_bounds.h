@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Upper bounds of the delivery probability of a link with a given mean ratio, whatever its fading. Links that
+// Upper bounds of the delivery probability of a link with a given mean SINR, whatever its fading. Links that
 // deliver nothing are recognised by them before anything else of the link is computed.
 //
 // Among all sums of paths, the power has the widest distribution when it is a single path that is wholly
@@ -15,8 +15,8 @@
 
 namespace halocline::acoustics {
 
-// Upper bound of the mean of `chance(ratio)`, a function that rises with the ratio from 0 to 1, over an
-// exponential distribution of the ratio.
+// Upper bound of the mean of `chance(SINR)`, a function that rises with the SINR from 0 to 1, over an
+// exponential distribution of the SINR.
 template <typename Chance>
 double most_over_rayleigh_fading(double mean_sinr, Chance chance) {
   constexpr int kIntervals = 14;  // each as wide as the mean; `chance` counts as 1 beyond them
@@ -45,7 +45,7 @@ double most_over_fading(const FadingModel& model, double mean_sinr, Chance chanc
   return most;
 }
 
-// The mean ratio, -80..60 dB, below which `bound(mean ratio)`, which rises with it, is less than `least`.
+// The mean SINR, -80..60 dB, below which `bound(mean SINR)`, which rises with it, is less than `least`.
 // Found by bisection to 0.01 dB.
 template <typename Bound>
 double least_mean_db(double least, Bound bound) {

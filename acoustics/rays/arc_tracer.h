@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Traces one ray through layered water over a range-dependent bottom, arc by arc, without step error.
 //
+// Terms. A knot is a tabulated depth of the sound speed profile, a layer lies between two knots, and a facet
+// is a straight piece of the bottom profile.
+//
 // Model. Within a layer of gradient g the sine s of the ray's angle changes linearly with range, and the
 // depth follows from it:
 //   ds/dr = -xi g,

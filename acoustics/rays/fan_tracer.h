@@ -6,8 +6,8 @@
 // bounces come from a column (acoustics/rays/arcs/ray_column.h), and everything above the shallowest bottom
 // is one excursion. zeta and d zeta/d theta are those of ArcTracer to rounding: 1e-7 m and 1e-7 of the slope
 // over links of kilometres, more within a microradian of a ray that grazes. A ray stops when its losses,
-// which are interpolated, exceed those of any path by 6 dB. For water that changes along the link, rays come
-// from ArcTracer.
+// which are interpolated, exceed what a path may lose by 6 dB. For water that changes along the link, rays
+// come from ArcTracer.
 //
 // The object keeps a column and the rays' events between calls: one per search, not shared between threads.
 #pragma once
@@ -29,7 +29,7 @@
 
 namespace halocline::acoustics {
 
-// A ray of the fan.
+// A ray of the fan: of the rays launched from the source at a row of angles.
 struct FanRay {
   double theta = 0;       // launch angle, rad, positive down
   bool arrived = false;   // false: too faint, turned back or too many bounces

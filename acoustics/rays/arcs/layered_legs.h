@@ -53,7 +53,7 @@ struct BoundaryTouch {
   // Phase of one leg at the touch, rad, in excess of that of the plain ray, which is half of pi / 2 for a
   // turn and half of pi for a reflection.
   double phase_rad = 0;
-  double turned_rad = 0;  // the same in excess of that of a ray that turns
+  double turned_rad = 0;  // phase of one leg at the touch in excess of that of a turning ray
   // Replaces 1 / sine of the grazing angle in the time that sound stays in a layer at the boundary; 0: the
   // ray's own sine holds.
   double inverse_sine = 0;

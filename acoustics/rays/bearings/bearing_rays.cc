@@ -24,7 +24,7 @@ constexpr double kDiffering = 0.3;
 constexpr int kHalvings = 2;         // halvings of an interval of the fan
 constexpr double kSameRange = 1e-3;  // m
 constexpr double kLeastSlope = 1;    // m: lower bound of a ray on a caustic
-constexpr double kLeastBend = 0.2;   // lower bound of slopes, relative to those beside them
+constexpr double kLeastBend = 0.2;   // lower bound of a slope, relative to those of the neighbouring rays
 // Share of zeta between two rays by which it may differ from where their slopes lead.
 constexpr double kGoesOn = 0.3;
 // Radians between the phases of two rays, beyond which the nearer ray's phase is taken.
