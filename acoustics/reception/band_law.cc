@@ -16,13 +16,13 @@ namespace {
 
 using std::numbers::pi;
 
-// s in units of 1 / deviation; 0 at the mean.
+// Saddle points s in units of 1 / deviation of Q; 0 is at the mean.
 constexpr BandLaw::Values kDeviations{-500, -90, -28, -11, -5, -2.4, -1, -0.35, 0, 0.5, 1.5, 5, 30, 300};
 constexpr std::size_t kMean = 8;
 
 constexpr double kMostScore = 6;
 
-// By score, linear between.
+// Probabilities of a standard normal variable over the score, interpolated linearly.
 constexpr std::size_t kScoreRows = 241;
 constexpr double kScoreStep = 2 * kMostScore / (kScoreRows - 1);
 const std::array<double, kScoreRows> kProbabilities = [] {
@@ -33,7 +33,7 @@ const std::array<double, kScoreRows> kProbabilities = [] {
   return made;
 }();
 
-// -floor(log2(x)), 0..`most`, of x >= 0.
+// Number of octaves by which x >= 0 lies below 1: -floor(log2(x)), clamped to 0..`most`.
 std::size_t octaves_below(double x, std::size_t most) {
   constexpr std::uint64_t kExponentOfOne = 1023;
   const std::uint64_t exponent = std::bit_cast<std::uint64_t>(x) >> 52;
@@ -45,7 +45,8 @@ using Values = BandLaw::Values;
 double at_least(double x, double least) { return x > least ? x : least; }
 double at_most(double x, double most) { return x < most ? x : most; }
 
-// Probabilities of scores: tabulated; below the table by the tail of the normal distribution.
+// Probabilities of normal scores: tabulated; below -4 by the asymptotic tail of the normal distribution,
+//   exp(-z^2 / 2) / (sqrt(2 pi) -z) (1 - 1 / (z^2 - 1 / (z^2 + 2))).
 Values probabilities(const Values& scores) {
   Values tails, made;
   for (std::size_t i = 0; i < scores.size(); ++i) {
@@ -60,8 +61,9 @@ Values probabilities(const Values& scores) {
   return made;
 }
 
-// ln of the parts of a packet that fall independently below what is fallen below with the score, `crossings`
-// a stretch.
+// Logarithm of the number of parts of a packet that fade independently below the power of each score, with
+// `crossings` downward crossings per stretch (the formula of q and e in band_law.h; `turns` is B step). Of n
+// parts all are above with the probability (1 - p)^n.
 HALOCLINE_VECTOR_CLONES
 Values log_parts(const Values& scores, const Values& crossings, const Values& turns, double stretches) {
   const Values below = probabilities(scores);
@@ -127,7 +129,8 @@ double BandTerms::share(double louder) const {
   return signal > 0 ? changed / signal : changed > 0 ? 1 : 0;
 }
 
-// The ratio of two straight lines rises or falls throughout.
+// The share is the ratio of two linear functions of `louder`, hence monotonic: the greatest value is at one
+// of the ends.
 double BandTerms::most_interference_share() const {
   return std::max(share(0), signal_beats_ > 0 ? changed_beats_ / signal_beats_ : 0);
 }
@@ -160,7 +163,7 @@ BandLaw::BandLaw(const BandTerms& terms, double slow_power) {
   if (variance_ > 0) skewness_ = third / (variance_ * std::sqrt(variance_));
 }
 
-// Loops over the points without sums and calls, which compilers make vectors.
+// The loops over the points have neither sums nor calls, so that compilers vectorise them.
 HALOCLINE_VECTOR_CLONES
 BandLaw::Points BandLaw::points(const Stretches& stretches) const {
   Points points;
@@ -171,18 +174,19 @@ BandLaw::Points BandLaw::points(const Stretches& stretches) const {
     return points;
   }
   const double deviation = std::sqrt(variance_);
-  double least = -1e30, most = 1e30;  // of s
+  double least = -1e30, most = 1e30;  // range of s
   for (const Term& term : terms()) {
     if (term.scale > 0) most = std::min(most, 1 / term.scale);
     if (term.scale < 0) least = std::max(least, 1 / term.scale);
   }
-  // Toward the ends that the terms set, never at them.
+  // The points approach the poles at 1 / scale that bound s, but never reach them.
   Values s;
   for (std::size_t i = 0; i < kPoints; ++i) {
     const double plain = kDeviations[i] / deviation, end = i < kMean ? least : most;
     s[i] = plain * end / (end + plain);
   }
   Values k{}, first{}, second{}, slope{}, crossings, turns;
+  // K(s), K'(s) and K''(s) of the file comment, and the variance of the slope of Q.
   for (const Term& term : terms()) {
     for (std::size_t i = 0; i < kPoints; ++i) {
       const double a = 1 / (1 - term.scale * s[i]), rest = term.rest * a * a;
@@ -203,10 +207,12 @@ BandLaw::Points BandLaw::points(const Stretches& stretches) const {
     points.powers[i] = offset_ + first[i];
     roots[i] = std::copysign(std::sqrt(squares[i]), s[i]);
   }
+  // Saddle point approximation: z = r + ln(u / r) / r, u = s sqrt(K'').
   for (std::size_t i = 0; i < kPoints; ++i) {
     const double u = s[i] * std::sqrt(second[i]);
     points.scores[i] = roots[i] + fast_log(u / roots[i]) / roots[i];
   }
+  // Crossings per step: exp(K - s y) / (2 pi) * sqrt(V / K'') * step.
   for (std::size_t i = 0; i < kPoints; ++i) {
     const double rate = changes[i] / second[i];
     crossings[i] = fast_exp(-squares[i] / 2) / (2 * pi) * std::sqrt(rate) * stretches.step_s;

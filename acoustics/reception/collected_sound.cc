@@ -15,18 +15,19 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kSoundSpeedMps = 1500;  // of the wave number
-constexpr double kNegligible = 1e-5;     // of the power: of no effect
-constexpr double kSwaySkewness = 1;      // our choice: a beat has no power below its least
+constexpr double kSoundSpeedMps = 1500;  // for the wave number
+constexpr double kNegligible = 1e-5;     // share of the power that has no effect
+constexpr double kSwaySkewness = 1;      // skewness of a cross term, which is bounded below (our choice)
 
-// A path by what its pairs need.
+// A path with the quantities that its pairs need.
 struct Member {
   std::size_t path;
   double steady, turned, fast;  // powers
   double steady_root, turned_root;
-  double cos_phase, sin_phase, turns, cos_half, sin_half;  // turns over the band, half of their angle
+  // Phase at the centre of the band; phase change over the band in turns, and half of its angle.
+  double cos_phase, sin_phase, turns, cos_half, sin_half;
   double launch_sine, arrival_sine;
-  double beats = 0, unit = 0;  // slow and fast power around it
+  double beats = 0, unit = 0;  // block-fading and fast-fading power of the path and its neighbours
 };
 
 Member member_of(const CollectedPath& path, std::size_t index, const Band& band, double reference_s) {
@@ -51,7 +52,7 @@ Member member_of(const CollectedPath& path, std::size_t index, const Band& band,
           .unit = fast};
 }
 
-// Sums over the pairs of paths.
+// Accumulates the sums over pairs of paths.
 class PairSums {
  public:
   explicit PairSums(const Band& band, double power)
@@ -59,6 +60,7 @@ class PairSums {
         least_(kNegligible * power) {}
 
   void add(Member& p, Member& q) {
+    // sinc(W tau) by the sine of the difference of the two half angles.
     const double x = pi * (p.turns - q.turns),
                  sinc = std::abs(x) < 1e-6 ? 1 : (p.sin_half * q.cos_half - p.cos_half * q.sin_half) / x;
     const double near = sinc * sinc;
@@ -68,6 +70,7 @@ class PairSums {
     q.beats += (p.steady + p.turned) * near;
     turned_variance += 2 * p.turned * q.turned * near;
     mixed_variance += 2 * (p.turned * q.steady + p.steady * q.turned) * near;
+    // Correlation of the medium's fading of two paths: exp(-distance^2 / 2) over delay and both angles.
     const double apart = squared(2 * x / pi) + squared((p.launch_sine - q.launch_sine) / kAngle) +
                          squared((p.arrival_sine - q.arrival_sine) / kAngle);
     const double shared = p.turned_root * q.turned_root * fast_exp(-apart / 2);
@@ -77,7 +80,8 @@ class PairSums {
     const double kept = fast_exp(exponent_ * sines), interference = product * sinc,
                  cosine = p.cos_phase * q.cos_phase + p.sin_phase * q.sin_phase;
     crossed += interference * kept * cosine;
-    // cos(2 phase) = 2 cos(phase)^2 - 1
+    // Variance of 2 a cos(phase) by jitter, 4 a^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2, with
+    //   cos(2 phase) = 2 cos(phase)^2 - 1.
     sway_variance +=
         squared(interference) * (1 - squared(kept)) * (1 - squared(kept) * (2 * squared(cosine) - 1)) / 2;
   }
@@ -85,7 +89,7 @@ class PairSums {
   double crossed = 0, sway_variance = 0, turned_variance = 0, mixed_variance = 0;
 
  private:
-  static constexpr double kAngle = 4 * pi / 180;  // of the medium's field
+  static constexpr double kAngle = 4 * pi / 180;  // angle over which the medium's fading decorrelates
   double exponent_, least_;
 };
 

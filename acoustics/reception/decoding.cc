@@ -19,7 +19,7 @@ void BlockDecoder::add(double share, double sinr) {
 
 double BlockDecoder::success(std::int64_t bits) const {
   if (!interleaved_) return elementary::exp(static_cast<double>(bits) * sum_);
-  // No ratio at all of cells that are loud throughout: there exp(-gamma / beta) is 0.
+  // Cells with a high ratio throughout make exp(-gamma / beta) underflow to 0, hence the bound.
   const double effective = -kEffectiveRatioBeta * elementary::log(std::max(sum_, 1e-300));
   const double error = bit_error_rate(modem_, PowerRatio{effective / chip_energy(modem_)});
   return elementary::exp(static_cast<double>(bits) * elementary::log1p(-error));

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a packet is detected and decoded, from its ratio of signal to noise and interference over time and
-// band.
+// Probability that the bits of a packet are decoded correctly, given the ratio of signal to noise and
+// interference (SINR) over the packet's time and band.
 //
-// Model. A packet's information bits lie evenly after its preamble, in blocks: the header and each frame
-// (acoustics/modem/packet_format.h).
-// - Bits that fade together (PSK, uncoded FSK, and everything without fading): errors do not depend on each
-//   other,
-//     ln P = sum over cells of bits in the cell * ln(1 - BER(SINR))
-// - Coded frequency-shift keying, whose interleaver spreads a block over its time and whose hops spread it
-//   over the band, while it fades: the exponential effective ratio of a block's cells, of chips,
-//     gamma = -beta ln mean exp(-gamma_i / beta),  P = (1 - BER(gamma))^bits
-//   beta = 2.95 lands the JANUS code on its own curve for chips that fade by themselves (Rayleigh) to 0.1 dB
+// Model. The information bits of a packet are spread evenly over the time after its preamble, in blocks: the
+// header and each frame (acoustics/modem/packet_format.h). A cell is a stretch of constant interference at
+// one frequency.
+// - Blocks without interleaving over fading (PSK, uncoded FSK, and every modem when nothing fades) have
+//   independent errors:
+//     ln P = sum over cells of  (bits in the cell) ln(1 - BER(SINR)).
+// - Coded frequency-shift keying while the signal fades: the interleaver spreads a block over its time and
+//   the hops spread it over the band. The block has the exponential effective ratio gamma of the ratios
+//   gamma_i of its cells, per chip:
+//     gamma = -beta ln mean exp(-gamma_i / beta),  P = (1 - BER(gamma))^bits.
+//   beta = 2.95 reproduces the curve of the JANUS code for chips of independent Rayleigh fading to 0.1 dB
 //   (convolutional_code.h).
-// A cell is a stretch of constant interference at one frequency.
 #pragma once
 
 #include <algorithm>
@@ -24,23 +25,24 @@ namespace halocline::acoustics {
 
 inline constexpr double kEffectiveRatioBeta = 2.95;
 
-// Energy of a chip of a code of rate 1/2 over the noise density, for a ratio of 1 in the band: B / (2 R).
+// Energy of a chip over the noise density for a code of rate 1/2 at a ratio of 1 in the band: B / (2 R), B
+// the bandwidth and R the bit rate.
 double chip_energy(const Modem& modem);
 
-// Gathers the cells of one block.
+// Accumulates the cells of one block and returns its probability of success.
 class BlockDecoder {
  public:
-  // `fades`: the signal varies within the packet.
+  // `fades` is true when the signal varies within the packet.
   BlockDecoder(const Modem& modem, bool fades);
-  // `share` of the block's bits, 0..1, has the ratio `sinr` >= 0 in the modem's band.
+  // Adds a cell: `share` of the block's bits, 0..1, at the ratio `sinr` >= 0 in the modem's band.
   void add(double share, double sinr);
-  // The probability that all `bits` of the block are right.
+  // Probability that all `bits` of the block are correct.
   double success(std::int64_t bits) const;
 
  private:
   const Modem& modem_;
   bool interleaved_;
-  double sum_ = 0;  // of exp(-gamma / beta), or of ln(1 - BER), by share
+  double sum_ = 0;  // sum, weighted by share, of exp(-gamma / beta) or of ln(1 - BER)
 };
 
 }  // namespace halocline::acoustics

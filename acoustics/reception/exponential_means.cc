@@ -13,16 +13,17 @@ namespace {
 
 constexpr std::size_t kFrequencies = kSignalFrequencies;
 constexpr double kDbPerNeper = 10 / std::numbers::ln10;
-constexpr double kMaxExponent = 300;  // of a ratio of variances: no packet of it is lost
-// Our fit to judged packets (tests/channel_server/packets/link_prediction_test.cc): of the beats of coherent
-// paths, what counts for single errors.
+// Bound of the exponent in the variance; no packet of such a state is lost.
+constexpr double kMaxExponent = 300;
+// Share of the cross terms of coherent paths that counts for errors of uncoded bits: our fit to simulated
+// packets (tests/channel_server/packets/link_prediction_test.cc).
 constexpr double kBeatShare = 1;
 
 using Frequencies = std::array<double, kFrequencies>;
 
-// Of each frequency: the mean over the fast fading of exp(-scale power), times exp(least), and its variance.
+// Mean over the fast fading of exp(-scale power) at each frequency, times exp(least), and its variance.
 struct Exponentials {
-  double least = 0;  // exponent taken out: loud cells underflow
+  double least = 0;  // common exponent, factored out: cells of high power underflow
   Frequencies means{}, variances{};
 };
 
@@ -32,8 +33,9 @@ double mean_of(const std::array<double, kFrequencies>& values) {
   return sum / kFrequencies;
 }
 
-// Of Rician powers: E exp(-x) = exp(-c / (1 + d)) / (1 + d), c the steady power, d the fading one, in units
-// of 1 / scale. Loops over the frequencies without sums, which compilers make vectors.
+// Means for Rician powers, c the steady and d the diffuse power in units of 1 / scale:
+//   E exp(-x) = exp(-c / (1 + d)) / (1 + d).
+// The loops over the frequencies have no sums, so that compilers vectorise them.
 HALOCLINE_VECTOR_CLONES
 Exponentials of_rician(const SlowSound& slow, double scale, double fast) {
   Exponentials made;
@@ -56,9 +58,9 @@ Exponentials of_rician(const SlowSound& slow, double scale, double fast) {
   return made;
 }
 
-// The same of single errors: the mean of exp(-scale power) of a power that varies within the frequency's part
-// of the band as S + sqrt(V) and S - sqrt(V), S^2 - V = constant^2, of which single errors feel a part (our
-// fit): the signal is met at one place of each part of the band.
+// Corrects the means for uncoded bits: coherent paths interfere within a part of the band, and a bit is
+// received at one frequency of the part. The power is taken to be S + sqrt(V) or S - sqrt(V) with equal
+// probability, S^2 - V = constant^2; kBeatShare of the deviation counts (our fit).
 HALOCLINE_VECTOR_CLONES
 void take_beats(const SlowSound& slow, double scale, double fast, Exponentials& made) {
   const double d = scale * fast, slower = scale / (1 + d);
@@ -73,9 +75,9 @@ void take_beats(const SlowSound& slow, double scale, double fast, Exponentials& 
   }
 }
 
-// From the means and variances of single times to those of the mean over a packet's, `own` and `beats` being
-// the variance of its power. Deep fades, which count most, are shorter than the power's coherence, in time
-// and in frequency.
+// Turns means and variances at single instants into those of the mean over a packet; `own` and `beats` are
+// the variance of its mean power. The fades that dominate the mean are deep, hence shorter than the coherence
+// of the power in time and in frequency, which reduces the variance further (`shorter`).
 HALOCLINE_VECTOR_CLONES
 void finish_cells(const ExponentialMeans::Fast& fast, ExponentialMeans::Cells& cells) {
   const std::size_t count = cells.count;
@@ -90,6 +92,7 @@ void finish_cells(const ExponentialMeans::Fast& fast, ExponentialMeans::Cells& c
   }
 }
 
+// The effective ratio is log-normal: v = ln(1 + relative variance), its median is at nepers + v / 2.
 HALOCLINE_VECTOR_CLONES
 void effective_ratios(const ExponentialMeans::Cells& cells, ExponentialMeans::Ratios& ratios) {
   const std::size_t count = cells.count;

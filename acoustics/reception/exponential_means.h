@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Means over a packet's time and band of exp(-scale power) while its slow fading holds: what decides of
-// frequency-shift keying (acoustics/reception/link_prediction.h). Many states are computed together, as
-// vectors.
+// Means of exp(-scale power) over the time and band of a packet whose block fading is constant; they
+// determine the bit errors of frequency-shift keying (acoustics/reception/link_prediction.h). Up to kMax
+// states are computed together as vectors.
 #pragma once
 
 #include <array>
@@ -11,33 +11,37 @@
 
 namespace halocline::acoustics {
 
+// Accumulates states with add(), then computes their means with finish().
 class ExponentialMeans {
  public:
   static constexpr std::size_t kMax = kMediumStates;
   using Values = std::array<double, kMax>;
 
-  // What fades within a packet: its mean power; the variance of its mean over the bits, by itself and by its
-  // beats over the slow power. Single errors, which are met at one place of each part of the band, feel how
-  // coherent paths beat within it.
+  // The power that fades within a packet: its mean, and the variance of its mean over the bits, by itself
+  // (`own`) and by cross terms per unit of block-fading power (`beats`). With `beats_within_parts`, coherent
+  // paths interfere within each part of the band: an uncoded bit is received at one frequency of each part
+  // and is exposed to that interference.
   struct Fast {
     double power = 0, own = 0, beats = 0;
     bool beats_within_parts = false;
   };
   explicit ExponentialMeans(const Fast& fast) : fast_(fast) {}
 
-  // kMax at most; then finish().
+  // Adds a state, at most kMax of them, with the `scale` of its power; call finish() after the last.
   void add(const SlowSound& slow, double scale);
   void finish();
 
-  // -ln of the mean, and its relative variance over the fast fading, in the order of adding.
+  // The negative logarithm of the mean, and its relative variance over the fast fading; `i` counts the states
+  // in the order in which they were added.
   double nepers(std::size_t i) const { return cells_.nepers[i]; }
   double variance(std::size_t i) const { return cells_.variance[i]; }
-  // Scale times the effective ratio of the cells, log-normal, dB.
+  // The effective ratio of the cells times the scale, log-normal, dB.
   struct Ratios {
     Values medians_db, deviations_db;
   };
   Ratios ratios() const;
 
+  // Intermediate results, one entry for each state.
   struct Cells {
     std::size_t count = 0;
     Values scale, slow_power, least, mean, variance, nepers;

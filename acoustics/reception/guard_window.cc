@@ -14,18 +14,18 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kEqualDb =
-    1;  // between windows, of which fading makes now one and now the other the stronger
-constexpr double kShared =
-    0.5;  // weight of a window's strongest path in another that is the same for a receiver
+// Difference of power below which fading makes one or the other of two windows the stronger.
+constexpr double kEqualDb = 1;
+// Weight of a window's strongest path in another window above which the receiver treats both as the same.
+constexpr double kShared = 0.5;
 
-// 1 before 0, 0 after 1, half a cosine between.
+// Raised cosine: 1 for x <= 0, 0 for x >= 1, (1 + cos(pi x)) / 2 between.
 double raised_cosine(double x) {
   if (x <= 0) return 1;
   return x >= 1 ? 0 : (1 + fast_turn(std::numbers::pi * x).cosine) / 2;
 }
 
-// The weights of a modem's window.
+// Weights of the paths in a modem's window.
 class Guard {
  public:
   explicit Guard(const Modem& modem)
@@ -45,7 +45,7 @@ class Guard {
   double guard_s_, taper_s_, longest_s_;
 };
 
-// Share of the power of an echo that meets the tones of its own packet.
+// Share of an echo's power that falls on the tones of its own packet.
 double hop_overlap(const Modem& modem, double apart_s) {
   if (modem.hop_count == 0) return 1;
   const double back_s = apart_s - modem.hop_clearing.seconds();
@@ -57,12 +57,12 @@ void replace_by_powers(std::span<double> levels_db) {
   for (double& value : levels_db) value = fast_power(value);
 }
 
-// Sum of w^2 P of the window that begins at each path; 0 of those whose paths of full weight are together
-// weaker than the best by more than what likely_windows() looks at.
+// Sum of w^2 P for the window that begins at each path. It is 0 for windows so much weaker than the best that
+// likely_windows() ignores them, judged by the unweighted power of their paths.
 std::vector<double> window_powers(const std::vector<SoundPath>& paths, const std::vector<double>& powers,
                                   const Guard& guard) {
   const double counts = fast_power(-1.01 * kEqualDb);
-  std::vector<double> sums(paths.size()), wholes(paths.size());  // wholes: of all paths in reach
+  std::vector<double> sums(paths.size()), wholes(paths.size());  // wholes: unweighted sums
   double whole = 0;
   for (std::size_t first = 0, end = 0; first < paths.size(); ++first) {
     for (; end < paths.size() && !(paths[end].delay_s - paths[first].delay_s > guard.longest_s()); ++end) {

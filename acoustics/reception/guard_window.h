@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a receiver synchronises: the guard interval that holds the greatest power, as a matched filter finds
-// it.
+// Synchronisation of a receiver: the guard interval of greatest power, as a matched filter finds it.
 //
-// Model: the window begins at one of the paths and lasts the guard time. A path d after its begin has the
-// weight
-//   w = 1 (0 <= d <= guard), (1 + cos(pi (d - guard) / taper)) / 2 (guard < d < guard + taper), 0 otherwise
-// on its pressure; the window is the one of greatest sum w^2 P, the earliest among equals. What it leaves out
-// of a path, 1 - w^2 of the power, interferes with the packet's later symbols. In frequency-hopped FSK it
-// falls on other tones: it takes nothing until the hop pattern returns (the clearing time), and 1/N of its
-// power from then on, N tone pairs; the change takes one more chip, by a raised cosine.
+// Model: the window begins at one of the paths and lasts the guard time. The pressure of a path that arrives
+// d after its begin has the weight
+//   w = 1                                          0 <= d <= guard
+//   w = (1 + cos(pi (d - guard) / taper)) / 2      guard < d < guard + taper
+//   w = 0                                          otherwise.
+// The window is the one of the greatest sum of w^2 P, the earliest among equals. The remaining share 1 - w^2
+// of a path's power interferes with later symbols of the packet. In frequency-hopped FSK this remainder falls
+// on other tones: it causes no interference until the hop pattern returns (the clearing time), and 1/N of its
+// power from then on, N the number of tone pairs; the transition takes one more chip, as a raised cosine.
 #pragma once
 
 #include <cstddef>
@@ -19,44 +20,46 @@
 
 namespace halocline::acoustics {
 
-// Of a path in a window.
+// Contribution of one path to signal and interference for a given window.
 struct WindowShare {
-  double weight = 0;        // of its pressure in the signal, 0..1
+  double weight = 0;        // weight of its pressure in the signal, 0..1
   double interference = 0;  // share of its power that interferes, 0..1
 };
 
+// A guard window and the weights of the paths in it.
 struct GuardWindow {
-  std::size_t first = 0;            // path at which it begins
-  std::size_t strongest = 0;        // of the paths in it, by weighted power
-  std::vector<WindowShare> shares;  // of each path
+  std::size_t first = 0;            // index of the path at which the window begins
+  std::size_t strongest = 0;        // index of the path of greatest weighted power
+  std::vector<WindowShare> shares;  // one for each path
 };
 
-// Mean powers of paths, uPa^2, within 1e-9.
+// Mean powers of the paths, uPa^2, within 1e-9.
 std::vector<double> mean_powers(const std::vector<SoundPath>& paths);
 
-// Those of no effect left out, more than 60 dB below the strongest: `paths`, not empty, or what is `heard` of
-// them.
+// Removes paths more than 60 dB below the strongest, which have no effect. Returns `paths` itself, which must
+// not be empty, or `heard`, filled with the paths that remain.
 const std::vector<SoundPath>& without_faint(const std::vector<SoundPath>& paths,
                                             std::vector<SoundPath>& heard);
 
-// `paths` by delay, not empty.
+// The window of the greatest power. `paths` are sorted by delay and not empty.
 GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem);
 
-// Windows that hold nearly the same power, for predictions: as paths fade, now the one and now the other is
-// the stronger. With the best there is at most one, the best without its strongest path: of a power lower by
-// d < 1 dB it is chosen with the probability (1 - d / 1 dB)^2 / 2 (our choice), so that no small change of
-// the power exchanges one for the other.
+// A window that the receiver may choose, with its probability, for predictions: as paths fade, one or the
+// other of two windows of similar power is the stronger. Besides the best window at most one is considered,
+// the best of those without its strongest path. If its power is lower by d < 1 dB, it is chosen with the
+// probability (1 - d / 1 dB)^2 / 2 (our choice), so that a small change of power never exchanges the two
+// abruptly.
 struct LikelyWindow {
   GuardWindow window;
   double probability = 1;
 };
 
-// The best first. `paths` as above.
+// The likely windows, the best first. `paths` as for best_window().
 std::vector<LikelyWindow> likely_windows(const std::vector<SoundPath>& paths, const Modem& modem);
 
-// Sum over the window of w^2 P of mean powers, uPa^2.
+// Mean signal power of a window, the sum of w^2 P, uPa^2.
 double mean_signal(const std::vector<SoundPath>& paths, const GuardWindow& window);
-// Sum of what interferes, uPa^2.
+// Mean power of the paths' interference, uPa^2.
 double mean_interference(const std::vector<SoundPath>& paths, const GuardWindow& window);
 
 }  // namespace halocline::acoustics

@@ -25,9 +25,9 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr std::size_t kPowers = 8, kPatterns = kMediumStates;
-constexpr double kAlike = 0.03;  // slow fading of less than this share of the signal counts as none
+constexpr double kAlike = 0.03;  // block fading below this share of the signal counts as none
 
-// The medium's states: scores of the slow power, and normals of its pressures.
+// States of the medium: normal scores of the block-fading power, and normal variables for its pressures.
 struct SlowStates {
   std::array<double, kPowers> powers = normal_strata<kPowers>();
   std::array<double, kPatterns> pattern_powers = normal_strata<kPatterns>();
@@ -36,8 +36,8 @@ struct SlowStates {
   SlowStates() {
     for (std::size_t c = 0; c < 2 * kSignalFrequencies; ++c) add_coordinate(c);
   }
-  // Coordinate `c` of the patterns' normals: each stratum once, in the one of many random orders that is
-  // correlated least with those before, by itself and by squares.
+  // Fills coordinate `c` of the normal variables: each stratum once, in the order, of many random ones, whose
+  // values and squares correlate least with the coordinates before.
   void add_coordinate(std::size_t c) {
     constexpr std::uint64_t kTrials = 300;
     const auto coordinate = [&](std::size_t k) -> std::array<double, kPatterns>& {
@@ -74,7 +74,8 @@ const SlowStates& slow_states() {
   return states;
 }
 
-// The medium's states over the band, the quietest first, with the strata of the slow power.
+// States of the medium over the band in order of ascending power, scaled to the strata of the block-fading
+// power.
 std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
   const std::array<SlowSound, kPatterns> states = medium_states(sound, slow_states().patterns);
   std::array<SlowSound, kPatterns> patterns;
@@ -90,14 +91,14 @@ std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
   return patterns;
 }
 
-// Phase-shift keying: levels by the slow power, which rises; computed at the least, the median and the most.
-// Between them the ratios to the mean power lie on the parabola through those. Where the loudest are lost or
-// the quietest decoded, all are.
+// Phase-shift keying: levels for each block-fading power, in ascending order. They are computed at the least,
+// the median and the greatest power; between them the ratio to the mean power lies on the parabola through
+// those three. If the strongest state is lost, or the weakest decoded, so are all.
 std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, const StrataMean& mean,
                                                   const std::array<double, kPowers>& powers, double median,
                                                   double fast) {
-  std::array<double, StrataMean::kLevels>
-      parts{};  // guessed as those of the power before, or else of the level before
+  // Parts of a packet: the guess is the result for the previous power, or else for the previous level.
+  std::array<double, StrataMean::kLevels> parts{};
   double last = 0;
   const auto levels_at = [&](double power) {
     const FadingSignal fading = packet.fading_signal(power);
@@ -111,7 +112,7 @@ std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, co
   std::array<StrataMean::Levels, kPowers> levels;
   const auto in_db = [&](double power) { return fast_decibels(std::max(power + fast, 1e-30)); };
   const auto are_lost = [&](const StrataMean::Levels& of_loudest) { return mean.loses(of_loudest.back()); };
-  // No fading makes the bits better than that.
+  // An upper bound of the level: fading does not improve the bits by more than kMostGainDb.
   StrataMean::Levels most{};
   most.back().median_db =
       in_db(powers.back()) - fast_decibels(mean.noise(most.size() - 1)) + PacketLevels::kMostGainDb;
@@ -119,7 +120,7 @@ std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, co
     levels.fill(mean.spread(most, most.size() - 1, 0, most.size() - 1));
     return levels;
   }
-  // What is more likely, first: the other is hardly needed then.
+  // Evaluates the more likely outcome first: the other end is then rarely needed.
   const bool likely_lost = packet.is_likely_lost(median, mean.noise(StrataMean::kLevels / 2));
   StrataMean::Levels loud;
   if (likely_lost) {
@@ -166,7 +167,7 @@ void add_powers(const PacketLevels& packet, const MeanSound& sound, StrataMean& 
   }
 }
 
-// Frequency-shift keying: levels of the bits, of many states together.
+// Frequency-shift keying: levels of the bits, computed for many states together.
 class StateLevels {
  public:
   StateLevels(const PacketLevels& packet, const StrataMean& mean,
@@ -175,7 +176,7 @@ class StateLevels {
 
   std::array<StrataMean::Levels, kPatterns> levels{};
 
-  // Level `k` of these states.
+  // Computes level `k` of these states.
   void compute(std::span<const std::size_t> states, std::size_t k) {
     std::array<PacketLevels::StateAndNoise, kPatterns> cases{};
     std::array<Level, kPatterns> made;
@@ -183,7 +184,7 @@ class StateLevels {
     packet_.bits(std::span(cases).first(states.size()), std::span(made).first(states.size()));
     for (std::size_t i = 0; i < states.size(); ++i) levels[states[i]][k] = made[i];
   }
-  // Of a state by itself, where its level `k` is not as certain as that of others.
+  // Computes all levels of state `i`: from level `k` when that is certain, otherwise one by one.
   void compute_unless(bool certain, std::size_t i, std::size_t k) {
     if (certain) {
       mean_.spread(levels[i], k, 0, StrataMean::kLevels);
@@ -198,8 +199,9 @@ class StateLevels {
   const std::array<SlowSound, kPatterns>& states_;
 };
 
-// The middle level of each state; those on both sides of it as far from it as in the states nearest in power
-// of those of which all are computed. Where those are certain, each state by itself.
+// Frequency-shift keying: the middle level is computed for each state. The levels on both sides of it differ
+// from it as in the nearest of four states of which all are computed, interpolated by index. If levels of all
+// four are certain to be decoded or lost, each state is computed on its own.
 std::array<StrataMean::Levels, kPatterns> levels_of(const PacketLevels& packet, const StrataMean& mean,
                                                     const std::array<SlowSound, kPatterns>& patterns) {
   constexpr std::size_t kMiddle = StrataMean::kLevels / 2, kLast = StrataMean::kLevels - 1, kApart = 5;
@@ -266,7 +268,7 @@ double sinr_of(const MeanSound& sound, double noise) {
   return signal / (noise + sound.bits_echoes + sound.untracked * signal);
 }
 
-// Without fading nothing varies but which echoes sound.
+// Prediction without fading: only the set of echoes present varies.
 LinkPrediction predict_still(const std::vector<SoundPath>& paths, const Lock& lock, double noise,
                              const ReceptionCurves& curves) {
   const double preamble_s = curves.timing().preamble.seconds(), end_s = curves.timing().duration.seconds();
@@ -306,7 +308,7 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
   if (!model.enabled) return predict_still(paths, lock, noise, curves);
   const MeanSound sound = mean_sound(paths, lock, band, curves.timing());
   const PacketLevels packet(curves, sound);
-  // What changes as the ends sway holds through a packet too.
+  // Platform jitter is constant through a packet, so its variance adds to that of large-scale fading.
   const double deviation = elementary::hypot(std::numbers::ln10 / 10 * model.large_scale_db,
                                              std::sqrt(elementary::log1p(sound.sway_variance)));
   StrataMean mean(deviation, curves, sound, noise);

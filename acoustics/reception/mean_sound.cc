@@ -24,22 +24,25 @@ using Complex = std::complex<double>;
 using std::numbers::pi;
 
 constexpr std::size_t kFrequencies = kSignalFrequencies;
-constexpr double kNegligible = 1e-12;  // of the power: of no effect
-constexpr double kIncoherent = 1e-5;   // of the power of the strongest path
+constexpr double kNegligible = 1e-12;  // share of the power that has no effect
+constexpr double kIncoherent = 1e-5;   // relative to the power of the strongest path
 
-// Without the library's look for infinities.
+// Complex product without the standard library's tests for infinities.
 Complex product(Complex a, Complex b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
-double real_product(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }  // of a b*
+double real_product(Complex a, Complex b) {
+  return a.real() * b.real() + a.imag() * b.imag();
+}  // real part of a b*
 
+// Adds a path's power times exp(-j 2 pi k spacing delay) for each lag k.
 void add_to(BandCorrelation& correlation, double power, const BandTurns& turns) {
   for (std::size_t k = 0; k < kFrequencies; ++k) {
     correlation[k] += Complex(power * turns.re[k], power * turns.im[k]);
   }
 }
 
-// Mean over all pairs of frequencies of a b*.
+// Mean of a b* over all pairs of frequencies, by their lag.
 double mean_correlation(const BandCorrelation& a, const BandCorrelation& b) {
   double sum = 0;
   for (std::size_t k = 0; k < kFrequencies; ++k) {
@@ -48,7 +51,7 @@ double mean_correlation(const BandCorrelation& a, const BandCorrelation& b) {
   return sum / (kFrequencies * kFrequencies);
 }
 
-// K a, K_mn = E B_m B_n*.
+// Product K a of the covariance matrix K_mn = E B_m B_n* with a vector.
 BandPressures times(const BandCorrelation& correlation, const BandPressures& a) {
   BandPressures sums{};
   for (std::size_t m = 0; m < kFrequencies; ++m) {
@@ -59,14 +62,14 @@ BandPressures times(const BandCorrelation& correlation, const BandPressures& a) 
   return sums;
 }
 
-// a^H b / 8^2.
+// Quadratic mean a^H b / 8^2.
 double mean_product(const BandPressures& a, const BandPressures& b) {
   double sum = 0;
   for (std::size_t m = 0; m < kFrequencies; ++m) sum += real_product(a[m], b[m]);
   return sum / (kFrequencies * kFrequencies);
 }
 
-// Sums over the paths of frequency-shift keying.
+// Sums over the paths for frequency-shift keying.
 class BandSums {
  public:
   BandSums(const Modem& receiver, const Band& band, double strongest, std::size_t paths)
@@ -77,7 +80,7 @@ class BandSums {
 
   void add(const SoundPath& path, double power, double turned_share, double fast, double excess_s) {
     const BandTurns turns = band_turns(-spacing_hz_ * excess_s);
-    // What is hardly coherent turns as the medium does.
+    // Paths with little coherent power count it as turned by the medium.
     const bool steadily = power * path.fading.coherent > kIncoherent * strongest_;
     if (steadily) {
       const double coherent = std::sqrt(power * path.fading.coherent);
@@ -91,7 +94,8 @@ class BandSums {
     }
     add_to(medium_, power * (turned_share + (steadily ? 0 : path.fading.coherent)), turns);
     add_to(scattered_, power * fast, turns);
-    // sin(pi x) / (pi x) by the turn of half a part: 1 - cos(2 pi x) = 2 sin(pi x)^2.
+    // sinc(spacing delay)^2 from the phase change x = pi spacing delay over half a part:
+    //   1 - cos(2 x) = 2 sin(x)^2.
     const double x = pi * spacing_hz_ * excess_s;
     add_to(beating_, power * fast * (std::abs(x) < 1e-4 ? 1 : (1 - turns.re[1]) / (2 * x * x)), turns);
   }
@@ -138,10 +142,10 @@ class BandSums {
   BandCorrelation medium_{}, scattered_{}, beating_{};
 };
 
-// Of each path's fading, what single values need of it: slowly computed, all paths together.
+// Fading quantities of all paths that are slow to compute one by one, evaluated together.
 struct PathRates {
-  std::vector<double> rates;  // 1 / L of its power, 1/s
-  std::vector<double> holds;  // share of what is scattered that holds through the bits
+  std::vector<double> rates;  // 1 / L of the power (mean_sound.h), 1/s
+  std::vector<double> holds;  // share of the scattered power that is constant through the bits
   std::vector<double> kept_preamble, kept_bits;
 };
 HALOCLINE_VECTOR_CLONES
@@ -167,13 +171,14 @@ PathRates rates_of(const std::vector<SoundPath>& paths, double preamble_s, doubl
   return made;
 }
 
+// Share of the interval from `from_s` to `to_s` that lies within `begin_s`..`end_s`, 0..1.
 double share_within(double begin_s, double end_s, double from_s, double to_s) {
   return to_s > from_s
              ? std::clamp((std::min(end_s, to_s) - std::max(begin_s, from_s)) / (to_s - from_s), 0.0, 1.0)
              : 0;
 }
 
-// Of the bits, by the power that sounds in them.
+// Share of the bits during which late echoes are present, weighted by their power.
 double late_share(const std::vector<SoundPath>& paths, const std::vector<double>& powers,
                   const GuardWindow& window, double preamble_s, double end_s) {
   double all = 0, shared = 0;
@@ -190,6 +195,7 @@ double late_share(const std::vector<SoundPath>& paths, const std::vector<double>
 
 }  // namespace
 
+// kept(x) = 1 / sqrt(1 + x^2 / pi) at x / sqrt(2), and at `part` of x.
 double kept_of_longer(double kept) { return kept / std::sqrt(kept * kept + (1 - kept * kept) / 2); }
 double kept_of_part(double kept, double part) {
   return kept / std::sqrt(kept * kept + part * part * (1 - kept * kept));
@@ -216,7 +222,7 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     const PathFading& fading = path.fading;
     const double power = powers[p], begin_s = path.delay_s - first.delay_s;
     const double kept_preamble = rates.kept_preamble[p], kept_bits = rates.kept_bits[p];
-    // What is scattered so slowly that it holds through a packet fades as the medium does.
+    // Scattering so slow that it stays constant through a packet fades as the medium does.
     const double holds = rates.holds[p];
     const double fast = fading.scattered * (1 - holds),
                  turned_share = fading.medium + fading.scattered * holds,
@@ -234,7 +240,7 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
       sound.late_echoes += sounding;
       sound.fading_echoes += sounding * (collects ? 1 - fast : 1);
       sound.preamble_echo_variance += squared(of_preamble) * fades * kept_preamble;
-      // What fades within a packet does so with the signal of phase-shift keying.
+      // Phase-shift keying: echoes that fade within a packet are part of the fast fading of the signal.
       sound.bits_echo_variance +=
           squared(sounding) *
           (collects ? turned_share * (turned_share + 2 * fading.coherent) : fades * kept_bits);

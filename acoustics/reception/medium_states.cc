@@ -13,7 +13,7 @@ using Complex = std::complex<double>;
 
 constexpr std::size_t kFrequencies = kSignalFrequencies;
 
-// Without the library's look for infinities.
+// Complex product without the standard library's tests for infinities.
 Complex product(Complex a, Complex b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
@@ -28,8 +28,8 @@ void SlowSound::scale(double factor) {
 
 namespace {
 
-// Cholesky's root, lower triangular. Few paths leave the correlation without full rank: pivots of rounding's
-// size count as none.
+// Cholesky factor, lower triangular. The correlation of few paths is rank deficient: pivots of the size of
+// rounding errors are set to 0.
 using Root = std::array<BandPressures, kFrequencies>;
 Root root_of(const BandCorrelation& correlation) {
   Root rows{};

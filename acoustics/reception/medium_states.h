@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// States that the medium of a link holds through a packet, in predictions of frequency-shift keying
-// (acoustics/reception/link_prediction.h).
+// Realisations of the fading that the medium imposes on a link through a packet, for predictions of
+// frequency-shift keying (acoustics/reception/link_prediction.h).
 #pragma once
 
 #include <array>
@@ -11,16 +11,16 @@
 
 namespace halocline::acoustics {
 
-// Powers while the medium holds in one state, by frequency.
+// Powers at each frequency, uPa^2, for one realisation of the block fading.
 struct SlowSound {
   std::array<double, kSignalFrequencies> steady{}, varying{};
-  double slow_power = 0;  // without what fades within a packet, over the band
+  double slow_power = 0;  // mean over the band, without the power that fades within a packet
 
   void scale(double factor);
 };
 
-// States of the medium: pressures that have its correlation, from complex normals of variance 1, by
-// frequency.
+// Realisations of the medium: pressures of its correlation, made from complex normal variables of variance 1
+// at each frequency.
 inline constexpr std::size_t kMediumStates = 16;
 struct MediumNormals {
   using States = std::array<double, kMediumStates>;

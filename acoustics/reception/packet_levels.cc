@@ -17,15 +17,15 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kMostScore = 6;
-constexpr double kLeastLoss = 1e-6;  // of packets
-constexpr double kAlike = 0.02;      // of the variance: of no effect
-constexpr double kNoLoss = -5.5;     // score: nothing falls below
+constexpr double kLeastLoss = 1e-6;  // probability of losing a packet
+constexpr double kAlike = 0.02;      // share of the variance that has no effect
+constexpr double kNoLoss = -5.5;     // normal score below which nothing is lost
 constexpr int kRounds = 3, kRoundsOfGuess = 2;
-constexpr double kSettled = 0.03;  // change of the parts by a round that needs no other
-constexpr double kNarrow =
-    0.15;  // deviation over mean, 0.65 dB: below, fading is less than the steps of the curve
-// Our fit to judged packets (tests/channel_server/packets/link_prediction_test.cc): of the variance of
-// errors, what counts.
+constexpr double kSettled = 0.03;  // relative change of the parts at which the iteration stops
+// Deviation over mean, 0.65 dB: fading below this is narrower than the steps of the reception curve.
+constexpr double kNarrow = 0.15;
+// Share of the variance of the number of errors that counts: our fit to simulated packets
+// (tests/channel_server/packets/link_prediction_test.cc).
 constexpr double kErrorShare = 0.15;
 
 double halvings(double parts) {
@@ -56,7 +56,7 @@ FadingSignal::Side::Side(double at_threshold, const BandLaw& law, const Stretche
   }
 }
 
-// `above` is a guess of the first point that has more power, and becomes it.
+// `above` holds a guess of the first point of greater power on entry, that point on return.
 FadingSignal::Side::Place FadingSignal::Side::place(double power, double log_power,
                                                     std::size_t& above) const {
   const BandLaw::Values& powers = points.powers;
@@ -89,7 +89,7 @@ double FadingSignal::Side::log_parts_at(double power) const {
   return points.log_parts[low] + part * (points.log_parts[high] - points.log_parts[low]);
 }
 
-// As many deviations from the mean on both sides.
+// Interpolates between the two thresholds at powers that are equally many deviations from the mean.
 HALOCLINE_VECTOR_CLONES
 FadingSignal::States FadingSignal::at(const ReceptionCurves::Thresholds& thresholds,
                                       double disturbance) const {
@@ -132,7 +132,7 @@ PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound
       collects_band_(!is_frequency_shift_keying(curves.modem().error_model)),
       own_(sound.bits_variance * sound.own),
       beats_(kept_of_longer(sound.bits_variance) * sound.beats) {
-  // The stretches of signal_history.h.
+  // Number of stretches of the bits, as in signal_history.h.
   stretches_ = std::clamp(std::ceil(4 * bits_s_ / coherence_time_of(sound.window_spread_hz)), 8.0, 64.0);
   const auto ratio_db = [&](double loss) { return curves.ratio_db_of(-loss / bits_); };
   if (collects_band_) {
@@ -140,6 +140,7 @@ PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound
     if (high_->most_interference_share() >= kAlike) {
       low_.emplace(sound.collected, elementary::exp(curves.parts()[5].logs[4]));
     }
+    // Uncoded: -ln(1 - BER)^bits is fitted by a exp(-slope ratio) through losses of 4 and 0.2.
   } else if (!coded_) {
     const double low = elementary::exp10(ratio_db(4) / 10);
     slope_ = elementary::log(20) / std::max(elementary::exp10(ratio_db(0.2) / 10) - low, 1e-9);
@@ -158,8 +159,8 @@ FadingSignal PacketLevels::fading_signal(double slow_power) const {
   return {*high_, low_, slow_power, {stretches_, bits_s_ / stretches_}};
 }
 
-// -ln of the chance of all bits where fading is less than the steps of ReceptionCurves::Parts: by Hermite's
-// five points.
+// Negative logarithm of the probability of all bits when fading is narrower than the steps of
+// ReceptionCurves::Parts: a mean over the normal distribution by the five-point Gauss-Hermite rule.
 double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance) const {
   constexpr std::array<double, 5> kScores{-2.8569700138728056, -1.3556261799742659, 0, 1.3556261799742659,
                                           2.8569700138728056};
@@ -178,10 +179,10 @@ double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance)
   return -parts * fast_log(std::max(success, 1e-30));
 }
 
-// -ln of the chance of all bits, of the parts of a packet that fade independently, each with its share of the
-// bits.
+// Negative logarithm of the probability of all bits, which are divided among the independently fading parts
+// of a packet.
 double PacketLevels::loss(const FadingSignal& signal, double disturbance, double& parts) const {
-  // From the one way to the other without a step.
+  // Blends narrow_loss() and wide_loss() so that there is no step between them.
   const double narrow = std::clamp(2 - signal.deviation() / (kNarrow * signal.mean()), 0.0, 1.0);
   if (!(narrow > 0)) return std::max(wide_loss(signal, disturbance, parts), kLeastLoss);
   double loss_db = narrow * decibels(std::max(narrow_loss(signal, disturbance), kLeastLoss));
@@ -193,7 +194,7 @@ double PacketLevels::loss(const FadingSignal& signal, double disturbance, double
 Level PacketLevels::bits(const FadingSignal& signal, double disturbance, double& parts) const {
   constexpr double kLeastLate = 0.05;
   double all = loss(signal, disturbance, parts);
-  // Before the late echoes sound.
+  // The bits that precede the late echoes are free of their interference.
   const double late = sound_.late_echoes, before = (1 - sound_.late_share);
   if (before * late > kLeastLate * disturbance) {
     const double alone = std::max(disturbance - late, kLeastLate * disturbance);
@@ -207,7 +208,8 @@ bool PacketLevels::is_likely_lost(double slow_power, double disturbance) const {
   return decibels((slow_power + sound_.fast) / disturbance) < curves_.bits_flank().high_db;
 }
 
-// -ln of the chance of all bits.
+// Negative logarithm of the probability of all bits when fading is wide: iterates the number of independent
+// parts, on which the thresholds depend.
 double PacketLevels::wide_loss(const FadingSignal& signal, double disturbance, double& parts) const {
   const auto& shares = ReceptionCurves::threshold_shares();
   const int rounds = parts > 0 ? kRoundsOfGuess : kRounds;
@@ -218,7 +220,7 @@ double PacketLevels::wide_loss(const FadingSignal& signal, double disturbance, d
     const double guess = parts;
     double below = 0, sum = 1e-12 * parts, weight = 1e-12;
     for (std::size_t k = 0; k < ReceptionCurves::kThresholds; ++k) {
-      if (states.scores[k] < kNoLoss) break;  // nor below the thresholds to come, which are lower
+      if (states.scores[k] < kNoLoss) break;  // the thresholds descend: later ones are not reached either
       const double share = shares[k] * tabulated_probability(states.scores[k]);
       below += share;
       weight += share;
@@ -268,8 +270,9 @@ void PacketLevels::bits(std::span<const StateAndNoise> states, std::span<Level> 
     }
     return;
   }
-  // Errors of single bits, a exp(-slope ratio): as if their number were gamma distributed over the fading,
-  // E exp(-X) = (1 + mean v)^(-1 / v). Its tail is longer: of its variance a part counts (our fit).
+  // Uncoded bits: the number of errors a exp(-slope ratio) is treated as gamma distributed over the fading,
+  //   E exp(-X) = (1 + mean v)^(-1 / v).
+  // Its true tail is longer, so that only kErrorShare of its variance counts (our fit).
   for (std::size_t i = 0; i < states.size(); ++i) {
     const double errors = errors_at_zero_ * fast_exp(-cells.nepers(i)), v = kErrorShare * cells.variance(i);
     const double loss = v > 1e-6 ? fast_log(1 + errors * v) / v : errors;

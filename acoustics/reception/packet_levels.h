@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a packet comes to while the slow fading of its link holds: constant levels that decide of its preamble
-// and of its bits as the fast fading does (acoustics/reception/link_prediction.h has the model).
+// Constant levels that have the same outcome as a packet whose fast fading varies while its block fading is
+// constant, for its preamble and for its bits (acoustics/reception/link_prediction.h has the model).
 #pragma once
 
 #include <array>
@@ -18,44 +18,49 @@
 
 namespace halocline::acoustics {
 
-// A level over the fast fading, dB, at the normal score z: median + z deviation + z^2 curvature.
+// A level that varies with the fast fading, dB. At the normal score z it is median + z deviation + z^2
+// curvature.
 struct Level {
   double median_db = 0, deviation_db = 0, curvature_db = 0;
   double at(double z) const { return median_db + z * (deviation_db + z * curvature_db); }
 };
 
-// How phase-shift keying fades within a packet, against two thresholds of the ratio between which it changes
-// evenly, the higher and the lower.
+// Fading of a phase-shift keying signal within a packet. Its distribution is computed at two thresholds of
+// the ratio, the higher and the lower, and interpolated between them.
 class FadingSignal {
  public:
   FadingSignal() = default;
-  // `low` alone where interference matters.
+  // Only `high` is used when `low` is absent: interference does not matter then.
   FadingSignal(const BandTerms& high, const std::optional<BandTerms>& low, double slow_power,
                const Stretches& stretches);
 
-  // Where the ratio to a disturbance is one of the thresholds, which fall.
+  // State of the signal where its ratio to a disturbance equals each of the thresholds, which descend.
   struct States {
-    std::array<double, ReceptionCurves::kThresholds> scores{};  // normal, of the signal below the power
-    std::array<double, ReceptionCurves::kThresholds>
-        parts{};  // independent ones of a packet, of fades below the power
+    // Normal score of the probability that the signal is below the threshold.
+    std::array<double, ReceptionCurves::kThresholds> scores{};
+    // Number of independent parts of a packet, for fades below the threshold.
+    std::array<double, ReceptionCurves::kThresholds> parts{};
   };
   States at(const ReceptionCurves::Thresholds& thresholds, double disturbance) const;
   double mean() const { return mean_; }
   double deviation() const { return sides_.back().deviation; }
-  // Of fades that are less than the steps of the curve.
+  // Number of independent parts of a packet for fades that are narrower than the steps of the reception
+  // curve.
   double narrow_parts() const { return narrow_parts_; }
 
  private:
   static constexpr std::size_t kPoints = BandLaw::kPoints, kThresholds = ReceptionCurves::kThresholds;
   using Thresholds = std::array<double, kThresholds>;
+  // Distribution at one of the two thresholds.
   struct Side {
     double threshold = 0, deviation = 0;
     BandLaw::Points points{};
-    BandLaw::Values logs{};   // of their powers; of a power below 0, none
-    BandLaw::Values rises{};  // 1 over what the logarithm, or else the power, rises by to the point
+    BandLaw::Values logs{};  // logarithms of the powers; unused for powers below 0
+    // Reciprocal of the rise to the point: of the logarithm, or of the power where a power is not positive.
+    BandLaw::Values rises{};
     Side() = default;
     Side(double at_threshold, const BandLaw& law, const Stretches& stretches);
-    // Of powers, best falling; the parts are logarithms.
+    // Looks up `powers`, fastest when they descend; `states.parts` are logarithms.
     void at(const Thresholds& powers, States& states) const;
     double log_parts_at(double power) const;
 
@@ -67,34 +72,38 @@ class FadingSignal {
     Place place(double power, double log_power, std::size_t& above) const;
   };
   std::array<Side, 2> sides_;
-  bool alike_ = false;  // the same for both thresholds
+  bool alike_ = false;  // true: both thresholds share one distribution
   double mean_ = 0, narrow_parts_ = 1;
 };
 
+// Levels of one packet for any block-fading power.
 class PacketLevels {
  public:
-  // Both outlive it.
+  // `curves` and `sound` must outlive it.
   PacketLevels(const ReceptionCurves& curves, const MeanSound& sound);
 
-  // Whether the band is collected before bits are decided, as an equaliser does: phase-shift keying.
+  // True when the receiver combines the whole band before it decides on bits, as an equaliser does:
+  // phase-shift keying.
   bool collects_band() const { return collects_band_; }
 
-  // The mean signal over the preamble while the power without fast fading is `slow_power`, uPa^2 in dB.
+  // Level of the mean signal over the preamble while the block-fading power is `slow_power`, dB re 1 uPa.
   Level preamble(double slow_power) const;
-  // The ratios to noise and interference, dB, that decide of the bits. Of phase-shift keying: `disturbance`
-  // is noise and mean interference, uPa^2 over the band, `parts` a guess of how many fade independently, 0 of
-  // none, in which what comes out is left; of frequency-shift keying, noise alone.
+  // Ratio of signal to noise and interference that has the same outcome for the bits, dB. Phase-shift keying:
+  // `disturbance` is the noise and mean interference over the band, uPa^2. `parts` is in and out the number
+  // of parts of the packet that fade independently: a guess on entry, 0 when there is none, and the result on
+  // return.
   FadingSignal fading_signal(double slow_power) const;
   Level bits(const FadingSignal& signal, double disturbance, double& parts) const;
-  // Whether the bits of packets of these are lost rather than right.
+  // True when all bits of a packet with these powers are more likely lost than correct.
   bool is_likely_lost(double slow_power, double disturbance) const;
   struct StateAndNoise {
     const SlowSound* slow;
     double noise;
   };
-  // Over the ratio to the mean signal, at most.
+  // Upper bound of the result over the ratio to the mean signal.
   static constexpr double kMostGainDb = 3;
-  // Of ExponentialMeans::kMax at most.
+  // Frequency-shift keying: levels of at most ExponentialMeans::kMax states, each with the noise alone,
+  // uPa^2.
   void bits(std::span<const StateAndNoise> states, std::span<Level> levels) const;
   Level bits(const SlowSound& slow, double noise) const;
 
@@ -102,16 +111,16 @@ class PacketLevels {
   double loss(const FadingSignal& signal, double disturbance, double& parts) const;
   double narrow_loss(const FadingSignal& signal, double disturbance) const;
   double wide_loss(const FadingSignal& signal, double disturbance, double& parts) const;
-  // Where so many parts turn from right to wrong.
+  // Thresholds of the ratio below which one of `parts` parts of the packet is lost.
   ReceptionCurves::Thresholds thresholds(double parts) const;
   const ReceptionCurves& curves_;
   const MeanSound& sound_;
   double chip_, bits_, bits_s_;
   bool coded_, collects_band_;
   double stretches_ = 1;
-  std::optional<BandTerms> high_, low_;    // of phase-shift keying: those of FadingSignal
-  double slope_ = 0, errors_at_zero_ = 0;  // of -ln(1 - BER) over the ratio
-  double own_, beats_;                     // MeanSound's, as the mean over the bits keeps them
+  std::optional<BandTerms> high_, low_;    // phase-shift keying: the terms of FadingSignal
+  double slope_ = 0, errors_at_zero_ = 0;  // frequency-shift keying: fit of -ln(1 - BER) over the ratio
+  double own_, beats_;                     // variances of MeanSound after averaging over the bits
 };
 
 }  // namespace halocline::acoustics

@@ -14,7 +14,7 @@
 namespace halocline::acoustics {
 namespace {
 
-// A grid of one coordinate: where x lies, within it.
+// Position of a coordinate in a uniform grid: the row below and the fraction of the way to the next.
 struct Place {
   std::size_t row;
   double part;
@@ -29,7 +29,7 @@ double mix(double a, double b, double part) { return a + part * (b - a); }
 constexpr double kLeastZ = -4.5, kStepZ = 0.25, kLeastSkewness = 0.1, kStepSkewness = 0.1;
 constexpr std::size_t kZs = 37, kSkewnesses = 20;
 
-// ln of gamma_quantile.
+// Logarithms of gamma_quantile().
 using QuantileTable = std::array<std::array<double, kZs>, kSkewnesses>;
 
 const QuantileTable& quantiles() {
@@ -51,7 +51,7 @@ const QuantileTable& quantiles() {
 
 namespace {
 
-// ln of gamma quantiles of one skewness.
+// Logarithms of the gamma quantiles of one skewness.
 class LogQuantiles {
  public:
   explicit LogQuantiles(double skewness) {
@@ -82,6 +82,7 @@ void PowerLaw::replace(std::span<double> scores) const {
   const double deviation = std::sqrt(variance);
   const double skewness = std::clamp(third / (variance * deviation), -2.0, 2.0);
   if (std::abs(skewness) < kLeastSkewness) {
+    // Cornish-Fisher expansion for small skewness.
     for (double& z : scores) z = mean + deviation * (z + skewness * (z * z - 1) / 6);
     return;
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a fading power is distributed: gamma distributed beside a constant, by its first three cumulants.
+// Distribution of a fading power by its first three cumulants: a constant plus a gamma variable.
 //
-// Exact for one scattered path (exponential) and for equal ones (gamma); of a steady path with a scattered
-// one (Rice) within 0.5 dB from the 1 % quantile up. A negative third cumulant mirrors it: interference that
-// fades more than the signal. Quantiles are tabulated once, over the normal score of the probability,
-// -4.5..4.5, and the skewness, 0.1..2; the error is below 0.05 dB.
+// The distribution is exact for one scattered path (exponential) and for equal ones (gamma); for a steady
+// path with a scattered one (Rice) it is within 0.5 dB from the 1 % quantile upwards. A negative third
+// cumulant mirrors the distribution: interference that fades more than the signal. Quantiles are tabulated
+// once over the normal score of the probability, -4.5..4.5, and the skewness, 0.1..2, with an error below
+// 0.05 dB.
 #pragma once
 
 #include <array>
@@ -13,12 +14,14 @@
 
 namespace halocline::acoustics {
 
+// Mean, variance and third central moment of a power.
 struct PowerLaw {
   double mean = 0, variance = 0, third = 0;
 
-  // The value that is fallen below with the probability that a standard normal falls below `z`.
+  // Quantile at the normal score `z`: the power that is not exceeded with the probability of a standard
+  // normal variable below `z`.
   double at(double z) const;
-  // At many scores.
+  // Quantiles at many scores.
   template <std::size_t count>
   std::array<double, count> at(const std::array<double, count>& scores) const {
     std::array<double, count> values = scores;
@@ -27,14 +30,15 @@ struct PowerLaw {
   }
 
  private:
-  void replace(std::span<double> scores) const;  // by the values there
+  void replace(std::span<double> scores) const;  // replaces scores by quantiles in place
 };
 
-// Of a gamma variable of mean 1 whose skewness is `skewness`, 0.1..2: variance = skewness^2 / 4.
+// Quantile of a gamma variable of mean 1 at the normal score `z`. Its `skewness`, 0.1..2, sets its variance:
+// skewness^2 / 4.
 double gamma_quantile(double z, double skewness);
 
-// Of the third cumulant of a sum of powers over the cube of its mean, for its variance over the square: of
-// two unequal parts, or of many equal ones.
+// Estimates the third cumulant of a sum of powers over the cube of its mean from `kept`, its variance over
+// the square of its mean: (3 kept - 1) / 2 for two unequal parts (kept > 0.5), kept^2 for many equal ones.
 double third_share(double kept);
 
 }  // namespace halocline::acoustics

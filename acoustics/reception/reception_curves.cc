@@ -14,7 +14,7 @@
 namespace halocline::acoustics {
 namespace {
 
-// Of parts, the bounds of the shares that ReceptionCurves::Parts has a ratio for: finer where few are lost.
+// Bounds of the shares of lost parts for which ReceptionCurves::Parts has a ratio: finer where few are lost.
 constexpr std::array<double, ReceptionCurves::kThresholds + 1> kLosses{0,   0.0004, 0.003, 0.015, 0.06,
                                                                        0.2, 0.5,    0.85,  1};
 
@@ -36,11 +36,11 @@ ReceptionCurves::ReceptionCurves(const Modem& modem, std::size_t payload_bytes)
   parts_ = make_parts();
 }
 
-// Of a chance that never falls.
+// Flank of a probability that never decreases over the rows.
 template <typename Chance>
 ReceptionCurves::Flank ReceptionCurves::flank_of(Chance chance) {
   constexpr double kNowhere = std::numeric_limits<double>::infinity();
-  std::size_t low = 0, high = kRows;  // rows below the flank; the first above it
+  std::size_t low = 0, high = kRows;  // the last row below the flank plus 1; the first above it
   while (low < kRows && chance(low) < kCertain) ++low;
   while (high > 0 && chance(high - 1) > 1 - kCertain) --high;
   const auto db = [](std::size_t row) { return kLeastDb + kStepDb * static_cast<double>(row); };
@@ -61,7 +61,7 @@ const std::array<double, ReceptionCurves::kThresholds>& ReceptionCurves::thresho
   return shares;
 }
 
-// The mean of the ratios within each share of the losses, which fall from all to none.
+// Mean of the ratios within each share of the losses, which fall from 1 to 0 over the ratio.
 ReceptionCurves::Parts ReceptionCurves::make_parts() const {
   Parts parts;
   for (std::size_t h = 0; h < kHalvings; ++h) {

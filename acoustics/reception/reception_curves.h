@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The curves of one modem for packets of one payload, tabulated so that a prediction costs microseconds.
+// Reception curves of one modem for packets of one payload, tabulated so that a prediction costs
+// microseconds.
 //
-// Detection of the preamble and the chance of a right bit over the ratio of signal to noise and interference
-// in the band, -40 to 60 dB in steps of 0.1 dB, linear between (error below 1e-3 of probability); beyond, the
-// ends.
+// Probability of detecting the preamble and of a correct bit over the ratio of signal to noise and
+// interference in the band, -40 to 60 dB in steps of 0.1 dB. Values are interpolated linearly (error below
+// 1e-3 of probability); outside of the range the value of the nearest end holds.
 #pragma once
 
 #include <array>
@@ -15,11 +16,12 @@
 
 namespace halocline::acoustics {
 
+// Tables of one modem and payload. Functions of `sinr` take a power ratio, those of `sinr_db` decibels.
 class ReceptionCurves {
  public:
   static constexpr std::size_t kHalvings = 7, kThresholds = 8;
 
-  // Throws InvalidArgument as packet_timing().
+  // Throws InvalidArgument under the conditions of packet_timing().
   ReceptionCurves(const Modem& modem, std::size_t payload_bytes);
 
   const Modem& modem() const { return modem_; }
@@ -32,18 +34,18 @@ class ReceptionCurves {
   // ln(1 - BER), at most 0.
   double log_bit_success(double sinr) const { return log_bit_success_at(decibels(sinr)); }
   double log_bit_success_at(double sinr_db) const { return interpolated(log_bit_success_, sinr_db); }
-  // Ratios, dB, between which a chance changes: below `low_db` it is less than kCertain, above `high_db` more
-  // than 1 - kCertain. Infinite where that is nowhere so.
+  // Range of the ratio over which a probability changes, dB: below `low_db` it is less than kCertain, above
+  // `high_db` more than 1 - kCertain. Infinite when no ratio of the table satisfies this.
   static constexpr double kCertain = 1e-4;
   struct Flank {
     double low_db = 0, high_db = 0;
   };
   const Flank& acquisition_flank() const { return acquisition_flank_; }
-  const Flank& bits_flank() const { return bits_flank_; }  // of all information bits
-  // The ratio, dB, of that ln(1 - BER).
+  const Flank& bits_flank() const { return bits_flank_; }  // for all information bits together
+  // The ratio, dB, at which ln(1 - BER) equals `log_bit_success`.
   double ratio_db_of(double log_bit_success) const;
-  // Parts of a packet's bits, each of 1 / 2^halvings of them: the ratio, nepers, below which they turn wrong,
-  // as a distribution of few values that fall, each with its share.
+  // Loss of a part of a packet, 1 / 2^halvings of its bits: the ratio below which the part is lost, as a
+  // discrete distribution of descending thresholds in nepers, each with its share (threshold_shares()).
   struct Thresholds {
     std::array<double, kThresholds> logs{};
   };

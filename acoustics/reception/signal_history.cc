@@ -19,16 +19,16 @@ using Complex = std::complex<double>;
 using std::numbers::pi;
 
 constexpr std::size_t kFrequencies = kSignalFrequencies;
-constexpr double kLeastStretches = 8, kMostStretches = 64;  // of the bits
-constexpr double kTrackingTimeS = 0.05;                     // of phase-shift keying
-constexpr double kPhaseLockTimeS = 0.01;                    // likewise, against a residual Doppler shift
+constexpr double kLeastStretches = 8, kMostStretches = 64;  // stretches of the bits
+constexpr double kTrackingTimeS = 0.05;                     // phase-shift keying, against fading
+constexpr double kPhaseLockTimeS = 0.01;  // phase-shift keying, against a residual Doppler shift
 
-// exp(-(2 pi B T)^2 / 2).
+// Share of the signal that remains when tracked over `time_s`: exp(-(2 pi B T)^2 / 2).
 double kept_over(double time_s, double spread_hz) {
   return elementary::exp(-squared(2 * pi * spread_hz * time_s) / 2);
 }
 
-// When a path of the packet sounds, from the begin of the window.
+// Interval during which a packet is present on a path, from the begin of the window.
 struct Sounding {
   double begin_s, end_s;
 };
@@ -39,23 +39,25 @@ Sounding sounding(const SoundPath& path, const SoundPath& first, const SoundPath
   return {begin_s, begin_s + duration_s * strongest.doppler_factor / path.doppler_factor};
 }
 
+// Share of the interval from `from_s` to `to_s` during which the path is present; of an instant, 0 or 1.
 double share_within(const Sounding& sounding, double from_s, double to_s) {
   if (!(to_s > from_s)) return from_s >= sounding.begin_s && from_s < sounding.end_s ? 1 : 0;
   return std::clamp((std::min(sounding.end_s, to_s) - std::max(sounding.begin_s, from_s)) / (to_s - from_s),
                     0.0, 1.0);
 }
 
-// Edges of `count` equal stretches from `from_s` to `to_s`, without the last.
+// Appends the edges of `count` equal stretches from `from_s` to `to_s`, without the last.
 void add_edges(double from_s, double to_s, int count, std::vector<double>& edges) {
   for (int i = 0; i < count; ++i) edges.push_back(from_s + (to_s - from_s) * i / count);
 }
 
-// Cycles of `frequency_hz` in a delay, but for whole ones.
+// Cycles of `frequency_hz` in a delay, modulo whole cycles.
 double cycles_in(double frequency_hz, double delay_s) { return std::fmod(frequency_hz * delay_s, 1.0); }
 
-// Pressures of the signal in one stretch, at each frequency: paths turn by a constant factor from one to the
-// next. Coded frequency-shift keying hops: each stretch meets it at another of kFrequencies places of each
-// part of the band, in an order that soon comes close to all. Uncoded stays in the middle.
+// Pressure of the signal at each frequency in one stretch: from one frequency to the next a path turns by a
+// constant phase factor. Coded frequency-shift keying hops: in each stretch it is evaluated at another of
+// kFrequencies places of each part of the band, in an order that covers the part quickly. Uncoded keying
+// stays in the middle.
 class BandSum {
  public:
   BandSum(const std::vector<SoundPath>& paths, const Lock& lock, const Band& band)
@@ -72,7 +74,7 @@ class BandSum {
       next_.push_back(elementary::polar(1.0, -2 * pi * cycles_in(spacing_hz, excess_s)));
     }
   }
-  // Adds path `p` of response `h` in a stretch to the sums, one a frequency.
+  // Adds path `p` of the response `h` to the sums, one for each frequency.
   void add(std::size_t p, Complex h, std::size_t stretch, std::array<Complex, kFrequencies>& sums) const {
     constexpr std::array<std::size_t, kFrequencies> kOrder{0, 4, 2, 6, 1, 5, 3, 7};
     Complex term = h * first_[p * places_ + kOrder[stretch % places_]];
@@ -84,10 +86,10 @@ class BandSum {
 
  private:
   std::size_t places_;
-  std::vector<Complex> first_, next_;  // first_: by path, then place
+  std::vector<Complex> first_, next_;  // first_: by path, then by place
 };
 
-// Mean over the band of the power of the signal in one stretch: of two paths p, q apart by tau
+// Mean signal power over the band in one stretch. Two paths p, q that are apart by tau contribute
 //   2 w_p w_q Re(h_p h_q* sinc(width tau) exp(-j 2 pi f_c tau)).
 class BandMean {
  public:
@@ -104,7 +106,7 @@ class BandMean {
       squares_.push_back(squared(lock.window.shares[p].weight));
     }
   }
-  // `responses` of all paths.
+  // The mean power for the `responses` of all paths.
   double of(const std::vector<Complex>& responses) const {
     double power = 0;
     std::size_t pair = 0;
@@ -120,11 +122,11 @@ class BandMean {
 
  private:
   std::vector<std::size_t> within_;  // paths in the window
-  std::vector<double> squares_;      // of their weights
-  std::vector<Complex> pairs_;       // each with those before
+  std::vector<double> squares_;      // squared weights of those paths
+  std::vector<Complex> pairs_;       // each path with those before it
 };
 
-// Equal stretches and what sounds in them, appended to the history.
+// Appends equal stretches with their signal and echoes to the history.
 class HistoryMaker {
  public:
   HistoryMaker(const PathResponses& fading, double large_scale, const std::vector<SoundPath>& paths,
@@ -193,7 +195,7 @@ class HistoryMaker {
   bool collects_band_;
   BandSum sums_over_band_;
   BandMean mean_over_band_;
-  std::vector<Complex> turned_;  // of each path in the window, in one stretch
+  std::vector<Complex> turned_;  // responses of the paths in the window, in one stretch
   std::vector<double> tracked_;  // share of each path's power that the receiver follows
   SignalHistory history_;
 };

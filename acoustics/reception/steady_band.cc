@@ -16,14 +16,15 @@ namespace {
 
 using std::numbers::pi;
 
+// Samples in each part of the band: at intervals of at most half of 1 / (guard time + taper), at most `most`.
 std::size_t samples_for(const Modem& receiver, double part_hz, std::size_t most) {
   const double longest_s = (receiver.guard_time + receiver.guard_taper_or_default()).seconds();
   return static_cast<std::size_t>(
       std::clamp(std::ceil(2 * part_hz * longest_s), 1.0, static_cast<double>(most)));
 }
 
-constexpr double kSoundSpeedMps = 1500;  // of the wave number
-constexpr double kNegligible = 1e-5;     // of the power: interference of no effect
+constexpr double kSoundSpeedMps = 1500;  // for the wave number
+constexpr double kNegligible = 1e-5;     // share of the power below which interference has no effect
 
 using Frequencies = std::array<double, kSignalFrequencies>;
 using Complex = std::complex<double>;
@@ -37,13 +38,13 @@ Complex unit(double phase_rad) {
   return {turn.cosine, turn.sine};
 }
 
-// Four of the parts at once: loops over eight are taken apart before compilers make vectors of them.
+// Four parts of the band in one vector: loops over eight would be unrolled before compilers vectorise them.
 using Four = double __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
 constexpr std::size_t kFours = kSignalFrequencies / 4;
 Four* fours(Frequencies& values) { return reinterpret_cast<Four*>(values.data()); }
 const Four* fours(const Frequencies& values) { return reinterpret_cast<const Four*>(values.data()); }
 
-// Adds pressures that turn by `step` from sample to sample.
+// Adds the pressures of a path, which turn by `step` from sample to sample.
 using Samples = std::array<Frequencies, 32>;
 HALOCLINE_VECTOR_CLONES
 void add_samples(std::size_t samples, Complex step, const Frequencies& first_re, const Frequencies& first_im,
@@ -61,13 +62,15 @@ void add_samples(std::size_t samples, Complex step, const Frequencies& first_re,
   }
 }
 
+// Constants of the pairs: the exponent of g per squared difference of sines, and the least product that
+// counts.
 struct PairRule {
-  double exponent = 0, least = 0;  // of g, over the sines; of what counts
+  double exponent = 0, least = 0;
 };
 
-// What a path's pairs with those before it add: I = 2 a_p a_q sinc(cycles),
-//   change = -I cos(phase) (1 - g), variance = I^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2, cos(2 phase) = 2
-//   cos(phase)^2 - 1.
+// Adds the effect of jitter on a path's pairs with the paths before it, I = 2 a_p a_q sinc(cycles):
+//   change   = -I cos(phase) (1 - g)
+//   variance = I^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2,  cos(2 phase) = 2 cos(phase)^2 - 1.
 void add_pairs(const SteadyBand::Member& p, std::span<const SteadyBand::Member> before, const PairRule& rule,
                SteadyBand::Sway& sway) {
   for (const SteadyBand::Member& q : before) {
@@ -84,7 +87,7 @@ void add_pairs(const SteadyBand::Member& p, std::span<const SteadyBand::Member> 
   }
 }
 
-// Sums over the samples of each part: of power, and of its square.
+// Sums over the samples of each part, of the power and of its square.
 HALOCLINE_VECTOR_CLONES
 void sum_powers(std::size_t samples, const Samples& re, const Samples& im, Frequencies& means,
                 Frequencies& squares) {
@@ -124,7 +127,7 @@ SteadyBand::SteadyBand(const Modem& receiver, const Band& band, std::size_t path
   members_.reserve(paths);
 }
 
-// The phase falls by 2 pi f delay. The pressures of all parts turn alike from sample to sample.
+// The phase falls by 2 pi f delay. The pressures of all parts turn by the same factor from sample to sample.
 Complex SteadyBand::add(const Path& path, const BandTurns& turns) {
   const double half_step = pi * turned(part_hz_ / static_cast<double>(samples_) * path.excess_s, 2);
   const Complex low = path.pressure * unit(path.phase_rad), half = unit(-half_step),
@@ -154,7 +157,7 @@ std::array<SteadyBand::Part, kSignalFrequencies> SteadyBand::parts(const Sway& s
   sum_powers(samples_, re_, im_, means, squares);
   for (std::size_t m = 0; m < kSignalFrequencies; ++m) {
     const double mean = means[m] / count;
-    // S^2 - V = 2 S^2 - mean of the squares.
+    // constant^2 = S^2 - V = 2 S^2 - mean of the squared power.
     parts[m].constant = std::sqrt(std::max(2 * mean * mean - squares[m] / count, 0.0));
     parts[m].varying = mean - parts[m].constant;
   }
@@ -162,14 +165,14 @@ std::array<SteadyBand::Part, kSignalFrequencies> SteadyBand::parts(const Sway& s
   return parts;
 }
 
-// By pairs that interfere few enough times over the band: a product of 2 a_p a_q, kept to g, its phase at the
-// middle of the band.
+// Sums over the pairs that interfere less than kNearCycles times over the band; each has its phase at the
+// middle of the band. The wave number k is that at the centre.
 SteadyBand::Sway SteadyBand::sway() const {
   const double wave_number = 2 * pi * band_.centre_hz() / kSoundSpeedMps;
   PairRule rule{.exponent = -squared(wave_number * kSwayM) / 2, .least = 0};
   for (const Member& member : members_) rule.least += kNegligible * squared(member.pressure);
   Sway sway;
-  std::size_t from = 0;  // of the paths near enough
+  std::size_t from = 0;  // first path that is near enough
   for (std::size_t p = 0; p < members_.size(); ++p) {
     while (members_[p].half - members_[from].half >= pi * kNearCycles) ++from;
     add_pairs(members_[p], std::span(members_).subspan(from, p - from), rule, sway);
@@ -177,8 +180,8 @@ SteadyBand::Sway SteadyBand::sway() const {
   return sway;
 }
 
-// What sway takes of the interference over the whole band: where it comes and goes over the band, sway moves
-// it only from part to part.
+// Distributes the change of the mean over the band to its parts: interference that alternates over the band
+// is moved by jitter only from part to part.
 void SteadyBand::add(const Sway& sway, std::array<Part, kSignalFrequencies>& parts) {
   for (Part& part : parts) {
     const double power = part.constant + part.varying;

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Power of a link's coherent paths over the band, by the parts of it in which a signal of frequency-shift
-// keying is evaluated (signal_history.h).
+// Power of a link's coherent paths over the band, by the parts of the band in which a signal of
+// frequency-shift keying is evaluated (signal_history.h).
 //
-// Model: paths whose delays differ by d interfere with a period of 1 / d over the band. Each part is sampled
-// at places apart by no more than half of 1 / (guard time + taper), so that no two paths in the window seem
-// to be in step at all of them, nor the squares of their power. Of a part's mean power S and its variance V
-// over the samples,
-//   constant = sqrt(S^2 - V), varying = S - constant
-// are those of a steady and a diffuse signal (Rice 1945) of the same S and V. Both follow the delays, not the
-// phases, of paths that interfere many times over a part: a vehicle that moves by a wavelength does not
-// change them. Paths that interfere less than kNearCycles times over the band do change with it, by their
-// angles. Both ends sway up and down by kSwayM rms (our choice) from packet to packet, so that the
-// interference of two paths p, q is
+// Model: two paths whose delays differ by d interfere with the period 1 / d over frequency. Each part is
+// sampled at intervals of at most half of 1 / (guard time + taper), so that no two paths in the window, nor
+// the squares of their power, are aliased to a constant phase at all samples. A part of mean power S and
+// variance V over the samples has
+//   constant = sqrt(S^2 - V),  varying = S - constant:
+// the steady and the diffuse part of a signal (Rice 1945) of the same S and V. For paths that interfere many
+// times over a part both follow the delays, not the phases: they do not change when a vehicle moves by a
+// wavelength. Paths that interfere less than kNearCycles times over the band do change, by their angles. Both
+// ends move vertically by kSwayM rms (our choice) from packet to packet: platform jitter. It reduces the mean
+// interference of two paths p, q by the factor
 //   g = exp(-(k kSwayM)^2 ((sin launch_p - sin launch_q)^2 + (sin arrival_p - sin arrival_q)^2) / 2)
-// of what it is where the ends are, and 2 a_p a_q cos(phase) sinc(cycles) varies by
+// relative to its value at the given positions, and 2 a_p a_q cos(phase) sinc(cycles) has the variance
 //   4 a_p^2 a_q^2 sinc(cycles)^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2.
-// The parts lose the same: interference that comes and goes over the band sway moves only from part to part.
-// Close paths, as of a buoy just below the surface and far away, keep g near 1: Lloyd's mirror stays.
+// All parts lose the same: jitter moves interference that alternates over the band only from part to part.
+// Close paths, such as those of a distant buoy just below the surface, keep g near 1: Lloyd's mirror is
+// preserved.
 #pragma once
 
 #include <array>
@@ -30,46 +31,50 @@
 
 namespace halocline::acoustics {
 
+// Vertical platform jitter, m rms, and the number of interference cycles over the band below which a pair of
+// paths counts as near.
 inline constexpr double kSwayM = 0.2, kNearCycles = 4;
 
-// exp(j 2 pi m turns), m = 0..7; of half a turn, exp(j pi turns).
+// Phase factors exp(j 2 pi m turns), m = 0..7, and that of half a turn, exp(j pi turns).
 struct BandTurns {
   std::array<double, kSignalFrequencies> re{}, im{};
   std::complex<double> half;
 };
 BandTurns band_turns(double turns);
 
+// Accumulates the coherent paths of a link and returns the power in each part of the band.
 class SteadyBand {
  public:
   struct Part {
-    double constant = 0, varying = 0;  // of the power, uPa^2
+    double constant = 0, varying = 0;  // components of the power, uPa^2
   };
 
-  SteadyBand(const Modem& receiver, const Band& band, std::size_t paths = 0);  // about so many are added
+  SteadyBand(const Modem& receiver, const Band& band, std::size_t paths = 0);  // reserves room for `paths`
+  // A coherent path. The phase is that at the low end of the band, the excess delay that after the reference
+  // path; the sines are those of the launch and arrival angles.
   struct Path {
-    double pressure = 0, phase_rad = 0,
-           excess_s = 0;  // phase at the band's low end; delay after that of the reference
+    double pressure = 0, phase_rad = 0, excess_s = 0;
     double launch_sine = 0, arrival_sine = 0;
   };
 
-  // By path, for its pairs: pressure at the middle of the band, half of its turn over the band with sine and
-  // cosine.
+  // A path prepared for pairing: its pressure at the middle of the band, half of its phase change over the
+  // band with the sine and cosine of it.
   struct Member {
     double re, im, half, sine, cosine, launch_sine, arrival_sine, pressure;
   };
 
-  // By rising delay.
+  // Adds a path; call in order of ascending delay.
   void add(const Path& path) { add(path, band_turns(-part_hz_ * path.excess_s)); }
-  // The same, with the turns of its phase from part to part. Returns its pressure at the middle of the
-  // lowest.
+  // Adds a path whose phase factors from part to part are known. Returns its pressure at the middle of the
+  // lowest part.
   std::complex<double> add(const Path& path, const BandTurns& turns);
-  // From low to high.
+  // Powers of the parts, from the low end of the band to the high.
   std::array<Part, kSignalFrequencies> parts() const { return parts(sway()); }
-  // Variance of the mean over the band as the ends sway, uPa^4.
+  // Variance of the mean power over the band by platform jitter, uPa^4.
   double sway_variance() const { return sway().variance; }
 
-  // Of the mean over the band: what sway adds to it, and its variance by sway. All pairs of paths are looked
-  // at once.
+  // Effect of platform jitter on the mean power over the band: the change of the mean, uPa^2, and the
+  // variance, uPa^4. All pairs of paths are evaluated in one pass.
   struct Sway {
     double change = 0, variance = 0;
   };
@@ -77,7 +82,7 @@ class SteadyBand {
   std::array<Part, kSignalFrequencies> parts(const Sway& sway) const;
 
  private:
-  static constexpr std::size_t kMaxSamples = 32;  // of a part
+  static constexpr std::size_t kMaxSamples = 32;  // samples in a part
 
   static void add(const Sway& sway, std::array<Part, kSignalFrequencies>& parts);
 
@@ -85,7 +90,7 @@ class SteadyBand {
   double part_hz_;
   std::size_t samples_;
   using Samples = std::array<std::array<double, kSignalFrequencies>, kMaxSamples>;
-  Samples re_{}, im_{};  // by sample, then part
+  Samples re_{}, im_{};  // [sample][part]
   std::vector<Member> members_;
 };
 

@@ -9,13 +9,15 @@
 namespace halocline::acoustics {
 namespace {
 
-// All sound is louder by this factor, at a score of large-scale fading of `deviation` nepers of power.
+// Gain of large-scale fading at the normal score z: exp(deviation z - deviation^2 / 2), deviation in nepers
+// of power; its mean is 1.
 double loudness(double deviation, double z) { return fast_exp(deviation * z - deviation * deviation / 2); }
 
 using Strata = std::array<double, 32>;
 
-// To `power`, what a gamma distribution of the mean `mean` has beyond `less` of it at normal scores (Wilson
-// and Hilferty 1931).
+// Adds to `power` a gamma variable of mean `mean` and relative variance `variance`, minus `less` times its
+// mean, at normal scores z (Wilson and Hilferty 1931):
+//   x = mean (1 - variance / 9 + z sqrt(variance) / 3)^3.
 HALOCLINE_VECTOR_CLONES
 void add_gamma(double mean, double variance, double less, const Strata& scores, Strata& power) {
   const double median = 1 - variance / 9, deviation = std::sqrt(variance) / 3;
@@ -30,7 +32,7 @@ void set_decibels(const Strata& powers, Strata& levels_db) {
   for (std::size_t i = 0; i < powers.size(); ++i) levels_db[i] = fast_decibels(powers[i]);
 }
 
-// Noise in units of the sound's loudness at scores of large-scale fading.
+// Noise at the given scores of large-scale fading, divided by its gain, plus the untracked power.
 HALOCLINE_VECTOR_CLONES
 void set_quiet(double noise, double deviation, double untracked, const Strata& scores, Strata& powers) {
   for (std::size_t i = 0; i < scores.size(); ++i) {
@@ -45,12 +47,13 @@ void exponentiate(std::size_t begin, std::size_t end, Strata& values) {
 
 }  // namespace
 
-// The levels, and the strata between which they are interpolated, each with normals for what fades fast.
+// The levels, and the strata between which they are interpolated, each paired with normal scores of the fast
+// fading.
 struct StrataMean::Scores {
   static constexpr std::size_t kOrders = 8;
-  std::array<double, kLevels> levels{-2.4, -1.6, -0.8, 0, 0.8, 1.6, 2.4};  // standard deviations
+  std::array<double, kLevels> levels{-2.4, -1.6, -0.8, 0, 0.8, 1.6, 2.4};  // in standard deviations
   Strata strata = normal_strata<kStrata>();
-  // Beside stratum i: of late echoes; by state, of the preamble, of even and odd blocks.
+  // Scores paired with stratum i: of late echoes; by state, of the preamble and of even and odd blocks.
   Strata echoes{};
   std::array<Strata, kOrders> preambles{};
   std::array<std::array<Strata, 2>, kOrders> blocks{};
@@ -107,7 +110,7 @@ StrataMean::StrataMean(double deviation, const ReceptionCurves& curves, const Me
     most_echoes_db_ = *most;
   } else {
     turns_ = 2;
-    // The levels are those of all that disturbs, from the most to the least.
+    // Levels are equidistant in dB of all noise and interference, from the greatest to the least.
     Strata all_db;
     set_decibels(all, all_db);
     const auto [least, most] = std::minmax_element(all_db.begin(), all_db.end());
@@ -170,10 +173,11 @@ StrataMean::Levels& StrataMean::fill_parabola(Levels& bits) const {
   return bits;
 }
 
-// Lagrange's, through levels 0, 1, 3, 5 and 6.
+// Lagrange polynomial through the levels 0, 1, 3, 5 and 6.
 StrataMean::Levels& StrataMean::fill_quartic(Levels& bits) const {
   constexpr std::array<std::size_t, 5> kFrom{0, 1, 3, 5, 6};
-  constexpr std::array<double, 5> kShares{-2.0 / 15, 3.0 / 5, 2.0 / 3, -1.0 / 5, 1.0 / 15};  // of level 2
+  constexpr std::array<double, 5> kShares{-2.0 / 15, 3.0 / 5, 2.0 / 3, -1.0 / 5,
+                                          1.0 / 15};  // weights for level 2
   Level low{-disturbance_db_[2]}, high{-disturbance_db_[4]};
   for (std::size_t i = 0; i < kFrom.size(); ++i) {
     const Level &one = bits[kFrom[i]], &other = bits[kLevels - 1 - kFrom[i]];
@@ -217,7 +221,7 @@ void StrataMean::add(const Level& preamble, const Levels& bits, std::size_t stat
   Strata acquired, ratios_db, chances{};
   acquired.fill(1);
   if (!found) acquisitions(preamble, state, acquired);
-  // Strata before `begin` are lost, from `end` on decoded.
+  // Strata before `begin` are lost, those from `end` on decoded.
   std::size_t begin = lost ? count : blocks_.size() == 1 ? count : 0, end = lost ? count : 0;
   for (std::size_t b = 0; b < blocks_.size() && !lost && !decoded; ++b) {
     ratios_of_block(bits, state, b, ratios_db);
