@@ -11,11 +11,11 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr std::size_t kChunk = 64;  // nodes whose terms are held at a time
+constexpr std::size_t kChunk = 64;  // nodes whose terms are kept at a time
 constexpr double kMaxNepers = 700;  // exp(-700) is a normal number
 using Chunk = std::array<double, kChunk>;
 
-// Mean absorption of the nodes from `first` on, as DepthMeans::mean().
+// Mean absorption of the nodes from `first` on, as computed by DepthMeans::mean().
 [[gnu::always_inline]] inline void set_means(const BandLeg& leg, std::size_t first, std::size_t count,
                                              Chunk& means) {
   const DepthMeans& water = *leg.absorption;
@@ -38,13 +38,14 @@ using Chunk = std::array<double, kChunk>;
   }
 }
 
+// C = log2(e) * sum of w ln(1 + u exp(-(loss + slope mean))), with four partial sums in a fixed order.
 [[gnu::always_inline]] inline double capacity(const BandNodes& nodes, const BandLeg& leg) {
   constexpr std::size_t kSums = 4;
   std::array<double, kSums> sums{};
   const std::size_t all = nodes.weight_hz.size();
   const double loss = leg.loss_nepers, slope = leg.nepers_per_db_per_km;
   for (std::size_t first = 0; first < all; first += kChunk) {
-    // Told to be whole vectors.
+    // The count is a multiple of the vector width; this form lets the compiler know it.
     const std::size_t count =
         std::min(all - first, kChunk) / BandNodes::kNodesTogether * BandNodes::kNodesTogether;
     const double *weight = nodes.weight_hz.data() + first, *unit = nodes.unit_ratio.data() + first;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Capacity of a straight leg over the nodes of a band: the innermost loop of acoustics/link/link_kernel.h.
+// Capacity of a straight leg from the nodes of a band: the innermost loop of acoustics/link/link_kernel.h.
 //
-// C = sum of w log2(1 + u exp(-(loss + nepers mean))) over the nodes: weight w in Hz, u the signal-to-noise
-// ratio of a link that loses nothing, mean the absorption along the leg in dB/km.
-// One body is compiled for each set of vector instructions. Nodes are its lanes, multiplication and addition
-// are never fused, and the sum has an order of its own: all sets give the same bits.
+//   C = sum over nodes of  w log2(1 + u exp(-(loss + nepers mean))),
+// w the weight of the node, Hz, u the ratio of signal to noise without any loss, mean the mean absorption
+// along the leg, dB/km, and nepers the conversion of that to the leg.
+// One function body is compiled for each set of vector instructions. The nodes are the lanes of a vector,
+// multiplication and addition are never fused, and the order of summation is fixed: all sets give the same
+// bits.
 #pragma once
 
 #include <cstddef>
@@ -14,27 +16,29 @@
 
 namespace halocline::acoustics {
 
-enum class VectorInstructions { kBaseline, kAvx2, kAvx512 };  // the first: what the build assumes
-// What this processor has, the widest last.
+// Sets of vector instructions; kBaseline is the one that the build assumes.
+enum class VectorInstructions { kBaseline, kAvx2, kAvx512 };
+// The sets that this processor supports, the widest last.
 std::vector<VectorInstructions> vector_instructions();
 
-// Of a band; all have one size, a multiple of kNodesTogether.
+// Nodes of a band: squared frequencies, kHz^2, weights, Hz, and signal-to-noise ratios without loss. All
+// vectors have one size, a multiple of kNodesTogether.
 struct BandNodes {
   static constexpr std::size_t kNodesTogether = 8;
   std::vector<double> khz_squared, weight_hz, unit_ratio;
 };
 
-// A leg between two depths, and what its length and spreading lose.
+// A leg between two depths, with the loss by its length and spreading.
 struct BandLeg {
-  const DepthMeans* absorption;  // dB/km, a property a node
+  const DepthMeans* absorption;  // dB/km, one property for each node
   DepthMeans::Place upper, lower;
-  double loss_nepers;           // of power; the same at all frequencies; above -700
-  double nepers_per_db_per_km;  // of power, 0 and up
+  double loss_nepers;           // nepers of power, equal at all frequencies; above -700
+  double nepers_per_db_per_km;  // nepers of power per dB/km, 0 or more
 };
 
-// bit/s; losses beyond 700 nepers count as 700.
+// Computes the capacity of a leg, bit/s; losses above 700 nepers count as 700.
 using BandCapacity = double (*)(const BandNodes& nodes, const BandLeg& leg);
-// `instructions` has to be among vector_instructions().
+// The function for `instructions`, which must be among vector_instructions().
 BandCapacity band_capacity(VectorInstructions instructions);
 
 }  // namespace halocline::acoustics

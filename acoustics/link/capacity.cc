@@ -10,7 +10,7 @@
 namespace halocline::acoustics {
 namespace {
 
-// (P/B) / (A(l, f) N(f)), a ratio of powers.
+// The signal-to-noise ratio (P/B) / (A(l, f) N(f)), a ratio of powers.
 double density_ratio(const UniformLink& link, const Band& band, double frequency_hz) {
   const double f = hz_to_khz(frequency_hz);
   const double alpha = link.absorption.db_per_km(f * f);
@@ -25,7 +25,7 @@ double log2_of_1_plus(double x) { return elementary::log1p(x) * std::numbers::lo
 
 double capacity_bps(const UniformLink& link, const Band& band) {
   // Shannon's capacity over frequency (Stojanovic 2006; equation 8 of the 2010 IEEE SMC paper):
-  // C = integral of log2(1 + (P / B) / (A(l, f) N(f))) df.
+  //   C = integral of log2(1 + (P / B) / (A(l, f) N(f))) df.
   double bits = 0;
   for (const FrequencyNode& node : frequency_nodes(band.low_hz, band.high_hz)) {
     bits += node.weight_hz * log2_of_1_plus(density_ratio(link, band, node.frequency_hz));

@@ -20,13 +20,13 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kSameSpeed = 1e-6;     // m/s
-constexpr double kLeastStrip = 20;      // m
-constexpr double kMostStrips = 512;     // of a line
+constexpr double kSameSpeed = 1e-6;     // m/s, difference below which columns are equal
+constexpr double kLeastStrip = 20;      // m, least distance of columns
+constexpr double kMostStrips = 512;     // maximum along a line
 constexpr int kStripsPerCell = 4;       // between two crossings of the grid
-constexpr double kDeepestProbe = 5000;  // m, as of ray_water()
+constexpr double kDeepestProbe = 5000;  // m, as in ray_water()
 
-// Temperature and salinity of the field at one place: linear between its depths.
+// Temperature and salinity of the field at one place, interpolated linearly between its depths.
 class FieldColumn {
  public:
   FieldColumn(const Environment& environment, double north_m, double east_m)
@@ -66,7 +66,7 @@ class FieldColumn {
   std::vector<ocean::WaterAtDepth> rows_;
 };
 
-// Of the columns along the line, m from the first place.
+// Ranges of the columns along the line, m from the first place.
 std::vector<double> ranges_of(const ocean::OceanField& field, const Vec3& from, const Vec3& way) {
   const double length = elementary::hypot(way.x(), way.y());
   const double least = std::max(kLeastStrip, length / kMostStrips);
@@ -86,6 +86,8 @@ std::vector<double> ranges_of(const ocean::OceanField& field, const Vec3& from, 
   return ranges;
 }
 
+// Depths of the section's knots, m: the field's levels down to the first below `deepest_m`, then steps that
+// double.
 std::vector<double> knots_of(const ocean::OceanField& field, double deepest_m) {
   std::vector<double> depths{0};
   for (const double depth : field.grid().depths_m) {
@@ -101,6 +103,7 @@ std::vector<double> knots_of(const ocean::OceanField& field, double deepest_m) {
   return depths;
 }
 
+// True when all columns have the same sound speed at every depth, within kSameSpeed.
 bool are_alike(const std::vector<std::vector<SpeedRow>>& columns) {
   return std::all_of(columns.begin(), columns.end(), [&](const std::vector<SpeedRow>& column) {
     for (std::size_t j = 0; j < column.size(); ++j) {

@@ -16,17 +16,18 @@
 namespace halocline::acoustics {
 namespace {
 
-// Depths at which absorption is sampled: every 5 m, further down every fiftieth of the depth.
+// Depths at which absorption is sampled: steps of 5 m, or of a fiftieth of the depth when that is more.
 constexpr double kDepthStep = 5, kDepthGrowth = 1.02;
-// Absorption between two samples and sound whose way is bent may be less by this share.
+// Safety factor: the least absorption between two samples, and along a curved path, may be lower by this
+// share.
 constexpr double kSampled = 0.995;
 
-// Angles over which the bottom's reflection is summed.
+// Grazing angles over which the bottom's reflection is summed.
 constexpr int kAngles = 180;
 constexpr double kAngleStep = std::numbers::pi / 2 / kAngles;
 
-// Of all water of a field at a depth, at temperatures and salinities of its extremes and between them;
-// otherwise that of the profile.
+// Least absorption at a depth, dB/km: over the temperatures and salinities of a field, at their extremes and
+// between them; without a field that of the profile.
 double least_absorption(const Environment& environment, double depth_m, double khz) {
   if (!environment.field) return absorption_spectrum_at(environment, depth_m).db_per_km(khz * khz);
   constexpr double kStepDegc = 0.5, kSalinities = 4;
@@ -50,9 +51,9 @@ double least_absorption(const Environment& environment, double depth_m, double k
 
 double next_depth(double depth_m) { return std::max(depth_m + kDepthStep, depth_m * kDepthGrowth); }
 
-// Sum over all ducts of the integral of 2 dtheta / h: theta of a ray at the duct's axis, h between where it
-// turns or meets the surface. Over the bottom likewise, wherever between the least and the greatest depth
-// that holds most.
+// Sum over all ducts of the integral of 2 dtheta / h, theta the angle of a ray at the duct's axis and h the
+// distance between its turning points, or a turning point and the surface. The greatest integral of a duct
+// that rests on a bottom between the least and the greatest depth is added.
 double sum_of_ducts(const Environment& environment, double least_depth_m, double greatest_depth_m) {
   std::vector<double> depths, speeds;
   for (double depth_m = 0;; depth_m = std::min(next_depth(depth_m), greatest_depth_m)) {
@@ -60,7 +61,8 @@ double sum_of_ducts(const Environment& environment, double least_depth_m, double
     speeds.push_back(environment.profile.sound_speed_mps(depth_m));
     if (depth_m >= greatest_depth_m) break;
   }
-  // At the axis, of the ray that turns at the depth `fast`.
+  // Angle at the axis of the ray that turns at the depth `fast`: cos(theta) = c(axis) / c(fast) by Snell's
+  // law.
   const auto angle = [&](std::size_t axis, std::size_t fast) {
     return elementary::acos(speeds[axis] / speeds[fast]);
   };
@@ -132,12 +134,14 @@ Decibels LeastLoss::at(double range_m) const {
     const double length_km = std::sqrt(r * r + depth.detour_m * depth.detour_m) / 1000;
     absorbed_db = std::min(absorbed_db, depth.absorption_db_per_km * length_km);
   }
+  // TL = k 10 log10 r, or -10 log10 I(r) for rays, plus absorption minus gain.
   const double spreading_db = power_law_exponent_ > 0 ? power_law_exponent_ * 10 * elementary::log10(r)
                                                       : -10 * elementary::log10(greatest_intensity(r));
   return Decibels{spreading_db + absorbed_db} - gain_;
 }
 
-// pi / (H r) + 2 / r^2, or what the bottom leaves of it where the depth is known.
+// The bound I(r), 1/m^2: pi / (H r) + 2 / r^2, or the sum over the bottom's reflections when the depth is
+// known and that is less.
 double LeastLoss::greatest_intensity(double r) const {
   const double direct = 2 / (r * r), lossless = std::numbers::pi / (kChannelThickness * r) + direct;
   if (!(least_depth_m_ > 0)) return lossless;
@@ -149,7 +153,7 @@ double LeastLoss::greatest_intensity(double r) const {
   return std::min(lossless, direct + 2 * sum / (least_depth_m_ * r) + ducts_ / r);
 }
 
-// Halved by the logarithm of the range, to a millionth.
+// Bisection in the logarithm of the range, to a relative 1e-6.
 double LeastLoss::range_of(Decibels loss) const {
   if (at(kGreatestBoundedRange) <= loss) return kGreatestBoundedRange;
   if (at(1) > loss) return 0;

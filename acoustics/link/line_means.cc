@@ -18,12 +18,13 @@
 namespace halocline::acoustics {
 namespace {
 
-// North, east and depth below the surface.
+// North, east and depth below the surface, the depth clamped to the water.
 Vec3 in_water(const Environment& environment, const Vec3& ned_m) {
   const double depth_m = depth_below_surface_m(ned_m, environment.sea_surface_z_m);
   return {ned_m.x(), ned_m.y(), std::clamp(depth_m, 0.0, kDeepestWater)};
 }
 
+// Slowness and absorption at one place.
 LineMeans water_at(const Environment& environment, const Vec3& place, double khz_squared) {
   const ocean::WaterAtDepth water = environment.field.ocean->water_at(place, environment.field.time_s);
   const double speed_mps = sound_speed_mps(environment.profile.model(), water.temperature_degc,
@@ -44,7 +45,7 @@ LineMeans means_along(const Environment& environment, const Vec3& from_ned_m, co
                       double frequency_hz) {
   ensure(bool(environment.field), "the line between places of a sea without a field");
   const GaussLegendreRule& rule = gauss_legendre_5();
-  // Both ways round the sums are the same to the last bit.
+  // The ends are put in a fixed order, so that both directions give the same bits.
   const auto before = [](const Vec3& a, const Vec3& b) {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   };

@@ -16,9 +16,9 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr int kNodesPerPiece = 5;  // of gauss_legendre_5
+constexpr int kNodesPerPiece = 5;  // nodes of gauss_legendre_5
 constexpr double kMetresPerKilometre = 1000;
-constexpr double kNepersPerDecibel = std::numbers::ln10 / 10;  // of power
+constexpr double kNepersPerDecibel = std::numbers::ln10 / 10;  // nepers of power
 
 double within_water(double depth_m) { return std::clamp(depth_m, 0.0, kDeepestWater); }
 
@@ -44,8 +44,8 @@ LinkTerms::LinkTerms(const Environment& environment, const Modem& transmitter, c
 }
 
 void LinkTerms::set_levels(LinkBudget& link, Decibels loss, Decibels above_ambient) const {
-  // RL = SL - TL; SNR = RL - NL + DI (Urick 1983, sonar equation; equation 7 of the 2010 IEEE SMC paper has
-  // NL = N(fc) + 10 log B).
+  // RL = SL - TL; SNR = RL - NL + DI (Urick 1983, sonar equation). The narrow-band ratio has
+  //   NL = N(fc) + 10 log10 B  (equation 7 of the 2010 IEEE SMC paper).
   link.transmission_loss = loss;
   link.received_level = transmitter_.source_level - loss;
   link.noise_level = noise_level_ + above_ambient;
@@ -70,12 +70,14 @@ Band LinkTerms::shared_band() const {
   return {std::max(of.low_hz, in.low_hz), std::min(of.high_hz, in.high_hz)};
 }
 
+// Absorption at one depth of a path, and the share of the path that it represents.
 struct LinkModel::Sample {
   AbsorptionSpectrum spectrum;
   double share;
 };
 
-// Mean alpha = sum of share * alpha(sample) + cells_share * (table[last] - table[first]).
+// Quadrature of the absorption along a path:
+//   mean alpha = sum of share * alpha(sample) + cells_share * (table[last] - table[first]).
 struct LinkModel::Samples {
   std::array<Sample, 2 * kNodesPerPiece> of;
   int count = 0;
@@ -106,8 +108,9 @@ LinkModel::LinkModel(const Environment& environment, const Modem& transmitter, c
   tabulate_absorption();
 }
 
-// The running integral of alpha(z, f) dz, boundary by boundary, by Gauss-Legendre. A straight path has
-// integral of alpha ds = L / (z2 - z1) integral of alpha dz.
+// Tabulates the running integral of alpha(z, f) dz from the surface to each boundary of the profile's cells,
+// by Gauss-Legendre quadrature. Along a straight path
+//   integral of alpha ds = L / (z2 - z1) * integral of alpha dz.
 void LinkModel::tabulate_absorption() {
   const std::vector<double>& boundaries = terms_.environment().profile.cell_boundaries_m();
   const GaussLegendreRule& rule = gauss_legendre_5();
@@ -144,7 +147,7 @@ LinkModel::Samples LinkModel::sample_path(double from_depth_m, double to_depth_m
   return samples;
 }
 
-// dB/km, mean along the path.
+// Mean along the path at the frequency of that index, dB/km.
 double LinkModel::mean_absorption(const Samples& samples, std::size_t frequency) const {
   double mean = 0;
   for (int i = 0; i < samples.count; ++i) {
@@ -157,7 +160,7 @@ double LinkModel::mean_absorption(const Samples& samples, std::size_t frequency)
 }
 
 double LinkModel::capacity(const Samples& samples, double range_m, Decibels beams) const {
-  // C = integral of log2(1 + DI (P / B) / (A N)) df, A = l^k e^(alpha l), with the beams' loss.
+  // C = integral of log2(1 + DI (P / B) / (A N)) df, A = l^k e^(alpha l), times the loss of the beams.
   const bool lossless = range_m < kReferenceRange;
   const double spread = lossless ? 1 : elementary::pow(range_m, -terms_.environment().spreading_exponent);
   const double gain = spread * to_power_ratio(-beams).value;
@@ -170,7 +173,7 @@ double LinkModel::capacity(const Samples& samples, double range_m, Decibels beam
   return bits;
 }
 
-// The loss at f is that at the centre plus (alpha(f) - alpha(centre)) l.
+// The loss at f is that at the centre plus (alpha(f) - alpha(centre)) l, l the length of the path.
 double LinkModel::capacity_of_path(const Samples& samples, Decibels loss, double path_length_m) const {
   const double gain = to_power_ratio(Decibels{-loss.value}).value;
   const double nepers_per_db_per_km = kNepersPerDecibel * path_length_m / kMetresPerKilometre;

@@ -21,11 +21,12 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kMetresPerKilometre = 1000;
-constexpr double kNepersPerDecibel = std::numbers::ln10 / 10;  // of power
-constexpr std::array kRules = {8, 16, 24, 32};                 // frequencies over a band, whole vectors
-constexpr double kAgreement = 2e-12;                           // of the capacity, or of 1 bit/s
-constexpr double kFarthestTrial = 1e7;                         // m
+constexpr double kNepersPerDecibel = std::numbers::ln10 / 10;  // nepers of power
+constexpr std::array kRules = {8, 16, 24, 32};  // numbers of nodes over a band, multiples of the vector width
+constexpr double kAgreement = 2e-12;            // relative to the capacity, or to 1 bit/s
+constexpr double kFarthestTrial = 1e7;          // m
 
+// Squared frequencies, weights and unit ratios of the given frequencies.
 BandNodes nodes_at(const LinkTerms& terms, const std::vector<FrequencyNode>& frequencies) {
   BandNodes nodes;
   for (const FrequencyNode& node : frequencies) {
@@ -36,7 +37,7 @@ BandNodes nodes_at(const LinkTerms& terms, const std::vector<FrequencyNode>& fre
   return nodes;
 }
 
-// In water that is the same everywhere.
+// Capacity in homogeneous water.
 double uniform_capacity_bps(const BandNodes& nodes, const AbsorptionSpectrum& water, double exponent,
                             double range_m) {
   double bits = 0;
@@ -49,6 +50,8 @@ double uniform_capacity_bps(const BandNodes& nodes, const AbsorptionSpectrum& wa
   return bits;
 }
 
+// True when both sets of nodes give the same capacity at the surface, at half of the profile's rows and at
+// its end, for ranges from 1 m until less than 1 bit/s passes.
 bool agree(const BandNodes& coarse, const BandNodes& fine, const Environment& environment) {
   const std::vector<double>& depths_m = environment.profile.cell_boundaries_m();
   for (const double depth_m : {depths_m.front(), depths_m[depths_m.size() / 2], depths_m.back()}) {
@@ -65,6 +68,8 @@ bool agree(const BandNodes& coarse, const BandNodes& fine, const Environment& en
   return true;
 }
 
+// The smallest Gauss-Legendre rule that agrees with the rule of twice as many nodes; otherwise panels over
+// the band.
 BandNodes choose_nodes(const LinkTerms& terms) {
   const Band band = terms.shared_band();
   if (!(band.width_hz() > 0)) return {};
@@ -79,6 +84,7 @@ BandNodes choose_nodes(const LinkTerms& terms) {
   return nodes_at(terms, frequency_nodes(band.low_hz, band.high_hz));
 }
 
+// Depth means of slowness, s/m, and of absorption at the centre frequency, dB/km.
 DepthMeans centre_means(const LinkTerms& terms) {
   const Environment& sea = terms.environment();
   const double centre_khz = hz_to_khz(terms.transmitter().band().centre_hz());
@@ -88,6 +94,7 @@ DepthMeans centre_means(const LinkTerms& terms) {
           }};
 }
 
+// Depth means of the absorption at each node, dB/km.
 DepthMeans band_means(const Environment& sea, const BandNodes& nodes) {
   return {sea.profile.cell_boundaries_m(), nodes.khz_squared.size(),
           [&](double depth_m, std::span<double> values) {
@@ -119,7 +126,8 @@ LinkKernel::Leg LinkKernel::leg_between(const Vec3& from_ned_m, const Vec3& to_n
                      depth_below_surface_m(to_ned_m, surface_z_m));
 }
 
-// C = integral of log2(1 + DI (P / B) / (A N)) df, A what is lost at all frequencies alike and alpha l.
+// C = integral of log2(1 + DI (P / B) / (A N)) df, A the frequency-independent loss times absorption over the
+// path.
 double LinkKernel::capacity_bps(const Leg& leg, double loss_db, double path_length_m) const {
   return band_capacity_(nodes_, {&band_, leg.upper, leg.lower, kNepersPerDecibel * loss_db,
                                  kNepersPerDecibel * path_length_m / kMetresPerKilometre});

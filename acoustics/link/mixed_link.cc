@@ -14,35 +14,41 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kCoarseness = 3;    // windows over those of a search's fan
-constexpr double kLeastSine = 0.02;  // where a ray turns its density is bounded by this
-constexpr double kKeptShare = 0.99;  // of the power
-constexpr double kFarAway = 10;      // depths
+constexpr double kCoarseness = 3;  // width of windows relative to those of a ray search
+// Lower bound of the sine, hence upper bound of the density near a turning point.
+constexpr double kLeastSine = 0.02;
+constexpr double kKeptShare = 0.99;  // share of the power
+constexpr double kFarAway = 10;      // in depths
 constexpr std::size_t kBottomRays = 40;
-constexpr double kRayWidth = to_radians(1.5);  // steeper ones than 60 degrees are lost, whatever turns them
-constexpr int kEnds = 12, kBottoms = 5;  // depths of ends and of bottoms at which the least loss is sought
+// Width of the angles at the bottom, 60 degrees in all; steeper rays are lost even when slopes turn them.
+constexpr double kRayWidth = to_radians(1.5);
+// Numbers of end depths and of bottom depths at which the least loss is sought.
+constexpr int kEnds = 12, kBottoms = 5;
 
+// Sine of the ray's angle by Snell's law, cos(angle) = xi c.
 double sine_at(double xi, double speed) { return std::sqrt(std::max(1 - xi * xi * speed * speed, 0.0)); }
 
-// Half a cycle of a ray in water of one depth: between where it turns or meets a boundary.
+// Half a cycle of a ray in water of constant depth: between two points where it turns or meets a boundary.
 struct HalfCycle {
   double range_m = 0, delay_s = 0, length_m = 0, absorption_db = 0;
-  double upper_m = 0, lower_m = 0;  // from where to where it goes
+  double upper_m = 0, lower_m = 0;  // depths of the highest and lowest point
 };
 
-// A depth and the speed of sound there.
+// A depth with the sound speed there.
 struct Place {
   Place(const RayWater& water, double at_m) : depth_m(at_m), speed_mps(water.speed_at(at_m)) {}
   double depth_m, speed_mps;
 };
 
+// A link in the terms of the energy flux.
 struct MixedLink {
   Place source, receiver, bottom;
   double range_m;
-  std::vector<BottomRay> turned;  // the rays that slopes turn; empty without slopes
+  std::vector<BottomRay> turned;  // rays turned by slopes; empty without slopes
 };
 
-// From a place to where the ray of `xi` turns, or to `limit_m`; layers upwards or downwards.
+// Adds the leg of the ray of `xi` from a place, upwards or downwards, to where it turns or to `limit_m`.
+// Returns the depth of its end.
 double add_leg(const RayWater& water, double xi, const Place& from, double limit_m, HalfCycle& half) {
   const double depth_m = from.depth_m;
   const bool down = limit_m > depth_m;
@@ -53,7 +59,8 @@ double add_leg(const RayWater& water, double xi, const Place& from, double limit
     const double edge =
         down ? std::min(water.depths_m()[layer + 1], limit_m) : std::max(water.depths_m()[layer], limit_m);
     const double g = water.gradients_per_s()[layer], c2 = c + g * (edge - z), s2 = sine_at(xi, c2);
-    // dr = h xi (c1 + c2) / (s1 + s2); to where it turns s / (xi |g|).
+    // Across a layer of thickness h with a constant gradient g, from c1 to c2 (sines s1 and s2), dr = h xi
+    // (c1 + c2) / (s1 + s2); to a turning point dr = s / (xi |g|).
     const double dr = s2 > 0 ? std::abs(edge - z) * xi * (c + c2) / (s + s2) : s / (xi * std::abs(g));
     const double end = s2 > 0 ? edge : z + (1 / xi - c) / g;
     const double length = dr / (xi * (s2 > 0 ? 0.5 * (c + c2) : 0.5 * (c + 1 / xi)));
@@ -69,6 +76,7 @@ double add_leg(const RayWater& water, double xi, const Place& from, double limit
   return z;
 }
 
+// Power of a weak link: `below` under that of RayOptions::diffuse_below_pressure.
 double weak_power(const RayOptions& options, Decibels below) {
   return options.diffuse_below_pressure * options.diffuse_below_pressure * to_power_ratio(-below).value;
 }
@@ -80,7 +88,7 @@ double surface_loss_of(const MixedSea& sea, double xi) {
   return surface_loss_db(sea.surface, elementary::asin(sine), sea.options.frequency_hz);
 }
 
-// What the boundaries take on the way.
+// Sets the bounces over the range, and the loss at both boundaries.
 void set_bounces(const MixedSea& sea, double xi, const HalfCycle& half, double bottom_speed_mps,
                  double range_m, Arrival& window) {
   const double times = range_m / half.range_m / 2;
@@ -99,14 +107,14 @@ void set_bounces(const MixedSea& sea, double xi, const HalfCycle& half, double b
   }
 }
 
-// What of the rays of `xi` in half a cycle lies at a depth, for a metre.
+// Density of the rays of `xi` over depth, 1/m, during half a cycle: cot(angle) / half cycle.
 double density_at(double xi, const Place& place, const HalfCycle& half) {
   if (place.depth_m < half.upper_m || place.depth_m > half.lower_m) return 0;
   return xi * place.speed_mps / std::max(sine_at(xi, place.speed_mps), kLeastSine) / half.range_m;
 }
 
-// What rays of each angle at the bottom bring, times the range and for a launch angle: slopes turn them on
-// their way.
+// Power of the rays of each angle at the bottom, times range and per launch angle, after slopes have turned
+// them on their way.
 std::vector<BottomRay> rays_after_slopes(const MixedSea& sea, const MixedLink& link) {
   const double speed = link.bottom.speed_mps;
   std::vector<BottomRay> rays;
@@ -126,7 +134,7 @@ std::vector<BottomRay> rays_after_slopes(const MixedSea& sea, const MixedLink& l
   return rays;
 }
 
-// Between two of them.
+// Power at an angle, interpolated linearly between the rays.
 double power_at(const std::vector<BottomRay>& rays, double angle) {
   const double place = std::max(angle / kRayWidth - 0.5, 0.0);
   const auto i = std::min(static_cast<std::size_t>(place), rays.size() - 2);
@@ -134,7 +142,7 @@ double power_at(const std::vector<BottomRay>& rays, double angle) {
   return (1 - share) * rays[i].power + share * rays[i + 1].power;
 }
 
-// Rays launched between `low` and `high`.
+// Arrival of the rays launched between the angles `low` and `high`; none when they miss the receiver's depth.
 std::optional<Arrival> window_of(const MixedSea& sea, const MixedLink& link, double low, double high) {
   const double theta = 0.5 * (low + high), speed = link.receiver.speed_mps;
   const double xi = elementary::cos(theta) / link.source.speed_mps;
@@ -151,6 +159,7 @@ std::optional<Arrival> window_of(const MixedSea& sea, const MixedLink& link, dou
       is_turned ? power_at(link.turned, angle)
                 : density_at(xi, link.receiver, half) * elementary::exp10(-window.bounce_loss_db() / 10);
   if (!(power > 0)) return std::nullopt;
+  // Power of the window: f^2 cot(angle at the receiver) / D dtheta / r.
   window.amplitude = std::sqrt((high - low) * power / link.range_m);
   const double halves = link.range_m / half.range_m;
   window.delay_s = half.delay_s * halves;
@@ -163,7 +172,7 @@ std::optional<Arrival> window_of(const MixedSea& sea, const MixedLink& link, dou
   return window;
 }
 
-// The strongest that together have enough of the power, by delay.
+// Keeps the strongest windows that together have kKeptShare of the power, sorted by delay.
 void keep_most(std::vector<Arrival>& windows) {
   double power = 0, kept = 0;
   for (const Arrival& window : windows) power += power_of(window);
@@ -218,7 +227,7 @@ std::optional<std::vector<Arrival>> weak_arrivals(const MixedSea& sea, const Ray
                                                                    : std::optional(std::move(windows));
 }
 
-// All that a window loses grows with the range, so what it loses in a metre tells all.
+// Every loss of a window grows linearly with range, so that its loss over 1 m is sufficient.
 LeastMixedLoss::LeastMixedLoss(const MixedSea& sea, const Depths& depths, Decibels gain)
     : shortest_m_(kFarAway * depths.greatest_m),
       least_absorption_db_per_m_(std::numeric_limits<double>::infinity()),

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy of a weak link over a rough bottom, whose rays are not worth tracing.
+// Incoherent energy flux of a weak link over a rough bottom, for which tracing rays is not worth while.
 //
 // Model: that of acoustics/rays/diffuse_windows.h for all rays, in water of the mean depth between the ends.
-// A ray of Snell's xi goes up and down between where it turns, or meets surface and bottom, half a cycle
-// D(xi) long; over the range r it does so r / D times, and loses each time what the boundaries take, f in
-// all. The launch angles dtheta bring the power
+// A ray of Snell's invariant xi alternates between the points where it turns, or meets surface and bottom;
+// D(xi) is the length of such a half cycle. Over the range r there are r / D half cycles, with the boundary
+// loss of each; f is the product of all of them in pressure. The launch angles dtheta contribute the power
 //   f^2 cot(angle at the receiver) / D dtheta / r
-// with the delay, length and absorption of r / D half cycles. Where the bottom has slopes, these turn the
-// rays at every bounce: the power of those that meet it is that of acoustics/link/slope_diffusion.h, by their
-// angles at the bottom. Each window is one Arrival, diffuse.
+// with the delay, length and absorption of r / D half cycles. A bottom with slopes turns rays at every
+// bounce: the power of rays that meet it is then that of acoustics/link/slope_diffusion.h, by their angles at
+// the bottom. Each window of launch angles is one Arrival, marked diffuse.
 //
-// Accuracy: over bottoms with 5 m of relief, 2 to 5 km apart, 0.6 dB in the mean over places of what every
-// ray brings, 2 dB rms from place to place; some fifty microseconds. Left out: what stands in the way, and
-// slopes that go on over the whole link.
+// Accuracy: over bottoms with 5 m of relief, ends 2 to 5 km apart, the mean over places is within 0.6 dB of
+// tracing every ray, 2 dB rms from place to place; cost some fifty microseconds. Left out: terrain that
+// blocks the link, and slopes that persist over the whole link.
 #pragma once
 
 #include <optional>
@@ -25,46 +25,46 @@
 
 namespace halocline::acoustics {
 
-// Refers to the water, which has to outlive the call.
+// The sea along a link. Refers to the water, which must outlive the call.
 struct MixedSea {
   const RayWater& water;
-  double depth_m;  // mean between the ends
+  double depth_m;  // mean depth between the ends
   FluidBottom bottom;
   RaySurface surface;
   RayOptions options;
-  double mean_square_slope = 0;  // of the bottom along the link, beside its mean slope
+  double mean_square_slope = 0;  // variance of the bottom's slope along the link
 };
 
-// The windows that hold 99 % of the power, by delay; none where no ray that leaves the source comes to the
-// receiver's depth.
+// The windows that have 99 % of the power, sorted by delay; empty when no ray that leaves the source reaches
+// the receiver's depth.
 std::vector<Arrival> mixed_arrivals(const MixedSea& sea, const RayLink& link);
 
-// The same of a link that is weak: more than 10 depths long, all of it, and a direct path alone, `below`
-// under RayOptions::diffuse_below_pressure. Empty for others.
+// The windows of a link that is weak: longer than 10 depths, with its total power and that of its direct path
+// each at least `below` under RayOptions::diffuse_below_pressure. nullopt for other links.
 std::optional<std::vector<Arrival>> weak_arrivals(const MixedSea& sea, const RayLink& link, Decibels below);
-// Whether it is weak over some bottom: its direct path alone is.
+// True when the link may be weak over some bottom: its direct path alone is.
 bool may_be_weak(const RayWater& water, const RayOptions& options, const RayLink& link, Decibels below);
 
-// The least that weak links lose, wherever their ends and their bottom lie: a bound by which those that
-// cannot matter are recognised before anything of them is computed.
+// Lower bound of the loss of weak links for any depths of ends and bottom, by which links that cannot matter
+// are recognised before anything of them is computed.
 //
-// The energy of mixed rays is greatest at some depths of both ends and of the bottom, among kEnds and
-// kBottoms of each, evenly spread (0.3 dB less than between them in a summer's thermocline). A weak link over
-// an uneven bottom has that energy. Over an even one its rays are traced: `gain` is what they may have beside
-// the mean (least_loss.h).
+// The energy flux is greatest at certain depths of both ends and of the bottom; the bound takes the greatest
+// over kEnds and kBottoms evenly spaced ones (0.3 dB less than between them in a summer's thermocline). A
+// weak link over an uneven bottom has that energy. Over an even bottom its rays are traced: `gain` is how
+// much they may exceed the mean (least_loss.h).
 class LeastMixedLoss {
  public:
   struct Depths {
-    double least_m, greatest_m;  // of the water between the ends, mean; above 0, rising
+    double least_m, greatest_m;  // mean water depth between the ends; above 0, ascending
     double deepest_end_m;        // above 0
   };
-  // Makes 2 ms of work. `depth_m` of the sea is not used.
+  // Takes 2 ms. `depth_m` of the sea is not used.
   LeastMixedLoss(const MixedSea& sea, const Depths& depths, Decibels gain);
 
-  // At `range_m` > 0; it rises with range.
+  // Bound at `range_m` > 0; it rises with range.
   Decibels at(double range_m) const;
-  // All links that are longer lose more than `loss`, where links with less energy than `weak_loss` leaves are
-  // weak. Infinite where less is asked for.
+  // The range beyond which every link loses more than `loss`, given that links with more loss than
+  // `weak_loss` are weak. Infinite when `loss` is below `weak_loss`.
   double range_of(Decibels loss, Decibels weak_loss) const;
 
  private:
@@ -72,8 +72,8 @@ class LeastMixedLoss {
   struct Window {
     double power_m, nepers_per_m;
   };
-  double shortest_m_;                 // no weak link is shorter
-  double least_absorption_db_per_m_;  // where an end may be
+  double shortest_m_;                 // weak links are longer
+  double least_absorption_db_per_m_;  // over the depths of the ends
   Decibels gain_;
   std::vector<std::vector<Window>> links_;
 };

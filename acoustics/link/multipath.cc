@@ -24,7 +24,7 @@ EchoPath echo_path(const LinkKernel& model, const Vec3& from_ned_m, const Vec3& 
   const double down = (point.position_ned_m - from_ned_m).norm(),
                up = (to_ned_m - point.position_ned_m).norm();
 
-  // One bounce that loses nothing: TL over the length of both legs, alpha their mean weighted by length.
+  // One bounce without loss: TL over the length of both legs, alpha their mean weighted by length.
   EchoPath path;
   path.length_m = down + up;
   path.delay_s =
@@ -39,7 +39,7 @@ EchoPath echo_path(const LinkKernel& model, const Vec3& from_ned_m, const Vec3& 
   } else {
     path.level = model.transmitter().source_level;
   }
-  // Both look to where they meet the bottom.
+  // The two beams point to the reflection point on the bottom.
   path.level = path.level - model.transmitter().beam.loss(angle_down_rad(from_ned_m, point.position_ned_m)) -
                model.receiver().beam.loss(angle_down_rad(to_ned_m, point.position_ned_m));
   path.blocked = point.blocked_from_transmitter || point.blocked_to_receiver;

@@ -12,13 +12,13 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kLowestHz = 1;  // the search's ends: beyond them turbulence or thermal noise hides all
+constexpr double kLowestHz = 1;  // limits of the search: beyond them turbulence or thermal noise dominates
 constexpr double kHighestHz = 1e7;
-const double kBandEdgeDb = 10 * elementary::log10(2.0);  // "3 dB": twice the minimum
-constexpr int kBisections = 64;                          // halves 16 nepers to below the last bit
-constexpr double kGoldenShare = 0.3819660112501051;      // (3 - sqrt 5) / 2
+const double kBandEdgeDb = 10 * elementary::log10(2.0);  // "3 dB" edge: twice the minimum
+constexpr int kBisections = 64;                      // reduces 16 nepers to below one unit in the last place
+constexpr double kGoldenShare = 0.3819660112501051;  // (3 - sqrt 5) / 2
 
-// A(l, f) and N(f).
+// Loss A(l, f) and noise N(f), as ratios of powers.
 class Channel {
  public:
   explicit Channel(const OptimumBandQuestion& question) : q_(question) {}
@@ -28,7 +28,7 @@ class Channel {
     return to_power_ratio(transmission_loss(q_.range_m, q_.spreading_exponent, alpha).total).value;
   }
   double noise(double frequency_hz) const { return noise_power_density(frequency_hz, q_.noise).value; }
-  // In decibels, because the loss overflows where absorption leaves nothing.
+  // The product in decibels: the ratio overflows where absorption is extreme.
   double loss_and_noise_db(double frequency_hz) const {
     const double f = hz_to_khz(frequency_hz);
     const double alpha = q_.absorption.db_per_km(f * f);
@@ -41,7 +41,8 @@ class Channel {
   const OptimumBandQuestion& q_;
 };
 
-// The x between `inside` and `outside` where `holds` (true inside) turns false.
+// Bisects for the x between `inside` and `outside` at which the predicate `holds`, true inside, becomes
+// false.
 template <typename Predicate>
 double boundary(double inside, double outside, const Predicate& holds) {
   for (int i = 0; i < kBisections; ++i) {
@@ -51,14 +52,14 @@ double boundary(double inside, double outside, const Predicate& holds) {
   return inside;
 }
 
-// Slope of A N in log f, from a step small against its curvature and large against rounding.
+// Slope of A N over log f: the step is small relative to its curvature and large relative to rounding.
 double slope_db(const Channel& channel, double frequency_hz) {
   constexpr double kStep = 1e-4;
   return channel.loss_and_noise_db(frequency_hz * (1 + kStep)) -
          channel.loss_and_noise_db(frequency_hz / (1 + kStep));
 }
 
-// Golden section narrows the minimum, the root of the slope finishes it.
+// Brackets the minimum by golden section, then finds the root of the slope.
 double minimum_frequency(const Channel& channel) {
   double a = elementary::log(kLowestHz), b = elementary::log(kHighestHz);
   while (b - a > 0.1) {
@@ -73,6 +74,7 @@ double minimum_frequency(const Channel& channel) {
   return boundary(elementary::exp(a), elementary::exp(b), [&](double f) { return slope_db(channel, f) < 0; });
 }
 
+// The band about the optimum within which A N is at most `level_db`.
 Band band_below(const Channel& channel, double optimum_hz, double level_db) {
   const auto inside = [&](double f) { return channel.loss_and_noise_db(f) <= level_db; };
   return {boundary(optimum_hz, kLowestHz, inside), boundary(optimum_hz, kHighestHz, inside)};
@@ -87,7 +89,7 @@ double integrate_over(const Band& band, const Function& function) {
   return sum;
 }
 
-// Stojanovic 2006: with S(f) = P / B over the band, SNR = (P / B) integral(1 / A) / integral(N).
+// Flat spectrum S(f) = P / B (Stojanovic 2006): SNR = (P / B) integral(1 / A) / integral(N).
 BandPlan flat_plan(const Channel& channel, const Band& band, double snr) {
   const double noise = integrate_over(band, [&](double f) { return channel.noise(f); });
   const double gain = integrate_over(band, [&](double f) { return 1 / channel.loss(f); });

@@ -42,10 +42,10 @@ double doppler_factor(double source_mps, double source_sound_speed_mps, double r
 double doppler_shift(double source_mps, double source_sound_speed_mps, double receiver_mps,
                      double receiver_sound_speed_mps) {
   require_slower_than_sound(source_mps, source_sound_speed_mps, receiver_mps, receiver_sound_speed_mps);
+  // The Doppler factor minus 1, in a form without cancellation.
   const double source = source_mps / source_sound_speed_mps,
                receiver = receiver_mps / receiver_sound_speed_mps;
-  return (source - receiver) /
-         (1 - source);  // the same factor less 1, without the difference of equal numbers
+  return (source - receiver) / (1 - source);
 }
 
 }  // namespace halocline::acoustics

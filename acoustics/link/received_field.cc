@@ -13,14 +13,15 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kEchoRange = 1e-3;  // of the strongest power: 30 dB
+constexpr double kEchoRange = 1e-3;  // relative to the strongest power: 30 dB
 
 Decibels level_of(double power, const FieldOptions& options) {
   const Decibels level = to_decibels({power});
   return options.floor ? std::max(level, *options.floor) : level;
 }
 
-// A path of phase phi (which grows as its delay shrinks) and delay t at f: e^(i (phi - 2 pi f t)).
+// Phasor of a path at f, e^(i (phi - 2 pi f t)): t the delay, phi the phase, which grows as the delay
+// shrinks.
 std::complex<double> phasor(const Arrival& path, double pressure, double frequency_hz) {
   const double cycles = std::fmod(frequency_hz * path.delay_s, 1.0);
   return elementary::polar(pressure, path.phase_rad - 2 * std::numbers::pi * cycles);
@@ -35,6 +36,7 @@ std::vector<WeightedDelay> weighted_delays(const Arrivals& arrivals, const Trans
   return delays;
 }
 
+// Delay from the first to the last path within kEchoRange of the strongest.
 double longest_echo_s(const std::vector<WeightedDelay>& delays) {
   double strongest = 0, first = std::numeric_limits<double>::infinity(), last = 0;
   for (const WeightedDelay& path : delays) strongest = std::max(strongest, path.power);
@@ -49,8 +51,8 @@ double longest_echo_s(const std::vector<WeightedDelay>& delays) {
 }  // namespace
 
 double weighted_pressure(const Arrival& path, const Transducers& transducers) {
-  // The receiver looks back along the ray: what travels down comes from above.
-  // The beams' product first, so that the way back has the same pressure to the last bit.
+  // A ray that travels downwards arrives from above, hence the negative angle. The beams are multiplied
+  // first, so that the reverse direction gives the same bits.
   return path.received_pressure() * (transducers.source.factor(path.launch_angle_rad) *
                                      transducers.receiver.factor(-path.arrival_angle_rad));
 }
@@ -73,9 +75,10 @@ ReceivedField received_field(const Arrivals& arrivals, const FieldOptions& optio
 
 Decibels coherent_level(const Arrivals& arrivals, double frequency_hz, const FieldOptions& options) {
   require_in_range(frequency_hz, 10, 1e6, "frequency of a coherent level", "Hz");
-  std::complex<double> sum =
-      0;               // Jensen and others 2011, section 3.3: p = sum over eigenrays of their phasors
-  double diffuse = 0;  // of any phase: powers add
+  // p = sum over eigenrays of their phasors (Jensen and others 2011, section 3.3).
+  std::complex<double> sum = 0;
+  // Diffuse paths have no defined phase: their powers add.
+  double diffuse = 0;
   for (const Arrival& path : arrivals.paths) {
     const double pressure = weighted_pressure(path, options.transducers);
     if (path.diffuse) {

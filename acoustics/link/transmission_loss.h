@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loss of level along a straight path.
+// Transmission loss along a straight path.
 //
-// Model: TL(l, f) = k 10 log10(l) + alpha l / 1000 (Urick 1983; Stojanovic 2006): l in metres re 1 m for
-// spreading, in kilometres for absorption (alpha in dB/km). k = 2 spherical (near, unbounded), 1 cylindrical
-// (far, ducted), 1.5 practical. Below 1 m the loss is 0: levels refer to 1 m and the law does not hold
-// nearer. Left out: bending, bounces, shadow zones (the ray model's business).
+// Model (Urick 1983; Stojanovic 2006):
+//   TL(l, f) = k 10 log10(l) + alpha l / 1000,
+// l in metres, re 1 m for spreading, and alpha in dB/km. k = 2 is spherical spreading (near, unbounded), 1
+// cylindrical (far, ducted), 1.5 practical. Below 1 m the loss is 0: levels refer to 1 m and the law does not
+// hold at shorter distances. Left out: refraction, bounces, shadow zones (see acoustics/rays).
 #pragma once
 
 #include "core/units.h"
 
 namespace halocline::acoustics {
 
-inline constexpr double kReferenceRange = 1;  // m, of source levels
+inline constexpr double kReferenceRange = 1;  // m, reference distance of source levels
 
-// dB. Each part is 0 below 1 m.
+// Loss and its parts, dB; each is 0 below 1 m.
 struct TransmissionLoss {
   Decibels spreading, absorption, total;
 };
