@@ -9,8 +9,9 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kDbPerKmPerNeperPerMetre = 8686;  // 1000 * 20 log10(e), as Fisher and Simmons round it
-constexpr double kKiloyardsPerKilometre = 1.0936;  // as Thorp's users round it; exact is 1.09361
+constexpr double kDbPerKmPerNeperPerMetre = 8686;  // 1000 * 20 log10(e), as rounded by Fisher and Simmons
+constexpr double kKiloyardsPerKilometre =
+    1.0936;  // rounded, as in common use with Thorp's formula; exact is 1.09361
 constexpr double kHzSquaredPerKhzSquared = 1e6;
 
 struct NamedModel {
@@ -28,9 +29,9 @@ constexpr NamedModel kNames[] = {
     {AbsorptionModel::kThorpJensen, "thorp-jensen"},
 };
 
-// Fisher and Simmons 1977, equations as in table II of the 2010 IEEE SMC paper; f in Hz, P in atm, T in degC,
-// Np/m:
-//   alpha = A1 f1 f^2 / (f1^2 + f^2) + A2 P2 f2 f^2 / (f2^2 + f^2) + A3 P3 f^2 (boric acid, MgSO4, water).
+// Fisher and Simmons 1977, equations as in table II of the 2010 IEEE SMC paper: boric acid, magnesium
+// sulphate and water; f in Hz, P in atm, T in degC, result in Np/m.
+//   alpha = A1 f1 f^2 / (f1^2 + f^2) + A2 P2 f2 f^2 / (f2^2 + f^2) + A3 P3 f^2
 AbsorptionSpectrum fisher_simmons(const AbsorbingWater& water) {
   const double t = water.temperature_degc, p = water.pressure_atm, kelvin = t + 273.1;
   const double a1 = 1.03e-8 + 2.36e-10 * t - 5.22e-12 * t * t;
@@ -50,17 +51,18 @@ AbsorptionSpectrum fisher_simmons(const AbsorbingWater& water) {
           .low_below_400_hz = false};
 }
 
-// The cubic of pure water's viscosity in two pieces (Francois and Garrison 1982, part II, equation 10).
+// Cubic for the viscosity of pure water, in two pieces (Francois and Garrison 1982, part II, equation 10).
 double francois_garrison_a3(double t) {
   return t <= 20 ? 4.937e-4 - 2.59e-5 * t + 9.11e-7 * t * t - 1.50e-8 * t * t * t
                  : 3.964e-4 - 1.146e-5 * t + 1.45e-7 * t * t - 6.5e-10 * t * t * t;
 }
 
-// Francois and Garrison 1982, part II; f in kHz, D in m, dB/km; P1 = 1:
-//   alpha = A1 f1 f^2 / (f1^2 + f^2) + A2 P2 f2 f^2 / (f2^2 + f^2) + A3 P3 f^2.
+// Francois and Garrison 1982, part II, with P1 = 1; f in kHz, D in m, result in dB/km.
+//   alpha = A1 f1 f^2 / (f1^2 + f^2) + A2 P2 f2 f^2 / (f2^2 + f^2) + A3 P3 f^2
 AbsorptionSpectrum francois_garrison(const AbsorbingWater& water) {
   const double t = water.temperature_degc, s = water.salinity_psu, d = water.depth_m;
-  const double c = 1412 + 3.21 * t + 1.19 * s + 0.0167 * d;  // their own estimate of sound speed
+  // Estimate of sound speed by the same authors, m/s.
+  const double c = 1412 + 3.21 * t + 1.19 * s + 0.0167 * d;
   const double a1 = 8.86 / c * elementary::exp10(0.78 * water.ph - 5);
   const double f1 = 2.8 * std::sqrt(s / 35) * elementary::exp10(4 - 1245 / (t + 273));
   const double a2 = 21.44 * s / c * (1 + 0.025 * t);
@@ -76,9 +78,10 @@ AbsorptionSpectrum francois_garrison(const AbsorbingWater& water) {
           .low_below_400_hz = false};
 }
 
-// Ainslie and McColm 1998; f in kHz, z in km, dB/km:
+// Ainslie and McColm 1998; f in kHz, z in km, result in dB/km.
 //   alpha = 0.106 f1 f^2 / (f1^2 + f^2) e^((pH - 8) / 0.56)
-//         + 0.52 (1 + T / 43) (S / 35) f2 f^2 / (f2^2 + f^2) e^(-z / 6) + 0.00049 f^2 e^(-(T / 27 + z / 17)).
+//         + 0.52 (1 + T / 43) (S / 35) f2 f^2 / (f2^2 + f^2) e^(-z / 6)
+//         + 0.00049 f^2 e^(-(T / 27 + z / 17))
 AbsorptionSpectrum ainslie_mccolm(const AbsorbingWater& water) {
   const double t = water.temperature_degc, s = water.salinity_psu, z_km = water.depth_m / 1000;
   const double f1 = 0.78 * std::sqrt(s / 35) * elementary::exp(t / 26);
@@ -92,8 +95,8 @@ AbsorptionSpectrum ainslie_mccolm(const AbsorbingWater& water) {
           .low_below_400_hz = false};
 }
 
-// Thorp 1967: alpha = a + b f^2 / (1 + f^2) + c f^2 / (4100 + f^2) + d f^2, f in kHz, in the constants of
-// each author.
+// Thorp 1967, f in kHz, with the constants a, b, c, d of each author:
+//   alpha = a + b f^2 / (1 + f^2) + c f^2 / (4100 + f^2) + d f^2
 constexpr AbsorptionSpectrum thorp(double constant, double first, double second, double quadratic) {
   return {constant, first, 1, second, 4100, quadratic, false};
 }

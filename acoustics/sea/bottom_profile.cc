@@ -12,11 +12,14 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kFar = 1e9;               // m: where the level pieces at both ends stop
-constexpr double kLongestInDepths = 2;     // of a facet that samples a curve, in depths of the water there
-constexpr double kMinShareOfBend = 0.5;    // of a bend that the ones beside it have where a curve is sampled
-constexpr double kPatienceAmongBends = 3;  // there facets may be that much longer and turn that much more
+constexpr double kFar = 1e9;  // m, end of the level pieces at both sides
+// Greatest length of a facet that samples a curve, in depths of the water there.
+constexpr double kLongestInDepths = 2;
+// Least ratio of a neighbouring turn to this one where a curve is sampled.
+constexpr double kMinShareOfBend = 0.5;
+constexpr double kPatienceAmongBends = 3;  // factor on both limits between such neighbours
 
+// The straight facet from one point to the next.
 Facet facet_between(const ProfiledDepth& a, const ProfiledDepth& b) {
   const double slope = (b.depth_m - a.depth_m) / (b.range_m - a.range_m),
                hypotenuse = elementary::hypot(1.0, slope);
@@ -67,7 +70,7 @@ void BottomProfile::build_facets() {
   }
 }
 
-// Whether facets i - 1 and i sample a curve where they meet.
+// True when facets i - 1 and i sample a smooth curve at their common point.
 bool BottomProfile::is_bend(std::size_t i) const {
   const auto turn_at = [this](std::size_t k) {
     return k > 0 && k < facets_.size()
@@ -87,8 +90,9 @@ void BottomProfile::bend_facets() {
     Facet &left = facets_[i - 1], &right = facets_[i];
     const double turn = elementary::atan(right.slope) - elementary::atan(left.slope);
     right.smooth_group = left.smooth_group;
-    if (turn == 0) continue;  // one straight piece: no corner to part rays at
-    // At the common point of a bend the reflecting direction is the mean of both: half the turn from each.
+    if (turn == 0) continue;  // a straight continuation: no corner that separates rays
+    // The reflecting direction at the common point of a bend is the mean of both facets: half the turn from
+    // each.
     if (is_bend(i)) {
       left.turn1 = turn / 2;
       right.turn0 = -turn / 2;
@@ -96,7 +100,7 @@ void BottomProfile::bend_facets() {
       ++right.smooth_group;
     }
   }
-  // d(turn)/ds along the facet: (turn1 - turn0) / length, length = (r1 - r0) / cos.
+  // Change of the turn along the facet, d(turn)/ds = (turn1 - turn0) / length, length = (r1 - r0) / cosine.
   for (Facet& facet : facets_)
     facet.bend_per_m = (facet.turn1 - facet.turn0) * facet.cosine / (facet.r1 - facet.r0);
 }

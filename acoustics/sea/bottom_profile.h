@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bottom along the vertical plane of a link, as rays meet it.
+// The bottom in the vertical plane of a link, in the form that ray tracing needs.
 //
-// Model: depth is linear between given points and constant before the first and after the last. A bottom
-// given by many points of a smooth one makes false and missing rays at its corners. So where two facets turn
-// by no more than the crease angle, and neither is longer than twice the depth there (longer ones are slopes
-// that are meant, not samples of a curve), the direction in which rays are reflected is the mean of both at
-// the common point and goes evenly from point to point, as unit normals of a curved bottom do; its change
-// along the facet focuses or spreads the ray tube. Both limits are three times as wide where the corners on
-// both sides turn the same way by at least half as much, as those of a curve sampled coarsely do. At any
-// other corner each facet keeps its own slope. A crease angle of 0 makes all corners sharp.
+// Model: depth is linear between the given points and constant before the first and after the last. Points
+// that sample a smooth bottom would create false and missing rays at the corners. Hence, where two facets
+// differ by no more than the crease angle, and neither is longer than twice the depth there (longer ones are
+// intended slopes, not samples of a curve), the direction of reflection is the mean of both at the common
+// point and varies linearly from point to point, like the unit normal of a curved bottom; its change along
+// the facet focuses or spreads the ray tube. Both limits are three times as wide where the corners on both
+// sides turn the same way by at least half as much, as they do for a coarsely sampled curve. At any other
+// corner each facet keeps its own slope. A crease angle of 0 makes all corners sharp.
 //
-// Immutable: calls may overlap between threads. Ranges are from the source, m, rising; depths below the
+// Immutable: calls may overlap between threads. Ranges are from the source, m, ascending; depths below the
 // surface, m. Left out: slopes across the link, which turn rays out of its plane.
 #pragma once
 
@@ -22,49 +22,53 @@
 
 namespace halocline::acoustics {
 
+// A point of the bottom; m.
 struct ProfiledDepth {
   double range_m;
   double depth_m;
   bool operator==(const ProfiledDepth&) const = default;
 };
 
-// Above it two facets by themselves meet in a corner, below in a bend: 5 degrees separates crests from
-// samples of a curve.
+// Default crease angle: facets that turn by more meet in a corner, by less in a bend. 5 degrees separates
+// crests from samples of a curve.
 inline const double kDefaultCreaseAngle = to_radians(5);
 
-// One straight piece, z = z0 + slope (r - r0) for r in r0..r1.
+// A straight piece of the bottom, z = z0 + slope (r - r0) for r in r0..r1, m.
 struct Facet {
   double r0, r1, z0, slope;
   double shallowest_m;
-  double sine, cosine;         // of its own angle atan(slope), positive down
-  double turn0, turn1;         // angle of reflection at both ends minus its own, rad
-  double bend_per_m;           // change of that along the facet, rad / m
+  double sine, cosine;         // sine and cosine of the facet's angle atan(slope), positive down
+  double turn0, turn1;         // reflecting angle at both ends minus the facet's angle, rad
+  double bend_per_m;           // change of the reflecting angle along the facet, rad / m
   std::uint16_t smooth_group;  // facets between two corners share a number (modulo 65536)
   bool bent() const { return turn0 != 0 || turn1 != 0; }
 };
 
+// A bottom of straight or bent facets.
 class BottomProfile {
  public:
-  // At least one point; ranges strictly rising, depths 0.1..12 000 m, crease 0..pi. Throws InvalidArgument.
+  // Makes the profile of one or more points; strictly ascending ranges, depths 0.1..12 000 m, crease 0..pi.
+  // Throws InvalidArgument.
   explicit BottomProfile(std::vector<ProfiledDepth> points, double crease_angle_rad = kDefaultCreaseAngle);
   static BottomProfile flat(double depth_m) { return BottomProfile({{0, depth_m}}); }
 
   double depth_at(double range_m) const;
-  // Whether the bottom is level from 0 to `range_m`.
+  // True when the bottom is level from 0 to `range_m`.
   bool is_flat_until(double range_m) const;
-  // The same bottom seen from its other end: `range_m` becomes 0.
+  // Returns the bottom seen from its other end: the range r becomes range_m - r.
   BottomProfile reversed(double range_m) const;
 
   const std::vector<ProfiledDepth>& points() const { return points_; }
   const std::vector<Facet>& facets() const { return facets_; }
+  // Index of the facet at a range.
   std::size_t facet_at(double range_m) const;
-  // The same, at facet `from` or after; of two that meet there, the first.
+  // Index of the facet at a range that is not before facet `from`; where two facets meet, the first.
   std::size_t facet_from(std::size_t from, double range_m) const {
     while (from + kBlock < facets_.size() && facets_[from + kBlock].r0 < range_m) from += kBlock;
     while (facets_[from].r1 < range_m) ++from;
     return from;
   }
-  // Whether all blocks from that of facet `from` to `until_m` are deeper than `depth_m`.
+  // True when all blocks from that of facet `from` up to `until_m` are deeper than `depth_m`.
   bool is_deeper_than(double depth_m, std::size_t from, double until_m) const {
     std::size_t block = from / kBlock;
     while (block_shallowest_[block] > depth_m) {
@@ -75,7 +79,7 @@ class BottomProfile {
   }
   double shallowest_m() const { return shallowest_; }
   double deepest_m() const { return deepest_; }
-  // Shallowest of the facets [kBlock block, kBlock (block + 1)), m.
+  // Least depth, m, of the facets of each block [kBlock block, kBlock (block + 1)).
   static constexpr std::size_t kBlock = 8;
   const std::vector<double>& block_shallowest_m() const { return block_shallowest_; }
 

@@ -22,8 +22,9 @@ struct NamedSediment {
   double density_ratio, sound_speed_ratio, loss_parameter;
 };
 
-// APL-UW TR 9407, table 2. Where its print and its own polynomials disagree (speed of sandy gravel, density
-// of very coarse sand) the polynomials stand. Rock and pebbles: commonly quoted, from one source.
+// APL-UW TR 9407, table 2. The table contradicts the report's polynomials in the speed of sandy gravel and
+// the density of very coarse sand; the values here are those of the polynomials. Rock and pebbles are
+// commonly quoted values from one source.
 constexpr std::array<NamedSediment, 22> kSediments = {{
     {"Rock", 2.5, 2.5, 0.01374},
     {"Pebbles", 2.5, 1.8, 0.01374},
@@ -52,16 +53,16 @@ constexpr std::array<NamedSediment, 22> kSediments = {{
 constexpr std::array kSurfaceModels = {SurfaceModel::kFlat, SurfaceModel::kAplBubbles, SurfaceModel::kEckart,
                                        SurfaceModel::kCoates, SurfaceModel::kJones};
 
-// 40 pi log10(e): dB per wavelength of a loss parameter of 1.
+// Attenuation, dB per wavelength, for a loss parameter of 1: 40 pi log10(e).
 const double kDecibelsPerLossParameter = 40 * pi * std::numbers::log10e;
 
-constexpr double kGravity = 9.8;          // m/s^2, as the wave spectrum was fitted
-constexpr double kWaveModelSpeed = 1500;  // m/s, of Gamma
-constexpr double kKnotsPerMps = 1.94384;  // as Coates's form is commonly evaluated
-constexpr double kMinGrazing = 1e-9;      // rad: the bubble law has 1 / sin G
-constexpr double kMaxLoss = 400;          // dB: beyond it a bounce leaves nothing
+constexpr double kGravity = 9.8;          // m/s^2, the value used in the fit of the wave spectrum
+constexpr double kWaveModelSpeed = 1500;  // m/s, in Eckart's Gamma
+constexpr double kKnotsPerMps = 1.94384;  // the value in common use with Coates's form
+constexpr double kMinGrazing = 1e-9;      // rad; the bubble loss diverges as 1 / sin G
+constexpr double kMaxLoss = 400;          // dB, limit of the loss of one bounce
 
-// The square root with a positive imaginary part: the wave in the bottom dies away downward.
+// A complex square root with positive imaginary part: the wave in the bottom decays downwards.
 struct Root {
   double re, im;
 };
@@ -74,6 +75,7 @@ Root root_of(double re, double im) {
   return re >= 0 ? Root{larger, smaller} : Root{smaller, larger};
 }
 
+// The complex reflection coefficient as a quotient.
 struct Quotient {
   double numerator_re, numerator_im, denominator_re, denominator_im;
   double magnitude() const {
@@ -88,8 +90,9 @@ Quotient rayleigh(const FluidBottom& bottom, double sine, double water_speed_mps
   const double ratio =
       bottom.sound_speed_ratio > 0 ? bottom.sound_speed_ratio : bottom.sound_speed_mps / water_speed_mps;
   const double delta = bottom.loss_parameter, speed_term = 1 + delta * delta;
-  // n^2 = (1 + i delta)^2 / ratio^2, or 1 / (ratio (1 - i delta))^2 = (1 + i delta)^2 / (ratio (1 +
-  // delta^2))^2
+  // Index of refraction for a complex wave number, then for a complex speed:
+  //   n^2 = (1 + i delta)^2 / ratio^2
+  //   n^2 = 1 / (ratio (1 - i delta))^2 = (1 + i delta)^2 / (ratio (1 + delta^2))^2
   const double real = bottom.loss == BottomLoss::kComplexSpeed ? ratio * speed_term : ratio;
   const double n2 = 1 / (real * real);
   const Root below = root_of(n2 * (1 - delta * delta) - (1 - sine * sine), 2 * delta * n2);
@@ -97,17 +100,19 @@ Quotient rayleigh(const FluidBottom& bottom, double sine, double water_speed_mps
   return {above - below.re, -below.im, above + below.re, below.im};
 }
 
-// APL-UW TR 9407 (1994), part II: SBL = 1.26e-3 w^1.57 f^0.85 / sin G dB for w >= 6 m/s; below, the value at
-// 6 m/s times e^(1.2 (w - 6)). f in kHz.
+// APL-UW TR 9407 (1994), part II, bubble loss in dB for w >= 6 m/s, f in kHz; for weaker wind the value at 6
+// m/s times e^(1.2 (w - 6)).
+//   SBL = 1.26e-3 w^1.57 f^0.85 / sin G
 double apl_bubble_loss_db(double wind_mps, double grazing_rad, double khz) {
   constexpr double kJoin = 6;  // m/s
   const double steady = 1.26e-3 / elementary::sin(grazing_rad) *
                         elementary::pow(std::max(wind_mps, kJoin), 1.57) * elementary::pow(khz, 0.85);
-  if (wind_mps <= 0) return 0;  // the fit leaves 7e-4 of its 6 m/s value: a still sea has no bubbles
+  // The fit would leave 7e-4 of its value at 6 m/s; without wind there are no bubbles.
+  if (wind_mps <= 0) return 0;
   return wind_mps >= kJoin ? steady : steady * elementary::exp(1.2 * (wind_mps - kJoin));
 }
 
-// Eckart 1953: the coherent part is e^(-Gamma^2 / 2), Gamma = 2 k h sin G.
+// Eckart 1953: the coherent reflection is e^(-Gamma^2 / 2), Gamma = 2 k h sin G.
 double eckart_loss_db(double wind_mps, double grazing_rad, double khz) {
   const double wavenumber = 2 * pi * khz_to_hz(khz) / kWaveModelSpeed;
   const double gamma = 2 * wavenumber * rms_wave_height_m(wind_mps) * elementary::sin(grazing_rad);
@@ -115,7 +120,7 @@ double eckart_loss_db(double wind_mps, double grazing_rad, double khz) {
 }
 
 // Coates 1988, after Beckmann and Spizzichino 1963; f in kHz, w in knots, G in degrees:
-//   loss = -10 log((1 + (f / f1)^2) / (1 + (f / f2)^2)) + (1 + (90 - w) / 60) (G / 30)^2,
+//   loss = -10 log10((1 + (f / f1)^2) / (1 + (f / f2)^2)) + (1 + (90 - w) / 60) (G / 30)^2,
 //   f2 = 378 / w^2, f1 = sqrt(10) f2.
 double coates_loss_db(double wind_mps, double grazing_rad, double khz) {
   const double knots = wind_mps * kKnotsPerMps;
@@ -126,8 +131,9 @@ double coates_loss_db(double wind_mps, double grazing_rad, double khz) {
 }
 
 // Jones, Duncan and others 2009, after Beckmann and Spizzichino 1963; f in Hz, w in m/s, G in rad:
-//   loss = -20 log(0.3 + 0.7 / (1 + 6e-11 w^4 f^2)) - 10 log(1 - V3), a = 1 / (2 (0.003 + 5.1e-3 w)),
-//   V3 = max(sin(G) / 2, (1 - e^(-a G^2 / 4) / sqrt(pi a G^2)) sin G), at most 0.99.
+//   loss = -20 log10(0.3 + 0.7 / (1 + 6e-11 w^4 f^2)) - 10 log10(1 - V3),
+//   V3 = max(sin(G) / 2, (1 - e^(-a G^2 / 4) / sqrt(pi a G^2)) sin G), at most 0.99,
+//   a = 1 / (2 (0.003 + 5.1e-3 w)).
 double jones_loss_db(double wind_mps, double grazing_rad, double khz) {
   const double a = 1 / (2 * (0.003 + 5.1e-3 * wind_mps)), theta = grazing_rad;
   const double sine = elementary::sin(theta), hz = khz_to_hz(khz), spread = a * theta * theta;

@@ -4,15 +4,17 @@
 // Bottom: Rayleigh reflection of a plane wave at a fluid half-space (Jensen, Kuperman, Porter and Schmidt
 // 2011, equation 1.60), with m the density ratio, n the index of refraction and G the grazing angle:
 //   V = (m sin G - sqrt(n^2 - cos^2 G)) / (m sin G + sqrt(n^2 - cos^2 G)).
-// Two conventions for a lossy bottom are in use and differ in second order, which is 0.02 dB a bounce near
-// the critical angle: a complex wave number, n = (1 + i delta) c_water / c_bottom (APL-UW TR 9407), or a
-// complex speed, n = c_water / (c_bottom (1 - i delta)) (ray and mode programs). delta is the attenuation in
-// dB per wavelength over 40 pi log10(e) = 54.575. Sediments by name are those of TR 9407 (1994), table 2,
-// with ratios to the water just above. A phase given out here turns an arrival the way a delay that shrinks
-// does: V = |V| e^(-i phase). Left out: shear, layers, roughness and volume scattering of the bottom.
+// Two conventions for a lossy bottom are in use. They differ in second order, which is 0.02 dB a bounce near
+// the critical angle:
+//   complex wave number  n = (1 + i delta) c_water / c_bottom      APL-UW TR 9407
+//   complex speed        n = c_water / (c_bottom (1 - i delta))    ray and mode programs
+// delta is the attenuation in dB per wavelength over 40 pi log10(e) = 54.575. Named sediments are those of TR
+// 9407 (1994), table 2, with ratios to the water just above. A reported phase acts on an arrival like a
+// decrease of its delay: V = |V| e^(-i phase). Left out: shear, layers, roughness and volume scattering of
+// the bottom.
 //
-// Surface: pressure release (V = -1), less by wind in one of four published forms. Left out: the spread in
-// time and frequency that a moving surface makes.
+// Surface: pressure release (V = -1), reduced by wind in one of four published forms. Left out: the spread in
+// time and frequency by a moving surface.
 //
 //   const FluidBottom sand = sediment("MediumSand").value();
 //   const double lost_db = bottom_reflection(sand, to_radians(15), 1500).loss_db();
@@ -26,13 +28,14 @@
 
 namespace halocline::acoustics {
 
+// Convention for a lossy bottom (file comment).
 enum class BottomLoss { kComplexWaveNumber, kComplexSpeed };
 
 // A fluid half-space. Exactly one of the two speeds is above 0.
 struct FluidBottom {
-  double density_ratio = 1.845;       // to the water, 0.5..10
-  double sound_speed_ratio = 1.1782;  // to the water just above, 0.5..5; 0: the speed below is meant
-  double sound_speed_mps = 0;         // 500..7000; 0: the ratio above is meant
+  double density_ratio = 1.845;       // to that of the water, 0.5..10
+  double sound_speed_ratio = 1.1782;  // to the water just above, 0.5..5; 0: sound_speed_mps is used
+  double sound_speed_mps = 0;         // m/s, 500..7000; 0: sound_speed_ratio is used
   double loss_parameter = 0.01624;    // delta, 0..1
   BottomLoss loss = BottomLoss::kComplexWaveNumber;
   bool operator==(const FluidBottom&) const = default;
@@ -41,55 +44,57 @@ struct FluidBottom {
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
 void validate(const FluidBottom& bottom);
 
-// From a density ratio, a speed and an attenuation in dB per wavelength (0..54), by the complex speed.
+// A bottom of a density ratio, a speed and an attenuation in dB per wavelength (0..54), with a complex speed.
 FluidBottom fluid_bottom(double density_ratio, double sound_speed_mps, double attenuation_db_per_wavelength);
 
-// delta of an attenuation in dB per wavelength, and back.
+// The loss parameter delta for an attenuation in dB per wavelength, and the inverse.
 double loss_parameter_from_attenuation(double db_per_wavelength);
 double attenuation_from_loss_parameter(double loss_parameter);
 
-// A sediment of APL-UW TR 9407 by its name there, written together ("MediumSand"); empty when unknown.
+// A sediment of APL-UW TR 9407 by its name there without spaces ("MediumSand"); empty when unknown.
 std::optional<FluidBottom> sediment(std::string_view name);
-// All the names, from rock to clay.
+// Names of the sediments, from rock to clay.
 std::vector<std::string_view> sediment_names();
 
-// One bounce: magnitude 0..1 of the pressure, and by how much it turns the phase, rad.
+// One bounce: magnitude 0..1 of the pressure reflection coefficient, and the change of phase, rad.
 struct Reflection {
   double magnitude = 1;
   double phase_rad = 0;
   double loss_db() const { return -20 * elementary::log10(magnitude); }
 };
 
-// At `grazing_rad` (0..pi/2 to the bottom's own slope) under water of speed `water_speed_mps`.
+// Reflection at `grazing_rad` (0..pi/2 to the bottom's own slope) under water of speed `water_speed_mps`.
 Reflection bottom_reflection(const FluidBottom& bottom, double grazing_rad, double water_speed_mps);
-// The same from the sine of the grazing angle, 0..1: what ray tracing has at hand.
+// Reflection from the sine of the grazing angle, 0..1, which ray tracing has at hand.
 Reflection bottom_reflection_at_sine(const FluidBottom& bottom, double sine, double water_speed_mps);
-// The magnitude alone.
+// Magnitude of that reflection.
 double bottom_magnitude_at_sine(const FluidBottom& bottom, double sine, double water_speed_mps);
 
+// Models for the loss at the surface.
 enum class SurfaceModel {
   kFlat,  // no loss
-  // APL-UW TR 9407, part II: absorption by the wind's bubbles, 1.26e-3 w^1.57 f^0.85 / sin G dB above 6 m/s,
-  // falling by e^(1.2 (w - 6)) below; f in kHz. 10..100 kHz. No loss without wind: the default.
+  // APL-UW TR 9407, part II: absorption by wind-generated bubbles, 1.26e-3 w^1.57 f^0.85 / sin G dB above 6
+  // m/s, decreasing as e^(1.2 (w - 6)) below; f in kHz, 10..100 kHz. No loss without wind: the default.
   kAplBubbles,
-  // Eckart 1953: the coherent part that a Gaussian surface leaves, e^(-Gamma^2 / 2), Gamma = 2 k h sin G,
-  // with the rms height of Pierson and Moskowitz, h = 0.22 w^2 / (4 g), and k at 1500 m/s.
+  // Eckart 1953: the coherent reflection of a Gaussian surface, e^(-Gamma^2 / 2), Gamma = 2 k h sin G, with
+  // the rms height of Pierson and Moskowitz, h = 0.22 w^2 / (4 g), and k at 1500 m/s.
   kEckart,
-  // Coates 1988, from Beckmann and Spizzichino: wind inside in knots. 3.4 dB and more at steep angles without
-  // wind.
+  // Coates 1988, after Beckmann and Spizzichino; the wind is converted to knots. Without wind the loss is
+  // still 3.4 dB and more at steep angles.
   kCoates,
-  // Jones, Duncan and others 2009 (Proceedings of Acoustics, Adelaide), from Beckmann and Spizzichino.
+  // Jones, Duncan and others 2009 (Proceedings of Acoustics, Adelaide), after Beckmann and Spizzichino.
   kJones,
 };
 
-// "flat", "apl-bubbles", "eckart", "coates", "jones".
+// Names of the models: "flat", "apl-bubbles", "eckart", "coates", "jones". The inverse is empty for other
+// names.
 std::string_view to_name(SurfaceModel model);
 std::optional<SurfaceModel> surface_model_from_name(std::string_view name);
 
-// rms height of a fully developed sea, m, under a wind of `wind_mps` >= 0 (Pierson and Moskowitz).
+// rms height of a fully developed sea, m, for a wind of `wind_mps` >= 0 (Pierson and Moskowitz).
 double rms_wave_height_m(double wind_mps);
 
-// The surface as rays see it.
+// The sea surface for ray tracing.
 struct RaySurface {
   SurfaceModel model = SurfaceModel::kAplBubbles;
   double wind_mps = 0;  // 0..60
@@ -99,8 +104,8 @@ struct RaySurface {
 // Loss of one bounce, dB >= 0, at `grazing_rad` in (0, pi/2] and `frequency_hz` > 0.
 double surface_loss_db(const RaySurface& surface, double grazing_rad, double frequency_hz);
 
-// The same for many bounces at one frequency, from the sine of the grazing angle, (0, 1]: what all have in
-// common is computed once. At most 400 dB.
+// Loss of many bounces at one frequency, from the sine of the grazing angle, (0, 1]; common terms are
+// computed once. The loss is at most 400 dB.
 class SurfaceLoss {
  public:
   SurfaceLoss(const RaySurface& surface, double frequency_hz);
@@ -109,10 +114,10 @@ class SurfaceLoss {
  private:
   RaySurface surface_;
   double frequency_hz_;
-  double bubbles_db_;  // at a sine of 1
+  double bubbles_db_;  // bubble loss at a sine of 1
 };
 
-// The factor 0..1 on the pressure of one bounce; its phase is always pi.
+// Factor 0..1 on the pressure of one bounce; the change of phase is always pi.
 double surface_magnitude(const RaySurface& surface, double grazing_rad, double frequency_hz);
 
 }  // namespace halocline::acoustics

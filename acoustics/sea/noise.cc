@@ -12,7 +12,7 @@ namespace {
 
 constexpr Decibels kNoRain{-300};
 
-// f in kHz.
+// Spectrum level of rain, f in kHz (noise.h has the formula).
 Decibels rain_level(double f, double rain_mm_per_h) {
   if (rain_mm_per_h <= 0) return kNoRain;
   return {42.4 + 15.4 * elementary::log10(rain_mm_per_h) - 10 * elementary::log10(1 + (f / 15) * (f / 15))};
@@ -21,9 +21,11 @@ Decibels rain_level(double f, double rain_mm_per_h) {
 }  // namespace
 
 NoiseComponents noise_components(double frequency_hz, const NoiseSources& sources) {
-  // Coates 1990 as in Stojanovic 2006 (WUWNet); f in kHz, s shipping, w wind; dB re 1 uPa^2/Hz:
-  //   turbulence 17 - 30 log f, shipping 40 + 20 (s - 0.5) + 26 log f - 60 log(f + 0.03),
-  //   wind 50 + 7.5 sqrt(w) + 20 log f - 40 log(f + 0.4), thermal -15 + 20 log f. Powers add.
+  // Coates 1990 as in Stojanovic 2006 (WUWNet); f in kHz, s shipping, w wind; dB re 1 uPa^2/Hz. Powers add.
+  //   turbulence  17 - 30 log10 f
+  //   shipping    40 + 20 (s - 0.5) + 26 log10 f - 60 log10(f + 0.03)
+  //   wind        50 + 7.5 sqrt(w) + 20 log10 f - 40 log10(f + 0.4)
+  //   thermal     -15 + 20 log10 f
   const double f = hz_to_khz(frequency_hz), log_f = elementary::log10(f);
   NoiseComponents n;
   n.turbulence = {17 - 30 * log_f};
@@ -43,7 +45,7 @@ PowerRatio noise_power_density(double frequency_hz, const NoiseSources& sources)
   return noise_components(frequency_hz, sources).total_power;
 }
 
-// Each component rises or falls with frequency, or has one maximum: its least value is at an end of the band.
+// Each component is monotonic in frequency or has one maximum: its minimum is at an end of the band.
 PowerRatio least_noise_power_density(double low_hz, double high_hz, const NoiseSources& sources) {
   if (sources.table) return to_power_ratio(sources.table->least_level(low_hz, high_hz));
   const NoiseComponents low = noise_components(low_hz, sources), high = noise_components(high_hz, sources);

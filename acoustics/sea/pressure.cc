@@ -17,9 +17,10 @@ double squared_sine(double angle_rad) {
 
 double standard_ocean_pressure_dbar(double depth_m, double latitude_rad) {
   const double z = depth_m;
-  // h(Z, 45): pressure in MPa at 45 degrees (equation 3 of the paper).
+  // Pressure at 45 degrees latitude, h(Z, 45), MPa (Leroy and Parthiot 1998, equation 3).
   const double h45 = (((2.8e-19 * z - 1.25e-13) * z + 2.465e-8) * z + 1.00818e-2) * z;
-  // k(Z, phi): gravity at the latitude over gravity at 45 degrees, both falling with depth (equation 4).
+  // k(Z, phi): gravity at the latitude over gravity at 45 degrees, with the variation over depth (equation
+  // 4).
   const double gravity = 9.7803 * (1 + 5.3e-3 * squared_sine(latitude_rad));
   const double k = (gravity - 2e-5 * z) / (9.80612 - 2e-5 * z);
   return h45 * k * kDecibarPerMegapascal;
@@ -27,7 +28,7 @@ double standard_ocean_pressure_dbar(double depth_m, double latitude_rad) {
 
 double common_oceans_pressure_dbar(double depth_m, double latitude_rad) {
   const double z = depth_m;
-  const double correction_mpa = 1e-2 * z / (z + 100) + 6.2e-6 * z;  // table II, "common oceans"
+  const double correction_mpa = 1e-2 * z / (z + 100) + 6.2e-6 * z;  // MPa; table II, "common oceans"
   return standard_ocean_pressure_dbar(depth_m, latitude_rad) - correction_mpa * kDecibarPerMegapascal;
 }
 

@@ -20,7 +20,7 @@
 namespace halocline::acoustics {
 namespace {
 
-// Names a column may have, ours first, then those of the reference tables.
+// Accepted names of each column: the documented one first, then those of the reference tables.
 using Names = std::vector<std::string>;
 const Names kDepth = {"depth_m"};
 const Names kTemperature = {"temperature_degC", "T_degC", "T90_degC"};
@@ -33,6 +33,7 @@ constexpr const char* kNeeded =
     "a profile needs the columns depth_m, temperature_degC, salinity_psu; or depth_m, CT_degC, SA_g_per_kg; "
     "or depth_m, sound_speed_mps";
 
+// Index of the first column that has one of the names.
 std::optional<std::size_t> find_column(const CsvTable& table, const Names& names) {
   for (const std::string& name : names) {
     if (const auto column = table.column(name)) return column;
@@ -40,10 +41,11 @@ std::optional<std::size_t> find_column(const CsvTable& table, const Names& names
   return std::nullopt;
 }
 
+// Indices of the columns of a profile.
 struct Columns {
   std::size_t depth;
-  std::size_t first;                  // temperature or speed
-  std::optional<std::size_t> second;  // salinity; none with speed
+  std::size_t first;                  // temperature or sound speed
+  std::optional<std::size_t> second;  // salinity; empty for sound speed
   bool teos10 = false;
 };
 
@@ -58,6 +60,7 @@ std::optional<Columns> find_columns(const CsvTable& table) {
   return std::nullopt;
 }
 
+// Accepted range of a column.
 struct Limits {
   double lowest, highest;
   const char* unit;
@@ -67,7 +70,7 @@ constexpr Limits kTemperatureLimits{-5, 45, "degC"};
 constexpr Limits kSalinityLimits{0, 50, "psu"};
 constexpr Limits kSpeedLimits{1000, 2000, "m/s"};
 
-// The cell as a number; NaN, and a line in `errors`, when it is none or out of its limits.
+// Reads a cell as a number. If it is not a number or out of limits, returns NaN and adds a line to `errors`.
 double read_cell(const CsvTable& table, const CsvLine& row, std::size_t column, const Limits& limits,
                  std::vector<std::string>& errors) {
   const auto value = parse_number(row.cells[column]);
@@ -78,12 +81,14 @@ double read_cell(const CsvTable& table, const CsvLine& row, std::size_t column, 
   return std::nan("");
 }
 
+// The depth of a row with its line in the file.
 struct DepthAt {
   double depth_m;
   int line;
 };
 
-// Why depths do not rise, in one sentence where the rows are the legs of a cast; else a line for each.
+// Reports depths that do not increase: in one sentence when the rows are the legs of a cast, otherwise one
+// line each.
 void check_rising(const std::vector<DepthAt>& depths, std::vector<std::string>& errors) {
   const auto does_not_rise = [](const DepthAt& a, const DepthAt& b) { return b.depth_m <= a.depth_m; };
   const auto does_not_fall = [](const DepthAt& a, const DepthAt& b) { return b.depth_m >= a.depth_m; };
@@ -92,7 +97,7 @@ void check_rising(const std::vector<DepthAt>& depths, std::vector<std::string>& 
   const auto lines = [](auto first, auto last) {
     return "lines " + std::to_string(first->line) + " to " + std::to_string((last - 1)->line);
   };
-  constexpr std::ptrdiff_t kLeg = 3;  // rows: fewer are a fault of their own
+  constexpr std::ptrdiff_t kLeg = 3;  // rows; fewer are reported as single faults
   const bool comes_up = std::adjacent_find(turn + 1, depths.end(), does_not_fall) == depths.end();
   if (comes_up && depths.end() - turn > kLeg) {
     errors.push_back(turn == depths.begin()
@@ -111,6 +116,7 @@ void check_rising(const std::vector<DepthAt>& depths, std::vector<std::string>& 
   }
 }
 
+// Throws InvalidArgument with the first five errors and the number of the others.
 void throw_all(const std::string& name, const std::vector<std::string>& errors) {
   if (errors.empty()) return;
   constexpr std::size_t kShown = 5;
@@ -122,6 +128,7 @@ void throw_all(const std::string& name, const std::vector<std::string>& errors) 
   throw InvalidArgument(text);
 }
 
+// One line about the nearest column of a gridded field.
 std::string describe(const ocean::WaterColumn& column) {
   std::ostringstream text;
   text.precision(4);

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads sound-speed profiles from files: the one place of this folder that touches a file.
+// Reads sound-speed profiles from files; the only file access in this folder.
 //
-// CSV (tables and CTD casts): a header names the columns, in any order; others are ignored. Either
-//   depth_m, temperature_degC, salinity_psu     in-situ temperature (ITS-90) and practical salinity, or
-//   depth_m, CT_degC, SA_g_per_kg               conservative temperature and absolute salinity (TEOS-10), or
-//   depth_m, sound_speed_mps                    speed alone.
-// Depths must rise: one that repeats or turns back is refused with its line, and a cast that goes down and up
-// with the lines of either leg, of which a person keeps one. Of many faults the first five are reported, and
-// how many more there are.
+// CSV (tables and CTD casts): a header names the columns, in any order; other columns are ignored. One of
+// these sets is needed:
+//   depth_m, temperature_degC, salinity_psu     in-situ temperature (ITS-90) and practical salinity
+//   depth_m, CT_degC, SA_g_per_kg               conservative temperature and absolute salinity (TEOS-10)
+//   depth_m, sound_speed_mps                    sound speed alone
+// Depths must increase. A depth that repeats or decreases is reported with its line; for a cast that goes
+// down and up the lines of both legs are reported, of which the user keeps one. The first five faults are
+// reported, and the number of further ones.
 //
-// CF netCDF (World Ocean Atlas, Levitus, models): the column of an ocean field at a position
-// (ocean/ocean_field_reader.h), with all that its reader converts and refuses.
+// CF netCDF (World Ocean Atlas, Levitus, ocean models): the column of a field at a position, with the
+// conversions and errors of its reader (ocean/ocean_field_reader.h).
 //
 // Calls may overlap between threads.
 #pragma once
@@ -24,36 +25,38 @@
 
 namespace halocline::acoustics {
 
-// What turns a table into speed.
+// Parameters by which a table is converted to sound speed.
 struct ProfileReading {
-  SoundSpeedModel model =
-      SoundSpeedModel::kMackenzie1981;       // ignored by tables of speed; TEOS-10 by SA and CT only
-  double latitude_rad = 0.7853981633974483;  // for models of pressure, -pi/2..pi/2; default 45 degrees
-  WaterSample assumed{10, 35};               // temperature and salinity of tables of speed
+  // Ignored by tables of sound speed; TEOS-10 needs SA and CT.
+  SoundSpeedModel model = SoundSpeedModel::kMackenzie1981;
+  double latitude_rad = 0.7853981633974483;  // -pi/2..pi/2, for models that use pressure; default 45 degrees
+  WaterSample assumed{10, 35};               // temperature and salinity for tables of sound speed
 };
 
-// From CSV text. `name` appears in messages. Throws InvalidArgument with every fault, a line each.
+// Reads CSV text. `name` appears in messages. Throws InvalidArgument with the faults, one line each.
 SoundSpeedProfile read_csv_profile(std::istream& in, const std::string& name, const ProfileReading& reading);
 
 using GridQuery = ocean::ColumnQuery;
 
+// A profile from a gridded field, and the column that it was taken from.
 struct GridProfile {
   SoundSpeedProfile profile;
-  double column_latitude_rad;   // of the nearest column with water
-  double column_longitude_rad;  // -pi..pi
-  double distance_m;            // from the place given, on a sphere
+  double column_latitude_rad;   // nearest column with water, -pi/2..pi/2
+  double column_longitude_rad;  // nearest column with water, -pi..pi
+  double distance_m;            // distance of that column from the given position, on a sphere
   int levels;                   // rows of the profile
-  std::string description;      // one line that states all this
+  std::string description;      // summary of these values in one line
 };
 
-// Throws InvalidArgument as ocean::read_water_column does.
+// The profile at a position. Throws InvalidArgument under the conditions of ocean::read_water_column(), and
+// for TEOS-10.
 GridProfile read_grid_profile(const GridQuery& query, SoundSpeedModel model);
 
-// By the ending of `path`: .csv and .txt are tables, all else is netCDF.
+// True for paths that end in .csv or .txt, which are tables; all others are netCDF.
 bool is_profile_table(const std::string& path);
 
-// A table, or netCDF at the position (then the latitude of `reading` is the query's). Throws InvalidArgument
-// when the file cannot be read.
+// Reads a table, or netCDF at the given position, whose latitude then replaces that of `reading`. Throws
+// InvalidArgument when the file cannot be read.
 SoundSpeedProfile read_profile(const std::string& path, const ProfileReading& reading, double latitude_rad,
                                double longitude_rad);
 

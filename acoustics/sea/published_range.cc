@@ -11,9 +11,9 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kDecibarPerKilogram = 9.80665;  // a kilogram per square centimetre
+constexpr double kDecibarPerKilogram = 9.80665;  // one kilogram-force per square centimetre
 
-// What one formula was given, and the first of it that is beyond.
+// Checks the inputs of one formula and keeps a note about the first that is out of range.
 class Inputs {
  public:
   explicit Inputs(std::string_view formula) : formula_(formula) {}
@@ -30,9 +30,10 @@ class Inputs {
   std::string formula_, note_;
 };
 
-// Ranges of salinity are stated in whole psu: the hundredths of a mean ocean do not count.
+// Published ranges are in whole psu: the salinity is rounded to tenths before it is compared.
 double stated_salinity(double salinity_psu) { return std::round(10 * salinity_psu) / 10; }
 
+// The depths of the profile's rows above `deepest_m`, with 0 and `deepest_m`.
 std::vector<double> depths_to(const SoundSpeedProfile& profile, double deepest_m) {
   std::vector<double> depths = {0, deepest_m};
   for (const double depth : profile.row_depths_m()) {

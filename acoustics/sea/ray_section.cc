@@ -11,8 +11,8 @@
 namespace halocline::acoustics {
 namespace {
 
-// The slope at point i of the parabola through it and its neighbours, at an end through the first three; of
-// the line through two.
+// Slope at point i of the parabola through it and its two neighbours; at an end that of the parabola through
+// the first or last three points. Two points give the slope of the line.
 template <class Value>
 double parabola_slope(const std::vector<double>& x, std::size_t i, const Value& f) {
   const auto difference = [&](std::size_t k) { return (f(k + 1) - f(k)) / (x[k + 1] - x[k]); };
@@ -26,8 +26,9 @@ double parabola_slope(const std::vector<double>& x, std::size_t i, const Value& 
 
 double minmod(double a, double b) { return a * b <= 0 ? 0 : std::abs(a) < std::abs(b) ? a : b; }
 
-// That slope within what Huynh 1993, equation (2.17), allows (M3-A): no overshoot beside a sharp bend or in
-// water of steady speed, and the parabola's slope where the water is smooth, at its extremes too.
+// The slope of the parabola, limited after Huynh 1993, equation (2.17) (M3-A): there is no overshoot next to
+// a sharp bend or in water of constant speed, and smooth water keeps the slope of the parabola, also at
+// extrema.
 template <class Value>
 double limited_slope(const std::vector<double>& x, std::size_t i, const Value& f) {
   const std::size_t last = x.size() - 1;
@@ -47,12 +48,12 @@ double limited_slope(const std::vector<double>& x, std::size_t i, const Value& f
   return minmod(slope, std::copysign(most, either));
 }
 
-// Of the cubic a + b t + c t^2 + d t^3 over t = 0..1, by values and slopes at its ends.
+// Coefficients of the cubic a + b t + c t^2 + d t^3 over t = 0..1, from values and slopes at its ends.
 std::array<double, 4> cubic(double f0, double s0, double f1, double s1) {
   return {f0, s0, 3 * (f1 - f0) - 2 * s0 - s1, 2 * (f0 - f1) + s0 + s1};
 }
 
-// Its value, first and second derivative.
+// Value, first and second derivative of a cubic.
 struct Derivatives {
   double value, first, second;
 };
@@ -126,7 +127,8 @@ SpeedPatch RaySection::patch(const SectionCell& cell) const {
   patch.depth_ = depths_m()[cell.layer];
   patch.per_width_ = 1 / width;
   patch.per_height_ = 1 / height;
-  // At each corner's depth the cubics along range of c and of c_z, then down.
+  // Cubics along range of c and of c_z at the depths of the corners; they are then combined by cubics over
+  // depth.
   const auto along = [&](std::size_t knot) {
     const Node &a = node(cell.strip, knot), &b = is_last ? a : node(cell.strip + 1, knot);
     return is_last ? std::pair{cubic(a.c, 0, a.c, 0), cubic(a.down, 0, a.down, 0)}

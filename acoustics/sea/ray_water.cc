@@ -10,13 +10,14 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kTallestProbe = 5000.0;  // m: below it formulas and tables are taken as constant
+constexpr double kTallestProbe = 5000.0;  // m; formulas and tables are constant below
 
-constexpr double kLeastRounding = 1.0;        // m: half-height of what takes the place of a kink
-constexpr double kFinestRounding = 1.0 / 32;  // of it, between knots at the axis
-constexpr double kInside = 0.98;              // of it: knots further out would be next to the last
+constexpr double kLeastRounding = 1.0;        // m, least half-height of a rounded kink
+constexpr double kFinestRounding = 1.0 / 32;  // spacing of knots at the axis, relative to the half-height
+// Relative to the half-height: knots further out would almost coincide with the last.
+constexpr double kInside = 0.98;
 
-// a0 + a1 u + a2 u^2 through the values at u = 0, 1/2 and 1.
+// The parabola a0 + a1 u + a2 u^2 through the values at u = 0, 1/2 and 1.
 LayerAbsorption parabola(double top, double middle, double bottom) {
   return {top, 4 * middle - 3 * top - bottom, 2 * (top + bottom) - 4 * middle};
 }
@@ -37,6 +38,7 @@ std::vector<SpeedRow> knots_of_column(const WaterColumns& column) {
   return knots;
 }
 
+// Knots of a smooth profile, sampled to the tolerance.
 std::vector<SpeedRow> sampled_knots(const SoundSpeedProfile& profile, double tolerance) {
   std::vector<double> corners = profile.row_depths_m();
   corners.push_back(std::max(kTallestProbe, corners.empty() ? 0.0 : corners.back()));
@@ -45,8 +47,8 @@ std::vector<SpeedRow> sampled_knots(const SoundSpeedProfile& profile, double tol
   return knots_of_column(sampled(corners, 1, speed, tolerance));
 }
 
-// Adds knots in place of `knot` if it is the axis of a channel whose kink is mild enough; false otherwise.
-// With x = z - z_knot, g1 and g2 the gradients above and below:
+// Replaces `knot` by several knots on a parabola if it is the axis of a channel and its kink is small enough;
+// returns false otherwise. With x = z - z_knot, and g1 and g2 the gradients above and below,
 //   c = c_knot + (g1 + g2) x / 2 + (g2 - g1) (x^2 / d + d) / 4  within |x| <= d.
 bool round_off(const SpeedRow& above, const SpeedRow& knot, const SpeedRow& below, double tolerance,
                std::vector<SpeedRow>& rounded) {
@@ -60,7 +62,7 @@ bool round_off(const SpeedRow& above, const SpeedRow& knot, const SpeedRow& belo
     const double curve = (g2 - g1) * (x * x / d + d) / 4;
     rounded.push_back({knot.depth_m + x, knot.sound_speed_mps + (g1 + g2) * x / 2 + curve});
   };
-  // Knots close together about the axis, where rays swing little.
+  // Knots are close together about the axis, where rays have small amplitudes.
   const double axis = -(g1 + g2) * d / (g2 - g1);
   std::vector<double> offsets;
   for (double y = 0; y < 2 * d; y += std::max(kFinestRounding * d, y / 3)) offsets.push_back(y);

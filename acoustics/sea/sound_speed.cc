@@ -9,7 +9,7 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kT68PerT90 = 1.00024;           // Saunders 1990
-constexpr double kPascalPerKgPerCm2 = 98'066.5;  // standard gravity on one kilogram
+constexpr double kPascalPerKgPerCm2 = 98'066.5;  // standard gravity on one kilogram, Pa
 constexpr double kDecibarPerBar = 10;
 
 struct NamedModel {
@@ -25,8 +25,9 @@ constexpr NamedModel kNames[] = {
     {SoundSpeedModel::kHarrisZorzi2007, "harris-zorzi"},
 };
 
-// Chen and Millero 1977: c = Cw(T,P) + A(T,P) S + B(T,P) S^(3/2) + D(P) S^2; rows are powers of P in bar,
-// columns powers of T. The two fits share the shape and differ in the numbers.
+// Chen and Millero 1977, rows for powers of P in bar, columns for powers of T. Both fits share this form and
+// differ in the coefficients.
+//   c = Cw(T,P) + A(T,P) S + B(T,P) S^(3/2) + D(P) S^2
 struct ChenMilleroCoefficients {
   double c[4][6];
   double a[4][5];
@@ -81,9 +82,9 @@ double chen_millero(const ChenMilleroCoefficients& k, double t, double s, double
 }  // namespace
 
 double mackenzie_1981(double temperature_degc, double salinity_psu, double depth_m) {
-  // Mackenzie 1981, nine terms: c = 1448.96 + 4.591 T - 5.304e-2 T^2 + 2.374e-4 T^3 + 1.340 (S - 35) +
-  // 1.630e-2 D
-  //   + 1.675e-7 D^2 - 1.025e-2 T (S - 35) - 7.139e-13 T D^3.
+  // Mackenzie 1981, nine terms, S' = S - 35:
+  //   c = 1448.96 + 4.591 T - 5.304e-2 T^2 + 2.374e-4 T^3 + 1.340 S' + 1.630e-2 D + 1.675e-7 D^2
+  //     - 1.025e-2 T S' - 7.139e-13 T D^3
   const double t = temperature_degc, s = salinity_psu - 35, d = depth_m;
   return 1448.96 + ((2.374e-4 * t - 5.304e-2) * t + 4.591) * t + 1.340 * s + (1.630e-2 + 1.675e-7 * d) * d -
          1.025e-2 * t * s - 7.139e-13 * t * d * d * d;
@@ -97,7 +98,7 @@ double chen_millero_wong_zhu_1995(double temperature_t90_degc, double salinity_p
   return chen_millero(kWongZhu1995, temperature_t90_degc, salinity_psu, pressure_dbar);
 }
 
-// Table III of Wong and Zhu 1995.
+// Polynomial of table III of Wong and Zhu 1995: c = 1402.392 + CT(T) + CS(S) + CP(P) + CSTP(S, T, P).
 double del_grosso_wong_zhu_1995(double temperature_t90_degc, double salinity_psu,
                                 double pressure_kg_per_cm2) {
   const double t = temperature_t90_degc, s = salinity_psu, p = pressure_kg_per_cm2;
@@ -111,7 +112,8 @@ double del_grosso_wong_zhu_1995(double temperature_t90_degc, double salinity_psu
   return 1402.392 + of_temperature + of_salinity + of_pressure + of_all;
 }
 
-// Urick 1983, with t in tens of degrees and z in kilometres.
+// Short formula of Urick 1983, with t in tens of degrees and z in kilometres:
+//   c = 1449.05 + 45.7 t - 5.21 t^2 + 0.23 t^3 + (1.333 - 0.126 t + 0.009 t^2) (S - 35) + 16.3 z + 0.18 z^2
 double harris_zorzi_2007(double temperature_degc, double salinity_psu, double depth_m) {
   const double t = temperature_degc / 10, z = depth_m / 1000;
   return 1449.05 + (45.7 + (-5.21 + 0.23 * t) * t) * t +

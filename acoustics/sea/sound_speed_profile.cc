@@ -14,10 +14,11 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kTallestCell = 100;       // m, within the table
-constexpr double kTallestCellBelow = 500;  // m, below it, where only pressure changes
-// degC: relaxation frequencies follow exp(-3052 / T), so absorption a f2 f^2 / (f2^2 + f^2) has poles 41 degC
-// off the real axis, and Gauss's 5 nodes over 5 degC err by (2 * 41 / 2.5)^-10.
+constexpr double kTallestCell = 100;       // m, within the rows of the table
+constexpr double kTallestCellBelow = 500;  // m, below the table, where only pressure changes
+// Greatest change of temperature in a cell, degC. Relaxation frequencies follow exp(-3052 / T), so absorption
+// a f2 f^2 / (f2^2 + f^2) has poles 41 degC off the real axis, and 5 Gauss nodes over 5 degC have an error of
+// (2 * 41 / 2.5)^-10.
 constexpr double kWarmestCell = 5;
 
 std::string row_name(std::size_t index, const char* what) {
@@ -34,8 +35,8 @@ void require_rising_depths(const std::vector<Row>& rows) {
   }
 }
 
-// Index of the row at or above `depth_m`, and how far it is towards the next, 0..1. Outside of the table: an
-// end row.
+// Position in a table: the row at or above a depth, and the fraction of the way to the next, 0..1. Outside of
+// the table it is the first or last row.
 struct Place {
   std::size_t row;
   double share;
@@ -58,7 +59,7 @@ double interpolate(const std::vector<Row>& rows, Place place, double Row::*value
   return place.share == 0 ? upper : upper + place.share * (rows[place.row + 1].*value - upper);
 }
 
-// Adds boundaries from the last one to `to`, none taller than `tallest`.
+// Adds equal cells from the last boundary to `to`, none taller than `tallest`.
 void add_cells(std::vector<double>& boundaries, double to, double tallest) {
   const double from = boundaries.back();
   if (to <= from) return;
@@ -66,9 +67,9 @@ void add_cells(std::vector<double>& boundaries, double to, double tallest) {
   for (int i = 1; i <= count; ++i) boundaries.push_back(i == count ? to : from + (to - from) * i / count);
 }
 
-constexpr double kMeanLatitude = to_radians(45);  // where standard gravity is defined
+constexpr double kMeanLatitude = to_radians(45);  // standard gravity is defined there
 
-// Levitus 1998, World Ocean Atlas: mean temperature and salinity of all oceans.
+// Mean temperature and salinity of all oceans (Levitus 1998, World Ocean Atlas).
 std::vector<WaterRow> levitus_1998_rows() {
   return {{0, 17.26, 34.89},   {50, 15.09, 35.01},  {100, 13.3, 35.03}, {150, 11.89, 34.98},
           {250, 9.98, 34.86},  {350, 8.57, 34.76},  {450, 7.39, 34.68}, {550, 6.44, 34.63},
@@ -175,7 +176,8 @@ double SoundSpeedProfile::slowness_integral(double from_depth_m, double to_depth
 double SoundSpeedProfile::travel_time_s(double from_depth_m, double to_depth_m, double path_length_m) const {
   const double z1 = std::clamp(std::min(from_depth_m, to_depth_m), 0.0, kDeepestWater);
   const double z2 = std::clamp(std::max(from_depth_m, to_depth_m), 0.0, kDeepestWater);
-  // Along a straight line ds / dz = L / (z2 - z1): t = L / (z2 - z1) integral of dz / c(z) from z1 to z2.
+  // Along a straight line ds / dz = L / (z2 - z1), hence
+  //   t = L / (z2 - z1) * integral of dz / c(z) from z1 to z2.
   if (z1 == z2) return path_length_m / sound_speed_mps(z1);
   return path_length_m * (slowness_integral(z1, z2) / (z2 - z1));
 }
@@ -202,8 +204,9 @@ SoundSpeedProfile SoundSpeedProfile::global_mean_of_salinity_35(SoundSpeedModel 
 }
 
 SoundSpeedProfile SoundSpeedProfile::harris_zorzi(SoundSpeedModel model) {
-  // Their slope below 1000 m is rounded, 4.57139 - 5.7142e-4 z: it starts 3e-5 degC under the 4 degC that the
-  // slope above ends with. The row just below 1000 m keeps that step, because published delays contain it.
+  // The published slope below 1000 m is rounded, 4.57139 - 5.7142e-4 z: it begins 3e-5 degC below the 4 degC
+  // at which the slope above ends. A row just below 1000 m keeps that step, because published delays contain
+  // it.
   const double just_below_1000_m = std::nextafter(1000.0, kDeepestWater);
   const double start_of_deep_slope = 4.57139 - 5.7142e-4 * 1000;
   return from_water({{0, 22, 35},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TEOS-10's speed of sound from the 75-term polynomial of specific volume (Roquet et al. 2015, appendix A).
+// Speed of sound of TEOS-10 from the 75-term polynomial of specific volume (Roquet et al. 2015, appendix A).
 #include <cmath>
 
 #include "acoustics/sea/sound_speed.h"
@@ -43,9 +43,9 @@ constexpr Term kSpecificVolume[] = {
 static_assert(std::size(kSpecificVolume) == 75);
 
 constexpr int kHighestPower = 6;
-constexpr double kReferenceSalinity = 35.16504;                  // g/kg of sea water of practical salinity 35
-constexpr double kSalinityScale = 40 * kReferenceSalinity / 35;  // g/kg: practical salinity 40
-constexpr double kSalinityOffset = 24;    // keeps the square root smooth in fresh water, g/kg
+constexpr double kReferenceSalinity = 35.16504;                  // g/kg, sea water of practical salinity 35
+constexpr double kSalinityScale = 40 * kReferenceSalinity / 35;  // g/kg, practical salinity 40
+constexpr double kSalinityOffset = 24;    // g/kg, keeps the square root smooth in fresh water
 constexpr double kTemperatureScale = 40;  // degC
 constexpr double kPressureScale = 1e4;    // dbar
 constexpr double kPascalPerDbar = 1e4;
@@ -62,8 +62,8 @@ struct Powers {
 
 double teos10_75_term(double absolute_salinity_g_per_kg, double conservative_temperature_degc,
                       double pressure_dbar) {
-  // c^2 = -v^2 / (dv/dp), v = sum of v_ijk x^i y^j z^k, x = sqrt((S + 24) / S_u), y = T / 40, z = p / 10^4
-  // dbar.
+  // c^2 = -v^2 / (dv/dp) with
+  //   v = sum of v_ijk x^i y^j z^k,  x = sqrt((S + 24) / S_u),  y = T / 40,  z = p / 10^4 dbar.
   const Powers x(std::sqrt((absolute_salinity_g_per_kg + kSalinityOffset) / kSalinityScale));
   const Powers y(conservative_temperature_degc / kTemperatureScale);
   const Powers z(pressure_dbar / kPressureScale);

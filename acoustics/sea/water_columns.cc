@@ -8,17 +8,19 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kThinnestSample = 1.0;  // m: sampling a smooth profile goes no finer
-constexpr double kTallestSample =
-    250.0;  // m: nor coarser, so that a bump between two probes is not passed over
+constexpr double kThinnestSample = 1.0;  // m, least thickness of a layer
+// Greatest thickness of a layer, m, so that no feature between two probes is missed.
+constexpr double kTallestSample = 250.0;
 
+// Appends the speeds of all columns at a depth.
 void add(double depth, const ColumnSpeed& speed, WaterColumns& columns) {
   columns.depths_m.push_back(depth);
   for (std::size_t i = 0; i < columns.speeds_mps.size(); ++i)
     columns.speeds_mps[i].push_back(speed(i, depth));
 }
 
-// Adds knots below the last one down to `to`, halving until all chords are within tolerance of their columns.
+// Appends knots below the last one down to `to`, by bisection until linear interpolation is within tolerance
+// of all columns.
 void sample(double to, const ColumnSpeed& speed, double tolerance, WaterColumns& columns) {
   const double from = columns.depths_m.back(), height = to - from;
   const auto off = [&](std::size_t i, double start, double end, double share) {
@@ -38,6 +40,7 @@ void sample(double to, const ColumnSpeed& speed, double tolerance, WaterColumns&
   sample(to, speed, tolerance, columns);
 }
 
+// True when linear interpolation between two knots is within tolerance of the knots between them.
 bool chords_fit(const WaterColumns& columns, std::size_t from, std::size_t to, double tolerance) {
   const std::vector<double>& depths = columns.depths_m;
   return std::all_of(columns.speeds_mps.begin(), columns.speeds_mps.end(),
