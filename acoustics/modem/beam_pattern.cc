@@ -31,13 +31,13 @@ Decibels BeamPattern::loss(double elevation_rad) const {
   if (above == rows_.begin()) return {rows_.front().loss_db};
   if (above == rows_.end()) return {rows_.back().loss_db};
   const BeamRow& below = *(above - 1);
-  // Linear in decibels between two rows.
+  // Linear interpolation in decibels between two rows.
   const double share = (elevation_rad - below.elevation_rad) / (above->elevation_rad - below.elevation_rad);
   return {below.loss_db + share * (above->loss_db - below.loss_db)};
 }
 
 double BeamPattern::factor(double elevation_rad) const {
-  // On pressure, 10^(-loss / 20).
+  // The factor on pressure is 10^(-loss / 20).
   return rows_.empty() ? 1 : elementary::exp10(-loss(elevation_rad).value / 20);
 }
 

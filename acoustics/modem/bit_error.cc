@@ -9,17 +9,17 @@
 namespace halocline::acoustics {
 namespace {
 
-// Q(sqrt(2 x)).
+// Q(sqrt(2 x)) = erfc(sqrt(x)) / 2.
 double tail_of_root(double x) { return elementary::erfc(std::sqrt(x)) / 2; }
 
-// (1 - s) / 2 for s = sqrt(g / (k + g)), as (1 - s^2) / (2 (1 + s)) with 1 - s^2 = k / (k + g): no difference
-// of nearly equal numbers, and no infinity over infinity.
+// (1 - s) / 2 with s = sqrt(g / (k + g)), written as (1 - s^2) / (2 (1 + s)) with 1 - s^2 = k / (k + g),
+// which avoids cancellation and infinity over infinity.
 double coherent_in_rayleigh(double k, double g) {
   return k / (k + g) / (2 * (1 + std::sqrt(1 / (1 + k / g))));
 }
 
-// Proakis, 4th edition, section 5.2: BPSK Q(sqrt(2 g)), DBPSK e^-g / 2, coherent BFSK Q(sqrt(g)),
-// non-coherent BFSK e^(-g/2) / 2.
+// Bit error rates without fading (Proakis, 4th edition, section 5.2): BPSK Q(sqrt(2 g)), DBPSK e^-g / 2,
+// coherent BFSK Q(sqrt(g)), non-coherent BFSK e^(-g/2) / 2.
 double error_without_fading(Modulation modulation, double g) {
   switch (modulation) {
     case Modulation::kBpsk:
@@ -34,8 +34,9 @@ double error_without_fading(Modulation modulation, double g) {
   return elementary::exp(-g / 2) / 2;
 }
 
-// Their means over exponentially distributed g (section 14.3): BPSK (1 - sqrt(g / (1 + g))) / 2, DBPSK 1 / (2
-// (1 + g)), coherent BFSK (1 - sqrt(g / (2 + g))) / 2, non-coherent BFSK 1 / (2 + g).
+// Means of the bit error rates over an exponentially distributed g (section 14.3):
+//   BPSK           (1 - sqrt(g / (1 + g))) / 2      DBPSK              1 / (2 (1 + g))
+//   coherent BFSK  (1 - sqrt(g / (2 + g))) / 2      non-coherent BFSK  1 / (2 + g)
 double error_in_rayleigh(Modulation modulation, double g) {
   switch (modulation) {
     case Modulation::kBpsk:

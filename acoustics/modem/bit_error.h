@@ -10,17 +10,16 @@
 //   coherent BFSK       Q(sqrt(g))           (1 - sqrt(g / (2 + g))) / 2
 //   non-coherent BFSK   exp(-g / 2) / 2      1 / (2 + g)
 //
-// Fades last a bit and longer. packet_error_rate takes the bits of a packet as independent: in fading that
-// stands for bits interleaved over many fades.
+// Fades last for a bit or longer. packet_error_rate() treats the bits of a packet as independent, which in
+// fading represents bits interleaved over many fades.
 //
 // Exact for white Gaussian noise, a matched filter and perfect timing; interference counts as such noise.
-// Left out: symbols that run into each other, phase noise, error correction (convolutional_code.h,
-// block_code.h).
+// Left out: intersymbol interference, phase noise, error correction (convolutional_code.h, block_code.h).
 //
-// Eb/N0 is a PowerRatio, so a level in decibels cannot be handed over by mistake:
+// Eb/N0 is a PowerRatio, so that a level in decibels cannot be passed by mistake:
 //
-//   const double errors = bit_error_rate(Modulation::kBpsk, Fading::kNone, to_power_ratio(Decibels{9.6})); //
-//   9.7e-6
+//   const double errors =
+//       bit_error_rate(Modulation::kBpsk, Fading::kNone, to_power_ratio(Decibels{9.6}));  // 9.7e-6
 #pragma once
 
 #include <cstdint>
@@ -32,11 +31,12 @@ namespace halocline::acoustics {
 enum class Modulation { kBpsk, kDbpsk, kCoherentBfsk, kNoncoherentBfsk };
 enum class Fading { kNone, kRayleigh };
 
-// 0..0.5, falling as eb_over_n0 (>= 0, infinity included) rises; without loss of digits where it is tiny.
+// Bit error rate, 0..0.5, decreasing with eb_over_n0 (>= 0, infinity included); tiny values keep their
+// relative precision.
 double bit_error_rate(Modulation modulation, Fading fading, PowerRatio eb_over_n0);
 
-// The probability that at least one of `bits` (>= 0) bits is wrong, each with probability bit_error_rate
-// (0..1) and none depending on another: 1 - (1 - p)^n, without loss of digits where it is tiny.
+// Probability that at least one of `bits` (>= 0) independent bits is wrong, each with the probability
+// bit_error_rate (0..1): 1 - (1 - p)^n; tiny values keep their relative precision.
 double packet_error_rate(double bit_error_rate, std::int64_t bits);
 
 }  // namespace halocline::acoustics

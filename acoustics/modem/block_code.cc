@@ -18,12 +18,12 @@ const BlockCode& hamming_14_9() {
 }
 
 double coded_bit_error_rate(const BlockCode& code, PowerRatio eb_over_n0) {
-  // Union bound (Proakis, 4th edition, section 8.1): P_b <= sum over w of (w / n) A_w Q(sqrt(2 w (k / n)
-  // Eb/N0)).
+  // Union bound (Proakis, 4th edition, section 8.1):
+  //   P_b <= sum over w of (w / n) A_w Q(sqrt(2 w (k / n) Eb/N0)).
   const double rate = static_cast<double>(code.information_bits) / code.length;
   double sum = 0;
   for (const BlockCode::Weight& weight : code.weights) {
-    // Q(sqrt(2 x)) is the error of BPSK at x.
+    // Q(sqrt(2 x)) is the bit error rate of BPSK at Eb/N0 = x.
     const PowerRatio x{weight.ones * rate * eb_over_n0.value};
     sum += weight.words * weight.ones / code.length * bit_error_rate(Modulation::kBpsk, Fading::kNone, x);
   }

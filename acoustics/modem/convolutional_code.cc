@@ -12,27 +12,31 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr int kMaxJanusDistance = 28;
-// exp(-x) is 0 in a double beyond this.
+// Exponent beyond which exp(-x) is 0 in a double.
 constexpr double kExponentOfZero = 745;
 
-// Paths that are now in one state of the trellis, by the distance so far.
+// Paths that have reached one state of the trellis at one distance: their number, and their ones of
+// information.
 struct Bundle {
   double paths = 0;
   double information_ones = 0;
 };
 using Front = std::vector<std::vector<Bundle>>;  // [state][distance]
 
+// A branch of the trellis: the state it leads to, and the ones that it sends.
 struct Edge {
   unsigned to;
   int ones;
 };
 
+// The branch from `state` for the input `bit`.
 Edge edge_of(const ConvolutionalCode& code, unsigned state, unsigned bit) {
   const unsigned word = (bit << (code.constraint_length - 1)) | state;
   const auto parity = [&](unsigned generator) { return std::popcount(word & generator) & 1; };
   return {word >> 1, parity(code.generators[0]) + parity(code.generators[1])};
 }
 
+// Extends the paths of `bundle` along a branch.
 void extend(Front& to, const Edge& edge, const Bundle& bundle, int distance, unsigned bit) {
   const auto reached = static_cast<std::size_t>(distance + edge.ones);
   if (bundle.paths == 0 || reached >= to[edge.to].size()) return;
@@ -41,7 +45,7 @@ void extend(Front& to, const Edge& edge, const Bundle& bundle, int distance, uns
   sum.information_ones += bundle.information_ones + bit * bundle.paths;
 }
 
-// `next`: all paths of `now` one bit further on, except those that have come back to state 0.
+// Extends all paths of `now` by one bit into `next`, except those that have returned to state 0.
 void step(const ConvolutionalCode& code, const Front& now, Front& next) {
   for (std::vector<Bundle>& state : next) std::fill(state.begin(), state.end(), Bundle{});
   for (unsigned state = 1; state < now.size(); ++state) {
@@ -52,12 +56,14 @@ void step(const ConvolutionalCode& code, const Front& now, Front& next) {
   }
 }
 
+// True while paths are in states other than 0.
 bool any_on_the_way(const Front& front) {
   return std::any_of(front.begin() + 1, front.end(), [](const std::vector<Bundle>& state) {
     return std::any_of(state.begin(), state.end(), [](const Bundle& b) { return b.paths > 0; });
   });
 }
 
+// Binomial coefficient n over k.
 double binomial(int n, int k) {
   double value = 1;
   for (int i = 1; i <= k; ++i) value = value * (n - k + i) / i;  // exact at every step below 2^53
@@ -65,7 +71,7 @@ double binomial(int n, int k) {
 }
 
 // Square-law sum of d chips (Proakis, 4th edition, section 12.1), half = d g / 2:
-// P2 = 2^(1-2d) e^-half sum_{k<d} half^k / k! sum_{n<d-k} C(2d-1, n).
+//   P2 = 2^(1-2d) e^-half sum_{k<d} half^k / k! sum_{n<d-k} C(2d-1, n).
 double soft_without_fading(int d, double g) {
   const double half = d * g / 2;
   if (half > kExponentOfZero) return 0;
@@ -80,15 +86,16 @@ double soft_without_fading(int d, double g) {
   return std::ldexp(elementary::exp(-half) * sum, 1 - 2 * d);
 }
 
-// d independent fades (section 14.4): P2 = p^d sum_{k<d} C(d-1+k, k) (1-p)^k.
+// Sum of d chips that fade independently (section 14.4):
+//   P2 = p^d sum_{k<d} C(d-1+k, k) (1-p)^k.
 double soft_in_rayleigh(int d, double p) {
   double sum = 0, power = 1;
   for (int k = 0; k < d; ++k, power *= 1 - p) sum += binomial(d - 1 + k, k) * power;
   return elementary::pow(p, d) * sum;
 }
 
-// More than half of d chips wrong, a tie by a coin (section 8.2): P2 = sum_{k>d/2} C(d, k) p^k (1-p)^(d-k) +
-// tie / 2.
+// Probability that more than half of d chips are wrong, with a tie decided at random (section 8.2):
+//   P2 = sum_{k>d/2} C(d, k) p^k (1-p)^(d-k) + tie / 2.
 double hard(int d, double p) {
   double sum = d % 2 == 0 ? binomial(d, d / 2) * elementary::pow(p * (1 - p), d / 2) / 2 : 0;
   for (int k = d / 2 + 1; k <= d; ++k)
@@ -96,7 +103,7 @@ double hard(int d, double p) {
   return sum;
 }
 
-// The probability that a path at distance d is preferred to the right one, P2(d).
+// Pairwise error P2(d): the probability that a path at distance d is preferred to the correct one.
 double pairwise_error(int d, Decision decision, Fading fading, PowerRatio chip_snr) {
   const double p = bit_error_rate(Modulation::kNoncoherentBfsk, fading, chip_snr);
   if (decision == Decision::kHard) return hard(d, p);
@@ -113,13 +120,13 @@ std::vector<SpectrumTerm> distance_spectrum(const ConvolutionalCode& code, int m
     require(generator > 0 && generator < 2 * states, "a generator is longer than the constraint length");
   }
   // Terms of the transfer function T(D, N) of the trellis (Proakis, 4th edition, section 8.2): a_d is the
-  // coefficient of D^d in T(D, 1), B_d that in dT/dN at N = 1, summed bit by bit over all paths that leave
-  // state 0 and return once.
+  // coefficient of D^d in T(D, 1), B_d that in dT/dN at N = 1. They are summed bit by bit over all paths that
+  // leave state 0 and return once.
   const auto distances = static_cast<std::size_t>(max_distance) + 1;
   Front front(states, std::vector<Bundle>(distances)), next = front;
   extend(front, edge_of(code, 0, 1), {1, 0}, 0, 1);
   std::vector<Bundle> back(distances);
-  // A path that adds nothing for as many bits as there are states has gone round a loop of distance 0.
+  // A path that adds no distance for as many bits as there are states has followed a loop of distance 0.
   const std::size_t longest = (distances + 1) * states;
   for (std::size_t bits = 1; any_on_the_way(front); ++bits) {
     require(bits < longest, "the code is catastrophic: endless paths of finite distance");

@@ -9,7 +9,7 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kConvolutionalRate = 0.5;  // chips carry half the energy of an information bit
+constexpr double kConvolutionalRate = 0.5;  // a chip carries half of the energy of an information bit
 
 template <Modulation modulation, Fading fading>
 double uncoded(PowerRatio eb_over_n0) {
@@ -26,6 +26,7 @@ double never(PowerRatio) { return 0; }
 double bch64(PowerRatio eb_over_n0) { return coded_bit_error_rate(bch_64_10(), eb_over_n0); }
 double hamming14(PowerRatio eb_over_n0) { return coded_bit_error_rate(hamming_14_9(), eb_over_n0); }
 
+// An error model with its name and formula.
 struct Known {
   ErrorModel model;
   std::string_view name;

@@ -10,7 +10,7 @@ std::optional<Decibels> half_delivery_sinr(const Modem& modem, std::size_t paylo
   const auto bits = static_cast<double>(packet_timing(modem, payload_bytes).information_bits);
   const auto delivers_half = [&](double sinr_db) {
     const PowerRatio sinr = to_power_ratio(Decibels{sinr_db});
-    // P = P_acquired (1 - BER)^bits
+    // Probability of delivery, P = P_acquired (1 - BER)^bits.
     return acquisition_probability(modem, sinr) *
                elementary::exp(bits * elementary::log1p(-bit_error_rate(modem, sinr))) >=
            kHalf;

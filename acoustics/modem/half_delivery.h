@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ratio of signal to noise and interference at which half of a modem's packets arrive: the threshold of
-// what it needs.
+// The ratio of signal to noise and interference at which a modem delivers half of its packets: its threshold.
 //
-// In noise that does not fade: the preamble is detected and all information bits are right (modem.h), each by
-// itself. In a sea that fades, half arrive at a higher mean ratio.
+// The threshold is for noise without fading: the preamble has to be detected and all information bits have to
+// be right (modem.h), independently. With fading, half of the packets arrive at a higher mean ratio.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +13,9 @@
 
 namespace halocline::acoustics {
 
-// Of packets of `payload_bytes`, over the modem's band, -60..60 dB. None where it lies beyond, as for a modem
-// whose packets are always received. Throws InvalidArgument as packet_timing().
+// The threshold for packets of `payload_bytes`, over the modem's band, -60..60 dB. nullopt when it is outside
+// of that range, as for a modem whose packets are always received. Throws InvalidArgument under the
+// conditions of packet_timing().
 std::optional<Decibels> half_delivery_sinr(const Modem& modem, std::size_t payload_bytes);
 
 }  // namespace halocline::acoustics

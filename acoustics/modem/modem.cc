@@ -13,7 +13,7 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kMaxBits = 1e6;
-constexpr double kLeastShare = 1e-30;  // of a band, for band_loss
+constexpr double kLeastShare = 1e-30;  // least share of a band in band_loss()
 
 void validate(const FrameLayout& layout) {
   require_in_range(layout.header_bits, 0, kMaxBits, "header", "bits");
@@ -85,7 +85,7 @@ std::size_t max_payload_bytes(const Modem& modem) {
 double acquisition_probability(const Modem& modem, PowerRatio sinr) {
   require(sinr.value >= 0, "a signal-to-noise ratio must not be negative or NaN");
   if (modem.preamble == SimDuration()) return 1;
-  // Energy of the preamble over the noise density: T B SNR.
+  // Ratio of the preamble's energy to the noise density: T B SNR.
   const double time_bandwidth = modem.preamble.seconds() * modem.bandwidth_hz;
   return detection_probability(modem.preamble_pieces, kFalseAlarmProbability, {time_bandwidth * sinr.value});
 }

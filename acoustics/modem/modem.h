@@ -2,12 +2,11 @@
 // An acoustic modem: source level, band, least receivable level, framing of packets, detection and bit
 // errors.
 //
-// The generic profile takes the four parameters of Sehgal, Cernea and Birk 2010: strength (source level),
-// cut-off (least receivable level), bandwidth and centre frequency. Those of real modems are data:
-// models/modems/*.toml, read by channel_server/modems/modem_config.h.
-// A value; nothing here knows a bus or a clock. The transducer's pattern in elevation weighs the paths of
-// sound at both ends; noise comes from all around and is weighed by the directivity index alone. Left out:
-// patterns in bearing.
+// The generic profile has the four parameters of Sehgal, Cernea and Birk 2010: strength (source level),
+// cut-off (least receivable level), bandwidth and centre frequency. Profiles of real modems are data:
+// models/modems/*.toml, read by channel_server/modems/modem_config.h. A Modem is a value without access to a
+// bus or a clock. The transducer's pattern over elevation weights the paths at both ends; noise arrives from
+// all directions and is reduced by the directivity index alone. Left out: patterns over bearing.
 //
 //   const Modem modem = generic_modem(Decibels{185}, Decibels{70}, 25'000, 5'000);
 //   const SimDuration duration = packet_timing(modem, 16).duration;  // 1.6 s
@@ -30,61 +29,65 @@ namespace halocline::acoustics {
 // The largest payload of any packet, bytes.
 inline constexpr std::int32_t kMaxPayloadBytes = 32'768;
 
-// How a packet is put together. A frame is sent whole, however few of its bytes are used.
+// Structure of a packet. A frame is always sent whole, even if few of its bytes are used.
 struct FrameLayout {
-  std::int32_t header_bits = 0;       // a coded block before the payload that has to be right as well
-  std::int32_t tail_bits = 0;         // that end the code, after every coded block; carry nothing
-  std::int32_t frame_bytes = 0;       // 0: the payload is sent as it is, in no frames
-  std::int32_t max_frames = 0;        // in one packet, at most kMaxFrames; read only with frame_bytes above 0
-  std::int32_t mini_packet_bits = 0;  // of a mini-packet, all of it; 0: the modem has none
-  std::int32_t application_bits = 0;  // of the header, free for applications (JANUS: 34); 0: none
+  std::int32_t header_bits = 0;  // coded block before the payload, which must also be received
+  // Bits after every coded block that terminate the code and carry no information.
+  std::int32_t tail_bits = 0;
+  std::int32_t frame_bytes = 0;       // 0: the payload is sent unframed
+  std::int32_t max_frames = 0;        // in one packet, at most kMaxFrames; ignored when frame_bytes is 0
+  std::int32_t mini_packet_bits = 0;  // total bits of a mini-packet; 0: not supported
+  std::int32_t application_bits = 0;  // header bits free for applications (JANUS: 34); 0: none
   bool operator==(const FrameLayout&) const = default;
 };
 
-// The defaults are one generic modem of the 25 kHz class with the band of the reference figures.
+// Parameters of a modem. The defaults describe a generic modem of the 25 kHz class with the band of the
+// reference figures.
 struct Modem {
-  // The waveform family: only modems of one family receive each other. A name (core/names.h).
+  // Waveform family: only modems of one family receive each other's packets. A name (core/names.h).
   std::string family = "generic";
-  // Strength: dB re 1 uPa at 1 m over the band, 0..250. Real modems give 160..190 (WHOI Micromodem about
-  // 185); the paper's figures use 60..120, which is 120 dB = 8.4 microwatts.
+  // Source level: dB re 1 uPa at 1 m over the band, 0..250. Real modems have 160..190 (WHOI Micromodem about
+  // 185); the paper's figures use 60..120, of which 120 dB is 8.4 microwatts.
   Decibels source_level{185};
-  // Cut-off: the least level that is received, dB re 1 uPa over the band, -200..250. 70 dB is 10 dB above the
-  // noise of a still sea in the default band (59.3 dB).
+  // Least level that is received, dB re 1 uPa over the band, -200..250. 70 dB is 10 dB above the noise of a
+  // still sea in the default band (59.3 dB).
   Decibels min_receivable_level{70};
   double centre_frequency_hz = 25'000;  // 10..1e6
   double bandwidth_hz = 5'000;          // above 0, below twice the centre frequency
-  Decibels directivity_index{0};        // gain of reception over noise from all around, dB, 0..40
-  double bit_rate_bps = 80;             // of information, above 0, at most 1e7; 80 is the Micromodem's FH-FSK
-  // Everything a packet takes besides its coded bits (preamble, header, check), 0..60 s.
+  Decibels directivity_index{0};        // gain of reception over isotropic noise, dB, 0..40
+  double bit_rate_bps = 80;  // information bits, above 0, at most 1e7; 80 is the Micromodem's FH-FSK
+  // Duration of a packet in addition to its coded bits (preamble, header, check), 0..60 s.
   SimDuration packet_overhead;
 
-  // The first part of the overhead, by which the packet is detected, 0..60 s. 0: it is always detected.
+  // Duration of the preamble, the first part of the overhead, by which the packet is detected, 0..60 s. 0:
+  // the packet is always detected.
   SimDuration preamble;
-  std::int32_t preamble_pieces = 1;  // 1..256, matched each, added without phase (preamble_detection.h)
-  // An echo this much later than the instant the receiver synchronised to, or less, adds to the signal.
-  // 0..10 s; 10 ms is our choice, near a bit of 80 bit/s.
+  std::int32_t preamble_pieces = 1;  // 1..256, each matched, added incoherently (preamble_detection.h)
+  // Greatest delay, after the instant of synchronisation, at which an echo still adds to the signal, 0..10 s.
+  // 10 ms is our choice, close to a bit of 80 bit/s.
   SimDuration guard_time = SimDuration::from_milliseconds(10);
-  // After the guard time the weight of an echo falls from 1 to 0 by a raised cosine over this much, 0..10 s.
-  // None: over one more guard time, whatever that is; guard_taper_or_default() gives it.
+  // Taper after the guard time over which the weight of an echo decreases from 1 to 0 as a raised cosine,
+  // 0..10 s. Unset: as long as the guard time (guard_taper_or_default()).
   std::optional<SimDuration> guard_taper;
 
-  // Frequency-hopped FSK: duration of a chip, 0..10 s, and pairs of tones to hop between, 0..1024; 0 of both:
-  // no hopping. The packet's own echo that is later than a chip takes nothing until the pattern returns to
-  // its tones, hop_clearing after them (chip..60 s), and 1 / hop_count of its power later.
+  // Frequency-hopped FSK: duration of a chip, 0..10 s, and number of tone pairs to hop between, 0..1024; both
+  // 0: no hopping. An echo of the packet itself that is later than a chip does not interfere until the
+  // pattern returns to its tones, hop_clearing (chip..60 s) later, and interferes with 1 / hop_count of its
+  // power from then on.
   SimDuration chip;
   std::int32_t hop_count = 0;
   SimDuration hop_clearing;
 
-  // Greatest |f_rx / f_tx - 1| at which a packet can be received in a sea without fading, 0..1; with fading
-  // doppler_correction decides. 0.1 is 150 m/s: of no effect on submarines, because the generic modem stands
-  // for no Doppler correction in particular.
+  // Greatest |f_rx / f_tx - 1| at which a packet can be received without fading, 0..1; with fading
+  // doppler_correction is used instead. The default of 0.1 is 150 m/s and has no effect on AUVs, because the
+  // generic modem represents no particular Doppler correction.
   double doppler_tolerance = 0.1;
-  // Greatest |f_rx / f_tx - 1| that the receiver corrects, 0..1; what is left of a greater one costs power.
+  // Greatest |f_rx / f_tx - 1| that the receiver corrects, 0..1; the remainder of a greater one costs power.
   double doppler_correction = 0.1;
-  SimDuration time_quantum;  // resolution of the measured time of arrival, 0..1 s; 0: none
+  SimDuration time_quantum;  // resolution of the measured time of arrival, 0..1 s; 0: unlimited
   ErrorModel error_model = ErrorModel::kBfsk;
   FrameLayout layout;
-  BeamPattern beam;  // in transmission and reception; source and cut-off level are those of its 0 dB
+  BeamPattern beam;  // pattern of both directions; source level and cut-off refer to its 0 dB
 
   SimDuration guard_taper_or_default() const { return guard_taper.value_or(guard_time); }
   Band band() const {
@@ -96,51 +99,53 @@ struct Modem {
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
 void validate(const Modem& modem);
 
-// True without hopping, and when there is a chip that ends before the hop pattern returns.
+// True without hopping, or when the chip is longer than 0 and ends before the hop pattern returns.
 bool hops_well(const Modem& modem);
 
-// The paper's four parameters on top of the other defaults.
+// The generic modem with the given four parameters and the defaults for all others.
 Modem generic_modem(Decibels strength, Decibels cut_off, double centre_frequency_hz, double bandwidth_hz);
 
+// Durations and bits of a packet.
 struct PacketTiming {
-  SimDuration duration;           // from the first of the preamble to the last bit
-  SimDuration preamble;           // its part in front
-  std::int64_t information_bits;  // that all have to be right: header and whole frames, before coding
+  SimDuration duration;           // from the begin of the preamble to the last bit
+  SimDuration preamble;           // first part of the duration
+  std::int64_t information_bits;  // bits that all have to be right: header and whole frames, before coding
 };
 
-// How a packet of `payload_bytes` occupies the water (packet_format.h has those of other kinds). The payload
-// must not exceed max_payload_bytes (InvalidArgument).
+// Timing of a data packet of `payload_bytes` (packet_format.h has that of other kinds). Throws
+// InvalidArgument when the payload exceeds max_payload_bytes().
 PacketTiming packet_timing(const Modem& modem, std::size_t payload_bytes);
 
-// Largest payload of one packet, bytes: its frames, or kMaxPayloadBytes without frames.
+// Largest payload of one packet, bytes: that of its frames, or kMaxPayloadBytes without frames.
 std::size_t max_payload_bytes(const Modem& modem);
 
-// The chance that each instant's noise alone looks like a preamble. A band of some kHz is tested some
-// thousand times a second: one false alarm in several hours. Our choice; no modem's own number is public.
+// Probability that noise alone triggers the detector at one tested instant. A band of some kHz is tested some
+// thousand times a second: one false alarm in several hours. Our choice; no manufacturer publishes this
+// value.
 inline constexpr double kFalseAlarmProbability = 1e-8;
 
-// The probability that a receiver detects the packet; `sinr` is the ratio of its power to that of noise and
-// interference over the modem's band (>= 0), during the preamble. 1 without a preamble.
+// Probability that a receiver detects the packet; `sinr` >= 0 is the ratio of its power to that of noise and
+// interference over the modem's band, during the preamble. 1 without a preamble.
 double acquisition_probability(const Modem& modem, PowerRatio sinr);
 
-// Eb/N0 of an information bit, after despreading and decoding: sinr bandwidth / bit rate, noise and
-// interference white over the band.
+// Eb/N0 of an information bit, after despreading and decoding: sinr bandwidth / bit rate, for noise and
+// interference that are white over the band.
 PowerRatio bit_energy(const Modem& modem, PowerRatio sinr);
 
-// Mean square error of the symbols, of power 1, of an equaliser whose output has the ratio `sinr` of signal
-// to noise, interference and what is left of echoes: J = 1 / (1 + sinr) for the linear equaliser of least
+// Mean square error of the symbols, of power 1, after an equaliser whose output has the ratio `sinr` of
+// signal to noise, interference and residual echoes: J = 1 / (1 + sinr) for the linear equaliser of least
 // mean square error (Proakis, 4th edition, section 10.2.2).
 PowerRatio least_mean_square_error(PowerRatio sinr);
 
-// The probability that an information bit is wrong after decoding, 0..0.5, never rising with `sinr` (as
-// above, during the bits).
+// Probability that an information bit is wrong after decoding, 0..0.5; it never increases with `sinr`, the
+// ratio over the band during the bits.
 double bit_error_rate(const Modem& modem, PowerRatio sinr);
 
-// True when `receiver` knows the waveform of `sender`. Another family's sound triggers no detector.
+// True when both modems have one waveform family. Sound of another family triggers no detector.
 bool same_family(const Modem& sender, const Modem& receiver);
 
-// What a receiver's signal lacks because part of the sender's band lies outside of its own: -10 log10 of the
-// share that lies within (band_share), dB, 0..300; 300 without any.
+// Loss of signal because part of the sender's band lies outside of the receiver's: -10 log10 of the share
+// that lies within (band_share), dB, 0..300; 300 when the bands do not overlap.
 Decibels band_loss(const Modem& sender, const Modem& receiver);
 
 }  // namespace halocline::acoustics

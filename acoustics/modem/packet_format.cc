@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kBitsPerByte = 8;
 
-// On the air: a frame of a modem with frames is sent whole.
+// Transmitted bits of a frame of `bytes`: modems with frames send whole frames.
 std::int64_t bits_of_frame(const FrameLayout& layout, std::int64_t bytes) {
   return kBitsPerByte * (layout.frame_bytes > 0 ? layout.frame_bytes : bytes);
 }

@@ -9,8 +9,9 @@
 namespace halocline::acoustics {
 namespace {
 
-// False alarm of half the threshold T = `mean` for M = `pieces`: P(chi-square of 2 M degrees > 2 T) = e^-T
-// sum_{n<M} T^n / n! (Kay 1998, section 7.6).
+// Probability that noise alone exceeds the threshold 2 T, T = `mean`, for M = `pieces` (Kay 1998, section
+// 7.6):
+//   P(chi-square of 2 M degrees > 2 T) = e^-T sum_{n<M} T^n / n!
 double noise_above(double mean, int pieces) {
   double sum = 0, term = elementary::exp(-mean);
   for (int n = 0; n < pieces; ++n) {
@@ -27,7 +28,7 @@ double detection_threshold(int pieces, double false_alarm) {
   require_in_range(false_alarm, 1e-15, 0.5, "probability of a false alarm", "");
   double low = 1e-3, high = 1;
   while (noise_above(high, pieces) > false_alarm) high *= 2;
-  // Halved until the two ends are neighbours: 60 times are enough for the digits of a double.
+  // Bisection: 60 steps reach the precision of a double.
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;
     (noise_above(middle, pieces) > false_alarm ? low : high) = middle;
@@ -38,7 +39,8 @@ double detection_threshold(int pieces, double false_alarm) {
 double detection_probability(int pieces, double false_alarm, PowerRatio energy_over_noise_density) {
   const double h = energy_over_noise_density.value;
   require(h >= 0, "an energy over a noise density must not be negative or NaN");
-  // Callers ask for many energies of one detector: its threshold costs far more than the rest.
+  // The threshold is kept between calls: callers ask for many energies of one detector, and it costs far more
+  // than the rest.
   thread_local int known_pieces = 0;
   thread_local double known_false_alarm = 0, threshold = 0;
   if (known_pieces != pieces || known_false_alarm != false_alarm) {
@@ -46,8 +48,9 @@ double detection_probability(int pieces, double false_alarm, PowerRatio energy_o
     known_pieces = pieces;
     known_false_alarm = false_alarm;
   }
-  // Marcum 1960: P_detect = Q_M(sqrt(2 h), sqrt(2 T)) = 1 - sum_{n>=M} e^-T T^n / n! P(Poisson(h) <= n - M).
-  // Terms beyond the mean by 12 deviations and more (Chernoff: below 1e-20) add nothing.
+  // Marcum 1960, h the energy over the noise density and T half the threshold:
+  //   P_detect = Q_M(sqrt(2 h), sqrt(2 T)) = 1 - sum_{n>=M} e^-T T^n / n! P(Poisson(h) <= n - M).
+  // Terms more than 12 standard deviations above the mean are negligible (Chernoff: below 1e-20).
   const int last = static_cast<int>(threshold + 12 * std::sqrt(threshold) + 60) + pieces;
   double noise_term = elementary::exp(-threshold), missed = 0;
   for (int n = 1; n <= pieces; ++n) noise_term *= threshold / n;
@@ -56,7 +59,7 @@ double detection_probability(int pieces, double false_alarm, PowerRatio energy_o
     missed += noise_term * signal_at_most;
     noise_term *= threshold / (n + 1);
     signal_term *= h / (n + 1 - pieces);
-    if (signal_term > 0) signal_at_most += signal_term;  // 0 times infinity is no number
+    if (signal_term > 0) signal_at_most += signal_term;  // avoids 0 times infinity
   }
   return 1 - missed;
 }
