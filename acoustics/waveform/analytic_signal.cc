@@ -17,14 +17,14 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kHilbertHalf = 255;       // taps to either side
-constexpr double kHilbertBeta = 8;      // 81 dB
-constexpr int kSincHalf = 16;           // taps to either side
-constexpr double kSincBeta = 9;         // 90 dB
+constexpr int kHilbertHalf = 255;       // taps on either side
+constexpr double kHilbertBeta = 8;      // side lobes at -81 dB
+constexpr int kSincHalf = 16;           // taps on either side
+constexpr double kSincBeta = 9;         // side lobes at -90 dB
 constexpr int kMargin = 2 * kSincHalf;  // zeros before and after the samples
-constexpr int kPhases = 2048;           // of the sinc between two samples, linear between them
+constexpr int kPhases = 2048;  // tabulated phases of the sinc between two samples, interpolated linearly
 
-// Of odd distances 1, 3, ...; the even ones are 0.
+// Taps of the Hilbert transformer at the odd distances 1, 3, ...; those at even distances are 0.
 std::vector<double> hilbert_taps() {
   std::vector<double> taps;
   for (int k = 1; k <= kHilbertHalf; k += 2)
@@ -32,14 +32,15 @@ std::vector<double> hilbert_taps() {
   return taps;
 }
 
-using SincRow =
-    std::array<double, 2 * kSincHalf>;  // at distances phase - kSincHalf + 1 ... phase + kSincHalf
+// Taps at the distances phase - kSincHalf + 1 ... phase + kSincHalf from the instant.
+using SincRow = std::array<double, 2 * kSincHalf>;
 
 double windowed_sinc(double x) {
   const double sinc = x == 0 ? 1 : elementary::sin(pi * x) / (pi * x);
   return sinc * kaiser_window(x / kSincHalf, kSincBeta);
 }
 
+// Table of the interpolation filter for each phase.
 const std::vector<SincRow>& sinc_rows() {
   static const std::vector<SincRow> rows = [] {
     std::vector<SincRow> table(kPhases + 1);
@@ -54,11 +55,11 @@ const std::vector<SincRow>& sinc_rows() {
   return rows;
 }
 
-// Four numbers that a processor adds and multiplies side by side, the same operations on each whatever it has
-// for that.
+// Four numbers in one vector; results are the same for every instruction set.
 using Four = double __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
 
-// The sum over taps between two rows times samples, real and turned.
+// Interpolated value of the real and the imaginary part: the sum of samples times taps, which are
+// interpolated between two rows.
 HALOCLINE_VECTOR_CLONES std::complex<double> tapped(const SincRow& low, const SincRow& high, double share,
                                                     const double* real, const double* turned) {
   const auto four = [](const double* from) { return reinterpret_cast<const Four*>(from); };
@@ -72,7 +73,8 @@ HALOCLINE_VECTOR_CLONES std::complex<double> tapped(const SincRow& low, const Si
           (turned_sums[0] + turned_sums[1]) + (turned_sums[2] + turned_sums[3])};
 }
 
-// The sum over the taps of h_k (x[n - k] - x[n + k]), in the order of k, of each sample.
+// Adds to each sample n the Hilbert transform, sum over k of h_k (x[n - k] - x[n + k]), in ascending order of
+// k.
 HALOCLINE_VECTOR_CLONES void add_turned(const double* x, const std::vector<double>& taps, double* turned,
                                         std::size_t count) {
   for (std::size_t i = 0; i < taps.size(); ++i) {
@@ -94,7 +96,7 @@ AnalyticSignal::AnalyticSignal(double rate_hz, const std::vector<double>& sample
   std::vector<double> padded(samples.size() + 2 * kHilbertHalf);
   std::copy(samples.begin(), samples.end(), padded.begin() + kHilbertHalf);
   static const std::vector<double> taps = hilbert_taps();
-  constexpr std::size_t kBlock = 1024;  // samples that stay in the nearest cache
+  constexpr std::size_t kBlock = 1024;  // samples that fit in the first-level cache
   for (std::size_t begin = 0; begin < samples.size(); begin += kBlock)
     add_turned(&padded[begin + kHilbertHalf], taps, &turned_[begin + kMargin],
                std::min(kBlock, samples.size() - begin));

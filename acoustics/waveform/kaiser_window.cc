@@ -6,7 +6,7 @@
 namespace halocline::acoustics {
 namespace {
 
-// I0(x) = sum over k of ((x / 2)^k / k!)^2.
+// Modified Bessel function, I0(x) = sum over k of ((x / 2)^k / k!)^2.
 double bessel_i0(double x) {
   double term = 1, sum = 1;
   for (int k = 1; term > 1e-17 * sum; ++k) {

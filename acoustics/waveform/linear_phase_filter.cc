@@ -13,11 +13,11 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr int kHalf = static_cast<int>(kFilterHalf);  // frequencies as well
-constexpr double kBeta = 6;                           // 63 dB
-constexpr std::size_t kBlock = 1024;                  // samples that stay in the nearest cache
+constexpr int kHalf = static_cast<int>(kFilterHalf);  // also the number of frequencies
+constexpr double kBeta = 6;                           // stop band at -63 dB
+constexpr std::size_t kBlock = 1024;                  // samples that fit in the first-level cache
 
-// Sample by sample the sums are taken in the order of the taps, however many are taken side by side.
+// Each sample is summed in the order of the taps, so that results do not depend on the vector width.
 HALOCLINE_VECTOR_CLONES void add_block(const double* padded, const std::vector<double>& taps, double* result,
                                        std::size_t count) {
   for (std::size_t k = 0; k < taps.size(); ++k) {
@@ -28,12 +28,13 @@ HALOCLINE_VECTOR_CLONES void add_block(const double* padded, const std::vector<d
 
 }  // namespace
 
-// h_k = w_k / (2 kHalf) sum over m of H_m cos(2 pi m k / (2 kHalf)), m = -kHalf ... kHalf - 1, H even.
+// Frequency sampling, with H even:
+//   h_k = w_k / (2 kHalf) sum over m of H_m cos(2 pi m k / (2 kHalf)),  m = -kHalf ... kHalf - 1.
 std::vector<double> linear_phase_taps(const std::function<double(double)>& amplitude, double rate_hz) {
   require(std::isfinite(rate_hz) && rate_hz > 0, "the sampling rate of a filter must be above 0");
   std::vector<double> response(kHalf + 1);
   for (int m = 0; m <= kHalf; ++m) {
-    const double least = 0.5;  // of the lowest frequency: a spectrum may have none at 0
+    const double least = 0.5;  // relative to the lowest frequency: a spectrum may be undefined at 0
     const double a = amplitude(std::max<double>(m, least) * rate_hz / (2 * kHalf));
     require(std::isfinite(a) && a >= 0, "the amplitude of a filter must be a number from 0");
     response[static_cast<std::size_t>(m)] = a;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A filter of linear phase with a given amplitude over frequency.
+// Linear-phase filter with a given amplitude over frequency.
 //
-// The amplitude is taken at frequencies f_s / 1024 apart, and the filter cut by a Kaiser window: steps of the
-// amplitude are smoothed over about f_s / 300. 1025 taps, symmetric; the middle one belongs to the sample
-// itself, so the filter delays nothing.
+// The amplitude is sampled at frequencies f_s / 1024 apart and the filter is truncated by a Kaiser window,
+// which smooths steps of the amplitude over about f_s / 300. The filter has 1025 symmetric taps, the middle
+// one at the sample itself, so that it has no delay.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,15 @@
 
 namespace halocline::acoustics {
 
-inline constexpr std::size_t kFilterHalf = 512;  // taps to either side
+inline constexpr std::size_t kFilterHalf = 512;  // taps on either side
 
-// `amplitude`: at 0 < f <= rate_hz / 2, 0 and up. Throws InvalidArgument unless that holds and the rate is
-// above 0.
+// Taps for an amplitude over frequency. Throws InvalidArgument unless the rate is above 0 and `amplitude` is
+// finite and >= 0 for 0 < f <= rate_hz / 2.
 std::vector<double> linear_phase_taps(const std::function<double(double frequency_hz)>& amplitude,
                                       double rate_hz);
-// result[n] is the sum over k of taps[k] padded[n + k], in the order of k; as many as there are samples with
-// all of theirs.
+// result[n] is the sum over k of taps[k] padded[n + k], in the order of k, for all n whose samples exist.
 std::vector<double> convolved(const std::vector<double>& padded, const std::vector<double>& taps);
-// Of as many samples, which are 0 before the first and after the last.
+// The filtered samples, as many as given; the signal is taken to be 0 before the first and after the last.
 std::vector<double> filtered(const std::vector<double>& samples, const std::vector<double>& taps);
 
 }  // namespace halocline::acoustics

@@ -20,7 +20,8 @@ MovingLink::MovingLink(double begin_s, double step_s, std::vector<std::vector<Pa
   }
   for (std::size_t k = 0; k + 1 < frames.size(); ++k) {
     const double at_s = begin_s + static_cast<double>(k) * step_s;
-    // d tau / du = 1 / D - 1 of one that is known on one side alone.
+    // Change of delay over a step by Doppler, for a path that is known at one instant only: d tau / du = 1 /
+    // D - 1.
     const auto moved_s = [&](const PathGain& path) { return step_s * (1 / path.doppler_factor - 1); };
     auto old = frames[k].begin(), next = frames[k + 1].begin();
     while (old != frames[k].end() || next != frames[k + 1].end()) {
@@ -56,7 +57,8 @@ void MovingLink::add_received(const AnalyticSignal& sent, double departure_s, Sa
   }
 }
 
-// The samples of [begin + delay, end + delay at the end).
+// Adds a path's contribution to the samples from begin + delay up to, but not including, end + delay at the
+// end.
 void MovingLink::add_span(const Span& span, const AnalyticSignal& sent, double departure_s,
                           Samples& received) const {
   const double slope = (span.delay_end_s - span.delay_s) / step_s_;
@@ -69,7 +71,7 @@ void MovingLink::add_span(const Span& span, const AnalyticSignal& sent, double d
   const auto last = std::min(index(end_s), std::ssize(received.values));
   for (auto n = std::max<std::ptrdiff_t>(index(first_s), 0); n < last; ++n) {
     const double at_s = received.begin_s + static_cast<double>(n) / received.rate_hz;
-    const double left_after_s = (at_s - first_s) * per_slope;  // after span.begin_s
+    const double left_after_s = (at_s - first_s) * per_slope;  // departure, after span.begin_s
     const std::complex<double> gain = span.gain + left_after_s * gain_slope;
     const std::complex<double> x = sent.at(span.begin_s + left_after_s - departure_s);
     received.values[static_cast<std::size_t>(n)] += gain.real() * x.real() - gain.imag() * x.imag();
