@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Capacity of a straight leg from the nodes of a band: the innermost loop of acoustics/link/link_kernel.h.
 //
+// With the nodes of the band as the points of a quadrature, the capacity in bit/s is
 //   C = sum over nodes of  w log2(1 + u exp(-(loss + nepers mean))),
 // w the weight of the node, Hz, u the ratio of signal to noise without any loss, mean the mean absorption
 // along the leg, dB/km, and nepers the conversion of that to the leg.

@@ -2,6 +2,7 @@
 // Lower bound of the transmission loss over a range, whatever terrain and water lie between the ends. Links
 // that cannot matter are recognised by it before anything of them is computed.
 //
+// The bound is
 //   TL(r) >= spreading(r) + min over D of alpha_min(D) l(D, r) - gain,
 // alpha_min(D) the least absorption at the centre frequency between the surface and the depth D.
 // - Straight path (acoustics/link/link_budget.h): spreading = k 10 log10 r; l = r; D is the depth of the
