@@ -6,11 +6,13 @@
 // decision variable
 //   Q = S - t (I - mean I)
 // is below t (N + mean I) exactly when S / (N + I) is below t. S and I are sums over the scattered power of
-// the paths (acoustics/reception/collected_sound.h). A path of the coefficient c = signal - t interference, r
-// the block-fading power that forms cross terms with it, contributes to the cumulant generating function of Q
-//   K(s) = ln E exp(s Q) = sum of  -n ln(1 - c s) + r s / (1 - c s).
-// Paths that fade together share the sum of their c and have n < 1; terms of similar c are merged. Where Q
-// equals y = K'(s), its normal score is (saddle point: Lugannani and Rice 1980, Barndorff-Nielsen 1986)
+// the paths (acoustics/reception/collected_sound.h). A path has the coefficient c = signal - t interference
+// and forms cross terms with the block-fading power b. Its terms in the cumulant generating function of Q are
+//   K(s) = ln E exp(s Q) = sum of  -n ln(1 - c s) + b s / (1 - c s),
+// n = 1 for an independent path. Paths that fade together share the sum of their c and have n < 1; terms of
+// similar c are merged. The normal score of a value is the quantile of the standard normal distribution for
+// the probability that Q is below it. Where Q equals y = K'(s), it is (saddle point: Lugannani and Rice 1980,
+// Barndorff-Nielsen 1986)
 //   z = r + ln(u / r) / r,  r = sign(s) sqrt(2 (s y - K)),  u = s sqrt(K''),
 // accurate to some per cent of probability, in the deepest tails too. The rate of downward crossings of y is
 // the density of Q there times the mean slope (Rice 1944):
@@ -18,8 +20,9 @@
 // V the variance of the slope of Q: the sum over the terms of 2 c (2 pi B)^2 times the value of the term at
 // y, B its Doppler spread. Q stays above y at `count` instants that are `step` apart with the probability
 //   (1 - p) (1 - q / (1 - p))^((count - 1) (1 + e)),  q = p (1 - p) (1 - exp(-nu / (p (1 - p)))),
-// p the probability that Q is below y and nu the crossings per step. The fitted correction e = 0.27 exp(-(B
-// step / 0.12)^2) accounts for the regular spacing of the crossings of so smooth a process.
+// p the probability that Q is below y and nu the crossings per step. The correction
+//   e = 0.27 exp(-(B step / 0.12)^2)
+// accounts for the regular spacing of the crossings of so smooth a process: our fit.
 #pragma once
 
 #include <array>
@@ -66,8 +69,8 @@ class BandTerms {
   double share(double louder) const;
 
   double threshold_, mean_slow_, fast_;
-  std::array<Octave, 2 * kOctaves>
-      octaves_{};  // octaves of descending positive scales, then of negative ones
+  // Octaves of descending positive scales, then of negative ones.
+  std::array<Octave, 2 * kOctaves> octaves_{};
   // Variance of the signal and the part of it that interference changes; `*_beats_` is what each gains per
   // unit of `louder` from cross terms with the block-fading power.
   double signal_ = 0, signal_beats_ = 0, changed_ = 0, changed_beats_ = 0;

@@ -5,9 +5,9 @@
 // Model.
 // - Block fading (constant through a packet): large-scale fading, platform jitter, and the medium together
 //   with scattering that is slower than a packet. The power of the medium and the slow scattering takes 8 or
-//   16 strata of its distribution (power_law.h). In each stratum the fate of a packet is expressed by a
-//   constant ratio of signal to disturbance that has the same outcome, at 7 levels of large-scale fading,
-//   averaged over 32 strata of large-scale fading (in phase-shift keying over 16 of them, alternating between
+//   16 strata of its distribution (power_law.h). In each stratum a packet is represented by the constant
+//   ratio of signal to disturbance that has the same outcome. This ratio is needed at 7 levels of large-scale
+//   fading and averaged over 32 strata of it (in phase-shift keying over 16 of them, alternating between
 //   states). Few of these ratios are computed, the others interpolated (strata_mean.h, link_prediction.cc);
 //   none when every packet is certain to arrive or certain to be lost.
 // - Late echoes: the power of each fades independently; their sum is gamma distributed. In phase-shift keying
@@ -47,7 +47,7 @@ namespace halocline::acoustics {
 
 // Expected reception of one link.
 struct LinkPrediction {
-  double sinr = 0;  // mean signal over noise plus the mean of the packet's own interference
+  double sinr = 0;                     // ratio of the mean signal to noise plus mean own interference
   double acquisition_probability = 0;  // probability of detecting the preamble
   double delivery_probability = 0;     // probability of detecting the preamble and decoding all bits
 };

@@ -42,14 +42,15 @@ struct MeanSound {
   // Variance reduction: shares of the variance of the fast-fading power that remain in its mean over the
   // preamble and over the bits.
   double preamble_variance = 1, bits_variance = 1;
-  double untracked = 0;  // power lost to uncorrected Doppler shift and untracked fading, which interferes,
-                         // relative to the signal
+  // Signal lost to Doppler and untracked fading, which interferes; relative to the signal.
+  double untracked = 0;
   double preamble_echoes = 0, bits_echoes = 0;  // late echoes, mean over the preamble and over the bits
   // Late echoes while they are present, which is `late_share` of the bits, and the part of them that fades
   // independently of the signal: in phase-shift keying the block-fading part.
   double late_echoes = 0, late_share = 1, fading_echoes = 0;
-  // Relative variances of the echo powers of preamble and bits, each path fading independently: sum p^2 (1 -
-  // c^2) kept / (sum p)^2, c its coherent share.
+  // Relative variances of the echo powers of preamble and bits, each path fading independently, c its
+  // coherent share:
+  //   sum p^2 (1 - c^2) kept / (sum p)^2.
   double preamble_echo_variance = 0, bits_echo_variance = 0;
   PowerLaw slow;    // the power over the band without the part that fades within a packet
   double fast = 0;  // mean power that fades within a packet
@@ -67,8 +68,10 @@ struct MeanSound {
 MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,
                      const PacketTiming& timing);
 
-// Share of the variance that remains in the mean over a time T of a power whose autocorrelation is exp(-(tau
-// / L)^2), as a function of x = T / L: 1 - x^2 / 6 for short times, sqrt(pi) / x for long ones, within 6 % in
+// Variance reduction by averaging over a time T: the share of the variance that remains in the mean of a
+// power with the autocorrelation
+//   exp(-(tau / L)^2),
+// as a function of x = T / L. It is 1 - x^2 / 6 for short times and sqrt(pi) / x for long ones, within 6 % in
 // between.
 inline double kept_variance(double x) { return 1 / std::sqrt(1 + x * x / std::numbers::pi); }
 // kept_variance() from its value `kept` for the time T: for a power whose L is sqrt(2) times as long, and for

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constant levels that have the same outcome as a packet whose fast fading varies while its block fading is
-// constant, for its preamble and for its bits (acoustics/reception/link_prediction.h has the model).
+// Equivalent constant levels of a packet for a given block fading: those at which preamble and bits have the
+// same outcome as under the fast fading (acoustics/reception/link_prediction.h has the model).
 #pragma once
 
 #include <array>
@@ -88,11 +88,11 @@ class PacketLevels {
 
   // Level of the mean signal over the preamble while the block-fading power is `slow_power`, dB re 1 uPa.
   Level preamble(double slow_power) const;
-  // Ratio of signal to noise and interference that has the same outcome for the bits, dB. Phase-shift keying:
-  // `disturbance` is the noise and mean interference over the band, uPa^2. `parts` is in and out the number
-  // of parts of the packet that fade independently: a guess on entry, 0 when there is none, and the result on
-  // return.
+  // Phase-shift keying: fading of the signal within a packet while the block-fading power is `slow_power`.
   FadingSignal fading_signal(double slow_power) const;
+  // Equivalent ratio of signal to noise and interference for the bits, dB. `disturbance` is the noise and
+  // mean interference over the band, uPa^2. `parts` is the number of parts of the packet that fade
+  // independently: a guess on entry, 0 for none, and the result on return.
   Level bits(const FadingSignal& signal, double disturbance, double& parts) const;
   // True when all bits of a packet with these powers are more likely lost than correct.
   bool is_likely_lost(double slow_power, double disturbance) const;
@@ -102,7 +102,7 @@ class PacketLevels {
   };
   // Upper bound of the result over the ratio to the mean signal.
   static constexpr double kMostGainDb = 3;
-  // Frequency-shift keying: levels of at most ExponentialMeans::kMax states, each with the noise alone,
+  // Frequency-shift keying: equivalent ratios for at most ExponentialMeans::kMax states, each with its noise,
   // uPa^2.
   void bits(std::span<const StateAndNoise> states, std::span<Level> levels) const;
   Level bits(const SlowSound& slow, double noise) const;

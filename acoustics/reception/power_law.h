@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distribution of a fading power by its first three cumulants: a constant plus a gamma variable.
 //
-// The distribution is exact for one scattered path (exponential) and for equal ones (gamma); for a steady
+// The normal score of a probability is the quantile of the standard normal distribution for it. The
+// distribution here is exact for one scattered path (exponential) and for equal ones (gamma); for a steady
 // path with a scattered one (Rice) it is within 0.5 dB from the 1 % quantile upwards. A negative third
 // cumulant mirrors the distribution: interference that fades more than the signal. Quantiles are tabulated
-// once over the normal score of the probability, -4.5..4.5, and the skewness, 0.1..2, with an error below
-// 0.05 dB.
+// once over the normal score, -4.5..4.5, and the skewness, 0.1..2, with an error below 0.05 dB.
 #pragma once
 
 #include <array>

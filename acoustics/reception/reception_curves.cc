@@ -40,7 +40,7 @@ ReceptionCurves::ReceptionCurves(const Modem& modem, std::size_t payload_bytes)
 template <typename Chance>
 ReceptionCurves::Flank ReceptionCurves::flank_of(Chance chance) {
   constexpr double kNowhere = std::numeric_limits<double>::infinity();
-  std::size_t low = 0, high = kRows;  // the last row below the flank plus 1; the first above it
+  std::size_t low = 0, high = kRows;  // first row that is not below the flank; first row above it
   while (low < kRows && chance(low) < kCertain) ++low;
   while (high > 0 && chance(high - 1) > 1 - kCertain) --high;
   const auto db = [](std::size_t row) { return kLeastDb + kStepDb * static_cast<double>(row); };

@@ -8,15 +8,17 @@
 //   I(t)    = sum_p i_p |h_p(t)|^2  over the paths p on which the packet is present at t.
 // Grid: 8 frequencies, evenly over the band; 8 to 64 stretches of the bits, each at most a quarter of the
 // coherence time and an eighth of the bits; 1 to 8 stretches of the preamble.
-// - Phase-shift keying tracks a fading path for T = 0.05 s (our choice): the share rho = exp(-(2 pi B T)^2 /
-//   2) of its power is signal, the rest interferes. Its equaliser combines the band, so S is the mean over
-//   the band. For other modems rho = 1.
+// - Phase-shift keying tracks a fading path for T = 0.05 s (our choice). The share
+//     rho = exp(-(2 pi B T)^2 / 2)
+//   of its power is signal, the rest interferes. Its equaliser combines the band, so S is the mean over the
+//   band. For other modems rho = 1.
 // - Coded frequency-shift keying hops: its 8 frequencies move by eighths of their spacing from stretch to
 //   stretch, so that no delay below 64 periods of the band is in phase at all of them.
-// - A Doppler shift beyond what the receiver corrects leaves e = (|D - 1| - correction) f_c. Frequency-shift
-//   keying loses 1 - sinc^2(e T_chip) of the signal to the next tone, phase-shift keying 1 - exp(-(2 pi e
-//   0.01 s)^2 / 2) (our choice). signal_history() assumes that all of it is corrected; shifted_history()
-//   applies the loss.
+// - A Doppler shift beyond what the receiver corrects leaves e = (|D - 1| - correction) f_c and costs the
+//   share
+//     1 - sinc^2(e T_chip)                 of the signal, to the next tone: frequency-shift keying
+//     1 - exp(-(2 pi e 0.01 s)^2 / 2)      of the signal (our choice): phase-shift keying.
+//   signal_history() assumes that all of it is corrected; shifted_history() applies the loss.
 // - Without fading only the set of echoes present varies: powers of paths add, S = sum w^2 P, independent of
 //   frequency.
 #pragma once

@@ -180,8 +180,8 @@ SteadyBand::Sway SteadyBand::sway() const {
   return sway;
 }
 
-// Distributes the change of the mean over the band to its parts: interference that alternates over the band
-// is moved by jitter only from part to part.
+// Distributes the change of the mean over the band to its parts. Jitter moves interference that alternates
+// over the band only between parts, so all parts change alike.
 void SteadyBand::add(const Sway& sway, std::array<Part, kSignalFrequencies>& parts) {
   for (Part& part : parts) {
     const double power = part.constant + part.varying;

@@ -15,7 +15,7 @@
 //   g = exp(-(k kSwayM)^2 ((sin launch_p - sin launch_q)^2 + (sin arrival_p - sin arrival_q)^2) / 2)
 // relative to its value at the given positions, and 2 a_p a_q cos(phase) sinc(cycles) has the variance
 //   4 a_p^2 a_q^2 sinc(cycles)^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2.
-// All parts lose the same: jitter moves interference that alternates over the band only from part to part.
+// All parts lose the same, since jitter moves interference that alternates over the band only between parts.
 // Close paths, such as those of a distant buoy just below the surface, keep g near 1: Lloyd's mirror is
 // preserved.
 #pragma once

@@ -10,8 +10,8 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kDbPerKmPerNeperPerMetre = 8686;  // 1000 * 20 log10(e), as rounded by Fisher and Simmons
-constexpr double kKiloyardsPerKilometre =
-    1.0936;  // rounded, as in common use with Thorp's formula; exact is 1.09361
+// Rounded, as in common use with Thorp's formula; exact is 1.09361.
+constexpr double kKiloyardsPerKilometre = 1.0936;
 constexpr double kHzSquaredPerKhzSquared = 1e6;
 
 struct NamedModel {
