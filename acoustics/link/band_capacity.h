@@ -3,8 +3,9 @@
 //
 // With the nodes of the band as the points of a quadrature, the capacity in bit/s is
 //   C = sum over nodes of  w log2(1 + u exp(-(loss + nepers mean))),
-// w the weight of the node, Hz, u the ratio of signal to noise without any loss, mean the mean absorption
-// along the leg, dB/km, and nepers the conversion of that to the leg.
+// w the weight of the node, Hz, u the signal-to-noise ratio without any loss, loss the frequency-independent
+// loss in nepers, mean the mean absorption along the leg, dB/km, and nepers the nepers over the leg for each
+// dB/km.
 // One function body is compiled for each set of vector instructions. The nodes are the lanes of a vector,
 // multiplication and addition are never fused, and the order of summation is fixed: all sets give the same
 // bits.

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kSameSpeed = 1e-6;     // m/s, difference below which columns are equal
 constexpr double kLeastStrip = 20;      // m, least distance of columns
-constexpr double kMostStrips = 512;     // maximum along a line
+constexpr double kMostStrips = 512;     // greatest number of columns along a line
 constexpr int kStripsPerCell = 4;       // between two crossings of the grid
 constexpr double kDeepestProbe = 5000;  // m, as in ray_water()
 

@@ -13,10 +13,12 @@
 //     I(r) <= pi / (H r) + 2 / r^2,  spreading = -10 log10 I.
 //   A path down to the depth D has at least the length l = sqrt(r^2 + (2 (D - deepest end))^2).
 //   H is kChannelThickness. In deeper water spreading is greater. In shallower water and in ducts it is less,
-//   yet the bound holds: over a bottom that takes kappa sin(angle) nepers a bounce, I = sqrt(2 pi / (kappa
-//   H)) r^(-3/2) (Weston 1971), which for sand (kappa = 0.5) in 5 m of water is the smaller from 0.6 km on; a
-//   duct of thickness h that traps angles up to theta = sqrt(2 g h / c), g the gradient of sound speed, gives
-//   2 theta / (h r), the smaller unless g > 0.7 h (m and s: 2 m that change sound speed by 3 m/s).
+//   yet the bound holds. Over a bottom that takes kappa sin(angle) nepers a bounce (Weston 1971)
+//     I = sqrt(2 pi / (kappa H)) r^(-3/2),
+//   which for sand (kappa = 0.5) in 5 m of water is the smaller from 0.6 km on. A duct of thickness h that
+//   traps angles up to theta = sqrt(2 g h / c), g the gradient of sound speed, gives
+//     I = 2 theta / (h r),
+//   the smaller unless g > 0.7 h (m and s: 2 m that change sound speed by 3 m/s).
 // - Water known to be at least H0 deep, over a known bottom: each ray also loses at the bottom. Launched at
 //   theta it meets the bottom at least r tan(theta) / (2 H0) - 1 times, so with the magnitude R of one
 //   reflection

@@ -18,7 +18,7 @@ constexpr double kCoarseness = 3;  // width of windows relative to those of a ra
 // Lower bound of the sine, hence upper bound of the density near a turning point.
 constexpr double kLeastSine = 0.02;
 constexpr double kKeptShare = 0.99;  // share of the power
-constexpr double kFarAway = 10;      // in depths
+constexpr double kFarAway = 10;      // least length of a weak link, in depths
 constexpr std::size_t kBottomRays = 40;
 // Width of the angles at the bottom, 60 degrees in all; steeper rays are lost even when slopes turn them.
 constexpr double kRayWidth = to_radians(1.5);
@@ -59,8 +59,9 @@ double add_leg(const RayWater& water, double xi, const Place& from, double limit
     const double edge =
         down ? std::min(water.depths_m()[layer + 1], limit_m) : std::max(water.depths_m()[layer], limit_m);
     const double g = water.gradients_per_s()[layer], c2 = c + g * (edge - z), s2 = sine_at(xi, c2);
-    // Across a layer of thickness h with a constant gradient g, from c1 to c2 (sines s1 and s2), dr = h xi
-    // (c1 + c2) / (s1 + s2); to a turning point dr = s / (xi |g|).
+    // Across a layer of thickness h with a constant gradient g, from the speed c1 to c2 (sines s1 and s2),
+    // and to a turning point:
+    //   dr = h xi (c1 + c2) / (s1 + s2),  dr = s / (xi |g|).
     const double dr = s2 > 0 ? std::abs(edge - z) * xi * (c + c2) / (s + s2) : s / (xi * std::abs(g));
     const double end = s2 > 0 ? edge : z + (1 / xi - c) / g;
     const double length = dr / (xi * (s2 > 0 ? 0.5 * (c + c2) : 0.5 * (c + 1 / xi)));

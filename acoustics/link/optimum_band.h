@@ -46,7 +46,7 @@ struct OptimumBand {
   BandPlan water_filling;
 };
 
-// Throws InvalidArgument when the range is outside of 1..1e6 m.
+// The optimum frequency and both bands. Throws InvalidArgument when the range is outside of 1..1e6 m.
 OptimumBand optimum_band(const OptimumBandQuestion& question);
 
 }  // namespace halocline::acoustics

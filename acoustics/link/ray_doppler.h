@@ -21,8 +21,8 @@ struct MovingEnds {
   double source_sound_speed_mps, receiver_sound_speed_mps;
 };
 
-// Unit vector, NED, of a ray at `angle_rad` (positive down) in the vertical plane from one end to the other;
-// that plane is to the north when one end is above the other.
+// Unit vector, NED, of a ray at `angle_rad` (positive down) that heads from one end to the other; it heads
+// north when one end is above the other.
 Vec3 ray_direction(const Vec3& from_ned_m, const Vec3& to_ned_m, double angle_rad);
 
 // Factor f_rx / f_tx of one path. Throws InvalidArgument unless both speeds are below that of sound.

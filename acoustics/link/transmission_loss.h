@@ -19,7 +19,7 @@ struct TransmissionLoss {
   Decibels spreading, absorption, total;
 };
 
-// `range_m` >= 0, `spreading_exponent` 0..3 (1..2 in the sea), `absorption_db_per_km` >= 0.
+// Loss for `range_m` >= 0, `spreading_exponent` 0..3 (1..2 in the sea) and `absorption_db_per_km` >= 0.
 TransmissionLoss transmission_loss(double range_m, double spreading_exponent, double absorption_db_per_km);
 
 }  // namespace halocline::acoustics

@@ -30,10 +30,10 @@ struct BlockCode {
 // Extended BCH code (64, 10), distance 28 (MacWilliams and Sloane 1977): weights 28, 32, 36 and 64.
 const BlockCode& bch_64_10();
 // Extended Hamming code (16, 11), distance 4, shortened by two bits to (14, 9). The code is the Reed-Muller
-// code of order 2, in which all pairs of positions are equivalent. Any two omitted bits leave the number of
-// words
+// code of order 2, in which all pairs of positions are equivalent: for any two omitted bits, the
+// shortened code has
 //   A_w (16 - w) (15 - w) / 240
-// of the weight w.
+// words of weight w, A_w that of the full code.
 const BlockCode& hamming_14_9();
 
 // Bit error rate, 0..0.5, decreasing with eb_over_n0 (>= 0, per information bit).

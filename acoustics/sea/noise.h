@@ -25,8 +25,8 @@ namespace halocline::acoustics {
 
 // Sources of ambient noise.
 struct NoiseSources {
-  double shipping = 0.5;                                 // m/s, 10 m above the sea, 0 to 60
-  double wind_mps = 0;                                   // 10 m above the sea, 0 to 60
+  double shipping = 0.5;                                 // activity, 0 (none) to 1 (heavy)
+  double wind_mps = 0;                                   // m/s, 10 m above the sea, 0 to 60
   double rain_mm_per_h = 0;                              // 0 to 500
   std::shared_ptr<const NoiseSpectrum> table = nullptr;  // replaces all other sources
 };

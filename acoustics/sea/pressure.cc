@@ -19,8 +19,7 @@ double standard_ocean_pressure_dbar(double depth_m, double latitude_rad) {
   const double z = depth_m;
   // Pressure at 45 degrees latitude, h(Z, 45), MPa (Leroy and Parthiot 1998, equation 3).
   const double h45 = (((2.8e-19 * z - 1.25e-13) * z + 2.465e-8) * z + 1.00818e-2) * z;
-  // k(Z, phi): gravity at the latitude over gravity at 45 degrees, with the variation over depth (equation
-  // 4).
+  // k(Z, phi) of equation 4: gravity at the latitude over gravity at 45 degrees, both varying with depth.
   const double gravity = 9.7803 * (1 + 5.3e-3 * squared_sine(latitude_rad));
   const double k = (gravity - 2e-5 * z) / (9.80612 - 2e-5 * z);
   return h45 * k * kDecibarPerMegapascal;

@@ -33,8 +33,9 @@ double chen_millero_wong_zhu_1995(double temperature_t90_degc, double salinity_p
 // pressure 0..1000 kg/cm^2 (one is 98 066.5 Pa); 0.05 m/s.
 double del_grosso_wong_zhu_1995(double temperature_t90_degc, double salinity_psu, double pressure_kg_per_cm2);
 
-// TEOS-10 by the 75-term polynomial of specific volume v, Roquet et al. 2015 (Ocean Modelling 90, 29): c =
-// sqrt(-v^2 / (dv/dp)). Absolute salinity 0..42 g/kg, conservative temperature -2..40 degC, 0..8000 dbar.
+// TEOS-10 by the 75-term polynomial of specific volume v, Roquet et al. 2015 (Ocean Modelling 90, 29):
+//   c = sqrt(-v^2 / (dv/dp)).
+// Absolute salinity 0..42 g/kg, conservative temperature -2..40 degC, 0..8000 dbar.
 double teos10_75_term(double absolute_salinity_g_per_kg, double conservative_temperature_degc,
                       double pressure_dbar);
 

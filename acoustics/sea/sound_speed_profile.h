@@ -51,8 +51,7 @@ struct WaterSample {
 class SoundSpeedProfile {
  public:
   // Makes a profile of one or more rows with strictly ascending depths; otherwise throws InvalidArgument that
-  // names the row.
-  // `latitude_rad` (-pi/2..pi/2) is used by the models of pressure only.
+  // names the row. `latitude_rad` (-pi/2..pi/2) is used by the models of pressure only.
   static SoundSpeedProfile from_water(std::vector<WaterRow> rows, SoundSpeedModel model, double latitude_rad);
   // A table of speeds lacks the temperature and salinity that absorption needs: `assumed` is used at all
   // depths.

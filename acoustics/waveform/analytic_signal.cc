@@ -18,9 +18,9 @@ namespace {
 using std::numbers::pi;
 
 constexpr int kHilbertHalf = 255;       // taps on either side
-constexpr double kHilbertBeta = 8;      // side lobes at -81 dB
+constexpr double kHilbertBeta = 8;      // stop band at -81 dB
 constexpr int kSincHalf = 16;           // taps on either side
-constexpr double kSincBeta = 9;         // side lobes at -90 dB
+constexpr double kSincBeta = 9;         // stop band at -90 dB
 constexpr int kMargin = 2 * kSincHalf;  // zeros before and after the samples
 constexpr int kPhases = 2048;  // tabulated phases of the sinc between two samples, interpolated linearly
 

@@ -20,8 +20,7 @@ MovingLink::MovingLink(double begin_s, double step_s, std::vector<std::vector<Pa
   }
   for (std::size_t k = 0; k + 1 < frames.size(); ++k) {
     const double at_s = begin_s + static_cast<double>(k) * step_s;
-    // Change of delay over a step by Doppler, for a path that is known at one instant only: d tau / du = 1 /
-    // D - 1.
+    // Change of delay over a step, d tau / du = 1 / D - 1, for a path that is known at one instant only.
     const auto moved_s = [&](const PathGain& path) { return step_s * (1 / path.doppler_factor - 1); };
     auto old = frames[k].begin(), next = frames[k + 1].begin();
     while (old != frames[k].end() || next != frames[k + 1].end()) {

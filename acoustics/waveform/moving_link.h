@@ -6,10 +6,9 @@
 // u arrives at t = u + tau(u), so that
 //   y(t) = sum over paths of  Re[g(u) x_a(u)],  u the solution of u + tau(u) = t.
 // Each path has its own Doppler factor 1 / (1 + d tau / du), equal for all frequencies, and compresses or
-// stretches the waveform. A path that is known at one of the two instants only fades in or out between them,
-// while its delay changes by its Doppler factor. The gain at the centre of the band is used for all
-// frequencies. Left out: absorption over the band; changes of the gain by the Doppler shift other than those
-// of level.
+// stretches the waveform. A path known at only one of the two instants fades in or out between them, while
+// its delay changes by its Doppler factor. The gain at the centre of the band is used for all frequencies.
+// Left out: absorption over the band; changes of the gain by the Doppler shift other than those of level.
 #pragma once
 
 #include <complex>
