@@ -17,7 +17,7 @@ bool is_better(const PlaceScore& a, const PlaceScore& b) {
                                             : a.mean_sinr_db > b.mean_sinr_db;
 }
 
-// Over all listeners.
+// Returns the score of one place from its forecasts to all listeners.
 PlaceScore score_of(const LinkForecast* forecasts, std::size_t count) {
   PlaceScore score{.least_delivery = 1, .mean_sinr_db = 0, .in_water = true};
   for (std::size_t i = 0; i < count; ++i) {
@@ -26,7 +26,7 @@ PlaceScore score_of(const LinkForecast* forecasts, std::size_t count) {
     score.least_delivery = std::min(score.least_delivery, forecast.delivery_probability);
     score.mean_sinr_db += forecast.sinr_db / static_cast<double>(count);
   }
-  score.mean_delivery = std::min(score.mean_delivery, 1.0);  // a sum of shares may round above it
+  score.mean_delivery = std::min(score.mean_delivery, 1.0);  // the sum of shares may exceed 1 by rounding
   return score;
 }
 
@@ -120,8 +120,8 @@ bool BestPlaceService::answer(Waiting& waiting, bool is_overdue) {
   for (const Vec3& place : waiting.places_ned_m) in_water.push_back(is_in_water(place, at));
   std::vector<EndPair> links = links_of(waiting, in_water);
   NoiseOfLinks noise(noise_, at, waiting.talker_id);
-  bool are_ready =
-      noise.are_ready(links);  // all are asked, so that all that is missing is requested together
+  // Every link is asked, so that all missing data are requested together.
+  bool are_ready = noise.are_ready(links);
   for (const EndPair& link : links)
     are_ready = propagation_.is_ready_for_packet(at, link.from, link.to) && are_ready;
   if (!are_ready && !is_overdue) return false;

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Answers at which of some places a vehicle is best heard by others.
+// A service that finds the place from which several vehicles (the listeners) best receive a vehicle (the
+// talker).
 //
-// Each place and listener is a link from the place, with the talker's modem at rest, to the listener where it
-// is at the time asked for. A place is scored by the delivery probability of link_predictor.h, mean over the
-// listeners; of equals the greater mean SINR is better, which tells places apart where everything or nothing
-// is delivered. Places above the surface, inside the seabed or beyond 1e7 m score 0 and kSilence. Links are
-// computed together, shared out among threads, with all the searches that packets have; a reply waits for the
-// seabed no longer than `timeout` of steady time, then takes the straight path.
+// Each place and listener form a link, from the talker's modem at rest at the place to the listener at its
+// position at the requested time. The score of a place is the delivery probability of link_predictor.h,
+// averaged over the listeners. Equal scores are ordered by mean SINR, which distinguishes places where
+// everything or nothing is delivered. Places above the surface, inside the seabed or beyond 1e7 m score 0 and
+// kSilence. All links are computed together, shared out among threads, with all the eigenray searches that
+// packets have. A reply waits for the seabed for at most `timeout` of steady time, then takes the straight
+// path.
 //
-// Listeners hear their own noise and that of other vehicles but the talker, whose propeller is taken as at
-// rest with it. Left out: interference, and how the listeners are heard at the place. Not thread-safe.
+// The noise at a listener is its own and that of all other vehicles except the talker, whose propeller is
+// taken as at rest. Not modelled: interference, and reception at the place from the listeners. Not
+// thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -34,10 +37,10 @@ namespace halocline::channel_server {
 struct BestPlaceQuery {
   std::string client;
   std::int64_t request_id = 0;
-  std::optional<SimTime> at;  // empty: when it is received
-  std::string talker;         // a vehicle; empty: the standard modem
+  std::optional<SimTime> at;  // empty: the simulation time at which the query is received
+  std::string talker;         // name of a vehicle; empty: a standard modem
   std::vector<Vec3> places_ned_m;
-  std::vector<std::string> listeners;  // vehicles
+  std::vector<std::string> listeners;  // names of vehicles
 };
 
 struct PlaceScore {
@@ -46,39 +49,40 @@ struct PlaceScore {
   bool in_water = false;
 };
 
-// Index of the best; empty where none is in the water. Of equals the first.
+// Returns the index of the best place in the water, the first of equals; empty when no place is in the water.
 std::optional<std::size_t> best_of(const std::vector<PlaceScore>& scores);
 
 struct BestPlaceReply {
   std::string client;
   std::int64_t request_id = 0;
-  SimTime at;                      // for which it holds
-  std::string refusal;             // not empty: there are no scores
+  SimTime at;                      // simulation time of the scores
+  std::string refusal;             // not empty: the query is refused and there are no scores
   std::vector<PlaceScore> scores;  // in the order of the places
 };
 
 class BestPlaceService {
  public:
-  static constexpr std::size_t kMaxLinks = 1600;  // places times listeners of one query
+  static constexpr std::size_t kMaxLinks = 1600;  // places times listeners of a query
   static constexpr std::size_t kMaxWaiting = 16;  // queries that wait for the terrain
-  // A query may ask for an instant this far from the simulation time at which it is received; else it gets
-  // the nearest such.
+  // Largest difference between the requested time and the simulation time at which the query is received; a
+  // query beyond it is answered for the nearest allowed time.
   static constexpr SimDuration kMostOff = SimDuration::from_milliseconds(1000);
 
-  // All of them must outlive the service.
+  // The references must outlive the service.
   BestPlaceService(const VehicleRegistry& fleet, Propagation& propagation, LinkPredictor& predictor,
                    ReceiverNoise& noise, SimDuration timeout, ForEach for_each);
 
-  // A repetition of a query that is still waiting changes nothing. `sim` is empty while unknown.
+  // Takes a query. A repetition of a query that is still waiting changes nothing. `sim` is empty while the
+  // simulation time is unknown.
   void submit(const BestPlaceQuery& query, std::optional<SimTime> sim, SimTime steady);
-  // What is ready at `steady`, or has waited long enough.
+  // Returns the replies that are complete at `steady` or whose deadline has passed.
   std::vector<BestPlaceReply> take_replies(SimTime steady);
   SimTime due() const;
   void clear() { waiting_.clear(); }
 
  private:
   struct Listener {
-    LinkEnd end;  // without its modem
+    LinkEnd end;  // modem is null, see links_of()
     VehicleModem modem;
   };
   struct Waiting {
@@ -90,12 +94,12 @@ class BestPlaceService {
     SimTime deadline;
   };
   [[nodiscard]] std::string refusal_of(const BestPlaceQuery& query, std::optional<SimTime> sim) const;
-  // Why they cannot be; else they are in `waiting`.
+  // Resolves talker and listeners into `waiting`; returns why they cannot be resolved, or empty.
   [[nodiscard]] std::string resolve(const BestPlaceQuery& query, Waiting& waiting) const;
-  // False while the seabed is awaited, unless that is over.
+  // Computes the scores. Returns false while the seabed is awaited and the deadline has not passed.
   [[nodiscard]] bool answer(Waiting& waiting, bool is_overdue);
   bool is_in_water(const Vec3& place_ned_m, SimTime at) const;
-  // Place by place, of those that are in the water.
+  // Returns the links of all places in the water, place by place, each with all listeners.
   std::vector<EndPair> links_of(const Waiting& waiting, const std::vector<bool>& in_water) const;
 
   const VehicleRegistry& fleet_;

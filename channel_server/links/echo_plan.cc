@@ -16,7 +16,7 @@ PlannedSurvey survey_of(const EndPair& link) {
 
 bool is_before(const PlannedSurvey& a, const PlannedSurvey& b) { return a.pair < b.pair; }
 
-// One of each pair, rising.
+// Returns each pair of the links once, sorted by pair.
 std::vector<PlannedSurvey> pairs_of(const std::vector<EndPair>& links) {
   std::vector<PlannedSurvey> pairs;
   pairs.reserve(links.size());

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which pairs of vehicles have their bottom echoes surveyed after the tables of a tick, where there are more
-// than may be.
+// The plan of echo surveys: picks the pairs of vehicles whose bottom echoes are surveyed after the tables of
+// a tick, when more need it than the budget allows.
 //
-// Rule. A pair needs a survey when it has none, or when an end lies further than `reuse_distance` from where
-// it was at the last one. Of those that need one as many are planned as a table may have: those without any
-// first, then those planned longest ago; equals by id.
+// Rule. A pair needs a survey when it has none, or when an end lies further than `reuse_distance` from its
+// position in the last one. Up to `surveys_per_table` of these pairs are planned: pairs without any survey
+// first, then those planned longest ago, and equal ones by id.
 //
-// What is planned is a function of the links of all ticks since the start of the run, of all vehicles,
-// whichever shard serves them, and of surveys that had no answer: shards and processes agree. A server that
-// was started again plans anew. Not thread-safe.
+// The plan depends only on the links of all ticks since the start of the run, of all vehicles whichever shard
+// serves them, and on surveys without an answer. Shards and processes therefore agree. A server that is
+// restarted plans from the beginning. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -22,38 +22,39 @@
 namespace halocline::channel_server {
 
 struct EchoRule {
-  double reuse_distance_m = 5;           // 0 and up; 0 surveys anew whatever moved at all
-  std::size_t surveys_per_table = 2400;  // 1 and up
+  double reuse_distance_m = 5;           // at least 0; with 0 a pair is surveyed again after any motion
+  std::size_t surveys_per_table = 2400;  // at least 1
 };
 
 struct PlannedSurvey {
   VehiclePair pair;            // the lower id first
-  Vec3 low_ned_m, high_ned_m;  // where they are
+  Vec3 low_ned_m, high_ned_m;  // positions of both vehicles
 };
 
 class EchoPlan {
  public:
   explicit EchoPlan(EchoRule rule) : rule_(rule) {}
 
-  // All links of all vehicles at a tick; pairs without one are forgotten. The most urgent survey first.
+  // Plans the surveys of a tick from all links of all vehicles, and returns them by urgency. Pairs without a
+  // link are forgotten.
   std::vector<PlannedSurvey> begin_tick(const std::vector<EndPair>& links);
-  // What was planned for the pair was dropped or had no answer: it needs another.
+  // Notes that the planned survey of a pair was dropped or had no answer, so the pair needs another.
   void note_unanswered(const VehiclePair& pair);
-  // Pairs that needed a survey at the last tick and were not planned.
+  // Returns the number of pairs that needed a survey at the last tick and were not planned.
   std::size_t put_off() const { return put_off_; }
   void clear();
 
  private:
   struct Entry {
-    PlannedSurvey last;        // its places: of the last survey that was planned
-    std::int64_t planned = 0;  // the number of its tick, from 1; 0: never
-    bool is_answered = false;  // or still may be
+    PlannedSurvey last;        // the last planned survey
+    std::int64_t planned = 0;  // number of the tick at which it was planned, from 1; 0 for never
+    bool is_answered = false;  // answered, or the answer may still come
   };
   Entry* find(const VehiclePair& pair);
 
   EchoRule rule_;
   std::int64_t tick_ = 0;
-  std::vector<Entry> entries_;  // by pair, rising
+  std::vector<Entry> entries_;  // sorted by pair
   std::size_t put_off_ = 0;
 };
 

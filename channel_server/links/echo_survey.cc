@@ -8,7 +8,7 @@
 namespace halocline::channel_server {
 namespace {
 
-// Ends closer to a bottom point than this are on it: nothing can stand between.
+// An end closer to a bottom point than this is on it, so nothing can stand between them.
 constexpr double kOnTheBottomM = 2 * EchoSurvey::kShortOfBottomM;
 
 TerrainRay way_to(const Vec3& end, const Vec3& bottom) {
@@ -22,7 +22,7 @@ bool is_told(RayAnswer::Kind kind) {
          kind == RayAnswer::Kind::kBelowBottom;
 }
 
-// An end below the bottom receives nothing by way of it.
+// A hit blocks the way. So does an end below the bottom, which receives nothing from the bottom point.
 bool is_blocked(RayAnswer::Kind kind) { return kind != RayAnswer::Kind::kMiss; }
 
 }  // namespace

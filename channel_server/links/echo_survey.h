@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds out by rays which echoes the bottom can send along one link: the geometry between the terrain, which
-// the service knows, and acoustics/link/multipath.h.
+// A survey by rays of the bottom echoes that are possible along one link. It connects the terrain, which the
+// terrain service knows, with acoustics/link/multipath.h.
 //
-// Two questions, because the second needs the answer to the first:
-//   1. how deep is the bottom under `count` points of the line between the ends (the middles of equal parts);
-//   2. is the way from each end to each of these points free. Both ways are queried from the end down, and a
-//      little short of the point, so that the bottom there does not count as being in its own way.
-// A point or way without an answer (outside, no data) leaves the survey incomplete: then
-// an echo that is found is likely, and none found means unknown.
+// The survey has two queries, because the second needs the answer to the first:
+//   1. depths: how deep is the bottom under `count` points of the line between the ends, the middles of equal
+//      parts of it;
+//   2. ways: is the straight line from each end to each of these bottom points free? Rays start at the ends
+//      and stop a little short of the point, so that the bottom there does not block its own ray.
+// A point or way without an answer (outside the terrain, no data) leaves the survey incomplete: then an echo
+// that is found is likely, but none found means unknown.
 //
 //   EchoSurvey survey(a, b, 9);
 //   survey.take_depths(answers_to(survey.depth_rays()));
@@ -35,34 +36,36 @@ namespace halocline::channel_server {
 
 class EchoSurvey {
  public:
-  // How short of the bottom point a way ends, m: more than the error of a stored seabed, less than any relief
-  // that matters to sound.
+  // The distance from the bottom point at which a ray ends, m: more than the error of a stored seabed, less
+  // than any relief that matters to sound.
   static constexpr double kShortOfBottomM = 0.01;
 
   EchoSurvey() = default;
-  // `point_count` >= 1.
+  // `point_count` must be at least 1.
   EchoSurvey(const Vec3& from_ned_m, const Vec3& to_ned_m, int point_count);
 
-  // The kind of its next query; empty after the last. Rays and answers of that query.
+  // Returns the kind of the next query; empty after the last. rays() returns the rays of that query, take()
+  // takes its answers.
   std::optional<RayKind> next_query() const;
   std::vector<TerrainRay> rays() const { return stage_ == Stage::kDepths ? depth_rays() : way_rays(); }
   void take(std::span<const RayAnswer> answers);
 
-  // One a point, straight down.
+  // Returns one ray for each point, straight down.
   std::vector<TerrainRay> depth_rays() const;
-  // As many answers as depth_rays().
+  // Takes one answer for each of depth_rays(); throws if the count differs.
   void take_depths(std::span<const RayAnswer> answers);
-  // From `from`, then from `to`, for each point whose depth is known; empty when none is.
+  // Returns the rays from `from` and from `to` to each point whose depth is known; empty when no depth is
+  // known.
   std::vector<TerrainRay> way_rays() const;
-  // As many answers as way_rays().
+  // Takes one answer for each of way_rays(); throws if the count differs.
   void take_ways(std::span<const RayAnswer> answers);
 
   const Vec3& from_ned_m() const { return from_; }
   const Vec3& to_ned_m() const { return to_; }
   std::size_t points_asked() const { return asked_.size(); }
-  // The points that are known, "transmitter" being `from`.
+  // Returns the bottom points whose depth is known; `from` counts as the transmitter.
   const std::vector<acoustics::BottomPoint>& bottom() const { return bottom_; }
-  // Everything has an answer.
+  // True when every depth and way has an answer.
   bool complete() const { return complete_; }
 
  private:
@@ -74,7 +77,8 @@ class EchoSurvey {
   bool complete_ = false;
 };
 
-// The answer for one direction, in the water of `at`: `reversed` when the transmitter is the survey's `to`.
+// Returns the verdict for one direction, in the water at `at`. `reversed` means that the transmitter is at
+// the survey's `to`.
 Multipath multipath_of(const EchoSurvey& survey, bool reversed, SimTime at, Propagation& propagation,
                        const acoustics::Modem& transmitter, const acoustics::Modem& receiver);
 

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of link tables that hold on from tick to tick while their ends hardly move.
+// A cache of rows of link tables, which are reused from tick to tick while their ends hardly move.
 //
-// Rule. A row is carried on, instead of computed anew, for kLongest at most, as long as its ends together
-// have moved by no more than the distance of reuse d, nor a fortieth of the range (depths count ten times),
-// each velocity has changed by no more than kGreatestVelocityChange, and water, seabed and both modems are
-// the same. Then range and Doppler are those of the ends now, and a delay along a path that leaves the
-// transmitter at the angle a below the horizontal and arrives at the angle b is
+// Rule. A row is reused for at most kLongest, as long as its two ends together have moved by no more than the
+// reuse distance d and no more than a fortieth of the range (depths count ten times), each velocity has
+// changed by no more than kGreatestVelocityChange, and water, seabed and both modems are the same. Range and
+// Doppler factor are recomputed for the present positions and velocities. The delay along a path that leaves
+// the transmitter at the angle a below the horizontal and arrives at the angle b is extrapolated by Fermat's
+// principle,
 //   tau = tau_then + (cos a dr - sin a dz_transmitter) / c_transmitter + sin b dz_receiver / c_receiver,
-// r the horizontal range and z depths (Fermat's principle; acoustics/rays/extrapolate_arrivals.h takes whole
-// paths on likewise). Levels and what is delivered stay: spreading changes by 0.2 dB at most meanwhile.
-// LinkRow::paths_age grows.
+// with the horizontal range r, depths z and sound speeds c; d marks changes since the row was computed.
+// (acoustics/rays/extrapolate_arrivals.h extrapolates whole paths by the same principle.) Levels and delivery
+// stay as they were: spreading changes by at most 0.2 dB. LinkRow::paths_age grows.
 //
-// A row that waits for a search or for the bottom is not kept. What is kept depends on the ticks since the
-// start: threads and shards agree, a server that was started again computes all rows anew. Not thread-safe.
+// A row that waits for a search or for the seabed is not stored. The cache depends on all ticks since the
+// start, so threads and shards agree; a server that is restarted computes all rows again. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -34,29 +35,29 @@ namespace halocline::channel_server {
 
 class KeptRows {
  public:
-  static constexpr SimDuration kLongest = SimDuration::from_milliseconds(10'000);  // our choice
-  static constexpr double kGreatestVelocityChange = 0.5;                           // m/s, our choice
-  // Where sound goes: other numbers, another sea.
+  static constexpr SimDuration kLongest = SimDuration::from_milliseconds(10'000);  // chosen
+  static constexpr double kGreatestVelocityChange = 0.5;                           // m/s, chosen
+  // The identity of water and seabed; rows are reused only while both are the same.
   struct Sea {
     EnvironmentTimeline::WaterId water_id = 0;
     std::int64_t seabed_version = 0;
     bool operator==(const Sea&) const = default;
   };
 
-  // `reuse_distance_m`: d, 0..1000; 0 keeps nothing.
+  // `reuse_distance_m` is d, 0..1000 m; with 0 no rows are reused. Throws beyond that range.
   explicit KeptRows(double reuse_distance_m);
 
-  // The links of a tick, which come after those of the ticks before, transmitter by transmitter and each by
-  // receiver, as table_rows() has them; `vehicles` holds their ends, by id. Sets TableRows::carried, without
-  // the ages of states. The same again for the same tick.
+  // Sets TableRows::carried for the links of a tick, without the ages of states. Ticks must come in order,
+  // and links sorted by transmitter, then receiver, as table_rows() returns them; `vehicles` holds their
+  // ends, by id. A repeated call for the same tick gives the same result.
   void carry_on(SimTime tick, Sea sea, const acoustics::Environment& environment,
                 const std::vector<PlacedVehicle>& vehicles, TableRows& rows);
-  // Computed for link `index` of that tick.
+  // Stores the row computed for link `index` of that tick.
   void keep(std::size_t index, const EndPair& ends, const Reception& reception, const LinkRow& row);
   void clear();
 
  private:
-  // Of a path where it leaves and arrives.
+  // The angles of a path at its two ends, positive down.
   struct Angles {
     double launch_rad = 0, arrival_rad = 0;
   };
@@ -64,7 +65,7 @@ class KeptRows {
     VehicleId from = 0, to = 0;
     SimTime made_at;
     Vec3 from_ned_m, from_mps, to_ned_m, to_mps;
-    Angles strongest, first;  // whose delays the row has
+    Angles strongest, first;  // the paths whose delays the row states
     LinkRow row;
   };
   struct KnownModem {
@@ -81,7 +82,7 @@ class KeptRows {
   SimTime tick_;
   Sea sea_;
   std::map<VehicleId, KnownModem> modems_;
-  std::vector<std::optional<Kept>> rows_;  // of the last tick's links
+  std::vector<std::optional<Kept>> rows_;  // one for each link of the last tick
 };
 
 }  // namespace halocline::channel_server

@@ -21,9 +21,10 @@ using acoustics::Modem;
 using acoustics::ReceptionCurves;
 
 constexpr double kMaxCoherenceS = 1e6;
-constexpr double kLeastDelivery = 1e-3;  // of a rate that counts
+constexpr double kLeastDelivery = 1e-3;  // least delivery probability of a rate that counts
 
-// What the curves of a modem depend on; the rest as in the generic one.
+// Returns a modem with only the parameters on which the reception curves depend; all others are the generic
+// modem's.
 Modem of_packets(const Modem& modem) {
   Modem packets;
   packets.bandwidth_hz = modem.bandwidth_hz;
@@ -38,7 +39,7 @@ Modem of_packets(const Modem& modem) {
   return packets;
 }
 
-// As channel_server/packets decides before the preamble.
+// True when channel_server/packets rejects the packet before its preamble.
 bool is_impossible(const Modem& receiver, const Reception& reception, const SoundPath& strongest,
                    bool fades) {
   return !reception.budget.receivable ||
@@ -69,8 +70,8 @@ LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
   return rates;
 }
 
-// A packet of a constant ratio is received no less often than one whose ratio varies about that mean within
-// it.
+// A packet with a constant ratio is received at least as often as one whose ratio varies about the same mean
+// during the packet, so the bound is computed with constant ratios.
 double LinkPredictor::least_sinr_db(const Rates& rates) const {
   double least_db = std::numeric_limits<double>::infinity();
   for (const Rate& rate : rates) {
@@ -134,8 +135,8 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
   for (const auto& [curves, one_path] : rates) {
     const double rate_bps = curves.modem().bit_rate_bps;
     const bool own = &curves == &rates.front().curves;
-    if (!own && rate_bps <= best) break;  // nor are those that follow better
-    // Of the others the best window alone.
+    if (!own && rate_bps <= best) break;  // the rates that follow are slower still
+    // For the other rates only the best window is evaluated.
     const auto from_table = one_path.at(paths, noise_power);
     const acoustics::LinkPrediction predicted =
         from_table ? *from_table

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the rows of link tables state beside the budget: what the link delivers on average over its fading.
+// Forecasts for the rows of link tables: what a link delivers on average over its fading, in addition to its
+// budget.
 //
 // Predictions are those of acoustics/reception/link_prediction.h for packets of one payload, without other
-// packets. What the medium decides before it looks at a preamble holds here, too: another family, a level
-// below the cut-off and, without fading, a Doppler shift beyond the tolerance deliver nothing.
+// packets. Links that the medium rejects before it examines a preamble deliver nothing here, too: those
+// between different waveform families, with a level below the cut-off and, without fading, with a Doppler
+// shift beyond the tolerance.
 //
-// The rates of a transmitter are those of its family among the known profiles, with the transmitter's band.
-// The best has the greatest product of rate and delivery probability; none does that delivers less than one
-// packet in a thousand.
+// The rates considered are those of the known profiles of the transmitter's family, in the transmitter's
+// band. The best rate is the one with the greatest product of rate and delivery probability; a rate that
+// delivers less than one packet in a thousand does not count.
 #pragma once
 
 #include <cstddef>
@@ -25,24 +27,25 @@
 
 namespace halocline::channel_server {
 
-// Without paths all is zero.
+// The forecast of one link; all members are 0 without paths.
 struct LinkForecast {
-  double first_path_delay_s = 0;  // of the first significant path
-  double sinr_db = 0;  // mean signal in the guard window over noise and own echoes; kSilence at least
+  double first_path_delay_s = 0;  // along the first significant path
+  double sinr_db = 0;  // mean signal in the guard window over noise and own echoes; at least kSilence
   double acquisition_probability = 0, delivery_probability = 0;
-  double coherence_time_s = 0;  // 1e6 at most
+  double coherence_time_s = 0;  // at most 1e6
   double doppler_spread_hz = 0, rms_delay_spread_s = 0;
-  double best_rate_bps = 0;  // 0: nothing is delivered
+  double best_rate_bps = 0;  // 0 when no rate delivers
 };
 
 class LinkPredictor {
  public:
   struct Rule {
-    std::size_t payload_bytes = 32;  // or a modem's largest, where that is less
+    std::size_t payload_bytes = 32;  // or a modem's largest payload, if that is less
     acoustics::FadingModel fading;
-    std::vector<acoustics::Modem> profiles;  // known ones
+    std::vector<acoustics::Modem> profiles;  // the known profiles
   };
-  // Of one transmitter: its own curves first, then those of the family's other rates, the greatest first.
+  // A rate of a transmitter. Rates lists its own rate first, then the other rates of its family, the fastest
+  // first.
   struct Rate {
     acoustics::ReceptionCurves curves;
     OnePathForecast one_path;
@@ -51,12 +54,13 @@ class LinkPredictor {
 
   explicit LinkPredictor(Rule rule) : rule_(std::move(rule)) {}
 
-  // Takes milliseconds for a modem that is new; those of kMaxModems are kept. Not thread-safe.
+  // Returns the rates of a transmitter. A new modem takes milliseconds; the last kMaxModems modems are
+  // cached. Not thread-safe.
   std::shared_ptr<const Rates> rates_of(const acoustics::Modem& transmitter);
-  // The mean ratio, dB, below which no rate of this transmitter delivers a packet in a thousand, however the
-  // link fades (acoustics/fading/fading_bounds.h). Not thread-safe.
+  // Returns the mean signal-to-noise ratio, dB, below which no rate of this transmitter delivers one packet
+  // in a thousand, however the link fades (acoustics/fading/fading_bounds.h). Not thread-safe.
   double least_sinr_db(const acoustics::Modem& transmitter);
-  // Of a link whose transmitter has these rates. Thread-safe.
+  // Returns the forecast of a link whose transmitter has these rates. Thread-safe.
   LinkForecast forecast(const Rates& rates, const acoustics::Modem& transmitter,
                         const acoustics::Modem& receiver, const Reception& reception) const;
 
@@ -72,7 +76,7 @@ class LinkPredictor {
   double least_sinr_db(const Rates& rates) const;
 
   Rule rule_;
-  std::list<Entry> kept_;  // used last, first
+  std::list<Entry> kept_;  // the most recently used first
 };
 
 }  // namespace halocline::channel_server

@@ -17,11 +17,11 @@
 namespace halocline::channel_server {
 namespace {
 
-// Beyond it a position is a unit mixed up (the same bound as for vehicles).
+// Largest coordinate of a position, m; a larger one is taken for a wrong unit. Vehicles have the same bound.
 constexpr double kFarthestM = 1e7;
 
-// From the surface to `deepest_m`: even steps, and the rows between which a table is linear, so far as there
-// is room.
+// Returns the sound speed from the surface to `deepest_m`: at even steps, and at the rows of the profile,
+// between which it is linear, unless there are more than kMaxRows of them.
 std::vector<acoustics::SpeedRow> column_of(const acoustics::SoundSpeedProfile& profile, double deepest_m) {
   constexpr int kSteps = 100;
   constexpr std::size_t kMaxRows = 150;
@@ -160,7 +160,7 @@ void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, No
   if (!is_noise_ready || answer.row.multipath == Multipath::kUnknown) wait_for_terrain(from, to, waiting);
 }
 
-// Vehicles rest on the seabed as the terrain has it, which may lie below the smooth one.
+// Vehicles are not checked: they rest on the terrain's seabed, which may lie below the smooth one of rays.
 std::string LinkQueryService::problem_with_seabed(const ResolvedEnd& end) const {
   const double inside_m = end.id == 0 ? propagation_.depth_inside_seabed_m(end.placement.position_ned_m) : 0;
   if (inside_m <= kSeabedErrorM) return {};
@@ -222,7 +222,8 @@ void LinkQueryService::take_bottoms(Waiting& waiting) {
   std::erase_if(waiting.bottoms, [&](std::size_t index) {
     const auto& [from, to] = waiting.ends.at(index);
     const EndPair link = link_of(from, to);
-    const bool is_noise_ready = noise.are_ready({link});  // asked first, so that all is requested at once
+    // Asked first, so that all missing data are requested at once.
+    const bool is_noise_ready = noise.are_ready({link});
     if (!propagation_.is_ready(waiting.reply.at, link.from, link.to) || !is_noise_ready) return false;
     set_reception(from, to, waiting.reply.at, noise, waiting.reply.answers[index]);
     return true;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Answers link queries: between vehicles by name, and between positions and modems that need not exist.
+// A service that answers link queries: between vehicles by name, and between arbitrary positions with given
+// modems.
 //
-// Every link is answered or refused on its own, with the noise of receiver_noise.h, of which a place that
-// holds no vehicle has none of its own. A straight budget is computed at once; whether an echo is likely,
-// and rays, need the terrain: a reply waits for it no longer than `timeout` of steady time, then holds
-// unknown (and the straight path). Echoes are surveyed urgently, unless the link tables know those of the two
-// vehicles; the bottom that rays need is requested by the propagation itself.
+// Each link is answered or refused on its own. Its noise is that of receiver_noise.h; a position without a
+// vehicle has no own noise. The budget of a straight path is computed at once. Whether an echo is likely, and
+// rays, need the terrain: a reply waits for it for at most `timeout` of steady time, then states kUnknown and
+// the straight path. Echoes are surveyed urgently unless the link tables have a survey of the two vehicles.
+// The seabed that rays need is requested by the propagation itself.
 //
-// The position of a named vehicle is that of state_history.h at the simulation time of the query; while no
-// simulation time is known, no vehicle is. Not thread-safe.
+// The position of a named vehicle is the one predicted for the simulation time of the query
+// (state_history.h). Every named vehicle is unknown while no simulation time is known. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -38,70 +39,73 @@
 namespace halocline::channel_server {
 
 struct LinkEndRequest {
-  std::string vehicle;                     // empty: the position
+  std::string vehicle;                     // empty: position_ned_m is used
   Vec3 position_ned_m = Vec3::Zero();      // world NED, m
-  std::optional<VehicleModem> modem = {};  // empty: the vehicle's own, or the standard one
-  std::string problem = {};                // not empty: this end could not even be read
+  std::optional<VehicleModem> modem = {};  // empty: the vehicle's own; for a position the standard modem
+  std::string problem = {};                // not empty: this end of the request could not be read
 };
 
 struct LinkQuery {
   std::string client;
   std::int64_t request_id = 0;
-  std::vector<LinkEndRequest> transmitters, receivers;  // as many of each
-  bool wants_paths = false;                             // of one link
+  // Equally long: link i is from transmitter i to receiver i.
+  std::vector<LinkEndRequest> transmitters, receivers;
+  bool wants_paths = false;  // asks for ray tracks; only allowed with one link
 };
 
 struct LinkAnswer {
   enum class Status { kAnswered, kUnknownVehicle, kBadInput };
   Status status = Status::kAnswered;
   std::string problem;  // empty when answered
-  LinkRow row;          // holds when answered
+  LinkRow row;          // valid when answered
 };
 
-// How the sound of one link travels.
+// The ray tracks of one link, with the levels and the sound speed needed to draw them.
 struct LinkDetails {
-  Decibels source_level, directivity_index;  // of the transmitter, of the receiver
+  Decibels source_level, directivity_index;  // the transmitter's and the receiver's
   LinkTracks tracks;
-  std::vector<acoustics::SpeedRow> water;  // down to the seabed, or to the deeper end
+  std::vector<acoustics::SpeedRow> water;  // sound speed by depth, down to the seabed or the deeper end
 };
 
 struct LinkReply {
   std::string client;
   std::int64_t request_id = 0;
-  SimTime at;                               // for which the answers hold; 0 while no simulation time is known
-  std::string refusal;                      // not empty: the query as a whole is refused
+  SimTime at;                               // simulation time of the answers; 0 while none is known
+  std::string refusal;                      // not empty: the whole query is refused
   std::vector<LinkAnswer> answers;          // in the order of the query
-  std::optional<LinkDetails> details = {};  // where the query wants paths and its link is answered
+  std::optional<LinkDetails> details = {};  // set when the query wants paths and its link is answered
 };
 
-// Why a position is none in the sea, whatever the seabed; empty when it is one.
+// Returns why a position is not in the sea, without regard to the seabed; empty when it is. A position must
+// lie within 1e7 m of the origin along each axis and between the sea surface and 12000 m depth.
 [[nodiscard]] std::string problem_of_place(const Propagation& propagation, const Vec3& position_ned_m,
                                            SimTime at);
-// By so much the smooth seabed of rays may lie above that of the terrain, m: a place less far inside is taken
-// as on it.
+// Tolerance of positions inside the seabed, m: the smooth seabed of rays may lie this far above the
+// terrain's, so a position no further inside counts as on the seabed.
 inline constexpr double kSeabedErrorM = 1;
 
 class LinkQueryService {
  public:
-  static constexpr std::size_t kMaxLinks = 200;   // of one query
+  static constexpr std::size_t kMaxLinks = 200;   // links of one query
   static constexpr std::size_t kMaxWaiting = 64;  // queries that wait for the terrain
 
   struct Rule {
-    int bottom_points = 9;  // of an echo survey
+    int bottom_points = 9;  // points on the bottom of an echo survey
     SimDuration timeout = SimDuration::from_milliseconds(250);
   };
 
-  // All of them must outlive the service.
+  // The references must outlive the service.
   LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation, LinkPredictor& predictor,
                    ReceiverNoise& noise, MultipathCache& echoes, RayQueryClient& rays, Rule rule);
 
-  // A repetition of a query that is still waiting changes nothing. `sim` is empty while unknown.
+  // Takes a query. A repetition of a query that is still waiting changes nothing. `sim` is empty while the
+  // simulation time is unknown.
   void submit(const LinkQuery& query, std::optional<SimTime> sim, SimTime steady);
-  // A survey has ended; true when it was one of this service's.
+  // Takes a finished survey; returns true when it belongs to this service.
   [[nodiscard]] bool finish(const RayQueryClient::Finished& finished);
-  // What is ready at `steady`, or has waited long enough.
+  // Returns the replies that are complete at `steady` or whose deadline has passed.
   std::vector<LinkReply> take_replies(SimTime steady);
-  // at_once() while a reply is ready.
+  // Returns the earliest deadline; at_once() while a reply is complete.
   SimTime due() const;
   void clear();
 
@@ -112,13 +116,13 @@ class LinkQueryService {
     VehicleId id = 0;
     Placement placement;
     VehicleModem modem;
-    PlacedVehicle placed() const { return {id, placement, &modem}; }  // valid as long as this end
+    PlacedVehicle placed() const { return {id, placement, &modem}; }  // points into this end
   };
   struct Waiting {
     LinkReply reply;
     SimTime deadline;
     bool wants_paths = false;
-    // What is waited for, by the index of the answer.
+    // Surveys and links whose terrain is awaited, and the ends of these links, by the index of the answer.
     std::map<RayQueryClient::SurveyId, std::size_t> surveys;
     std::set<std::size_t> bottoms;
     std::map<std::size_t, std::pair<ResolvedEnd, ResolvedEnd>> ends;
@@ -128,9 +132,9 @@ class LinkQueryService {
   ResolvedEnd resolve(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   ResolvedEnd resolve_vehicle(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   void answer(const ResolvedEnd& from, const ResolvedEnd& to, NoiseOfLinks& noise, Waiting& waiting);
-  // Valid as long as both ends.
+  // Returns the link between two ends, into which it points.
   static EndPair link_of(const ResolvedEnd& from, const ResolvedEnd& to);
-  // Or why there can be none.
+  // Sets budget, paths and forecast of the answer, or the problem of a position inside the seabed.
   void set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at, NoiseOfLinks& noise,
                      LinkAnswer& answer);
   [[nodiscard]] std::string problem_with_seabed(const ResolvedEnd& end) const;

@@ -79,7 +79,8 @@ std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehi
   for (EndPair& link : missing) {
     if (noise != nullptr) noise->set(link);
   }
-  std::vector<std::shared_ptr<const LinkPredictor::Rates>> rates;  // of the transmitter of each of these
+  // The transmitter's rates, for each link in `missing`.
+  std::vector<std::shared_ptr<const LinkPredictor::Rates>> rates;
   std::size_t link = 0;
   for (const TableRows::Transmitter& transmitter : rows.transmitters) {
     const auto own = predictor.rates_of(vehicles[transmitter.vehicle].modem->modem);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The link tables of an instant: the quality of the link from every vehicle present to every other.
+// The link tables of one instant: the quality of the link from each vehicle present to each other vehicle.
 #pragma once
 
 #include <cstddef>
@@ -25,75 +25,79 @@ namespace halocline::channel_server {
 
 class KeptRows;
 
-// What is known of bottom echoes on a link.
+// The knowledge about bottom echoes on a link.
 enum class Multipath {
   kUnlikely,
   kLikely,   // an echo reaches the receiver above its cut-off
   kUnknown,  // the terrain is not known
 };
 
-// From the bounces of the paths: an echo is a path that met the bottom. Unknown of straight paths.
+// Returns the verdict from the paths of a reception: a path that bounced off the bottom above the cut-off is
+// an echo. kUnknown for straight paths.
 Multipath multipath_of(const Reception& reception, Decibels cutoff);
 
 struct LinkRow {
   VehicleId transmitter_id = 0;  // 0 for a position that holds no vehicle
-  VehicleId receiver_id = 0;     // likewise
+  VehicleId receiver_id = 0;     // 0 for a position that holds no vehicle
   acoustics::LinkBudget budget;
   Multipath multipath = Multipath::kUnknown;
-  SimDuration transmitter_age, receiver_age;  // of the states used
+  SimDuration transmitter_age, receiver_age;  // ages of the states used
   PathState state = PathState::kOpen;
   PropagationUsed used = PropagationUsed::kStraight;
-  std::int32_t path_count = 0;        // but those that are diffuse
-  Decibels diffuse_level = kSilence;  // of Reception
-  SimDuration paths_age;              // of Reception, and since the row was computed
+  std::int32_t path_count = 0;        // without diffuse paths
+  Decibels diffuse_level = kSilence;  // copied from Reception
+  SimDuration paths_age;              // age in Reception plus the time since the row was computed
   double delay_spread_s = 0;
-  double doppler_factor = 1;  // of the first significant path; 1 without one
+  double doppler_factor = 1;  // on the first significant path; 1 without a path
 
   LinkForecast forecast;
 
-  // Takes over budget, paths and what they deliver.
+  // Copies budget, paths and forecast into the row.
   void set(const Reception& reception, const LinkForecast& predicted);
 };
 
 struct LinkTable {
   VehicleId vehicle_id = 0;                           // the transmitter of every row
-  std::vector<LinkRow> rows;                          // by receiver id
+  std::vector<LinkRow> rows;                          // sorted by receiver id
   double range_m = acoustics::kGreatestBoundedRange;  // beyond it there are no rows
-  std::size_t out_of_range = 0;                       // vehicles present without one
+  std::size_t out_of_range = 0;                       // number of vehicles present without a row
 };
 
-// As the propagation takes it; a receiver as which it receives packets of `sender`.
+// Return a vehicle as the propagation takes it; as a receiver with the modem that receives packets of
+// `sender`.
 LinkEnd link_end(const PlacedVehicle& vehicle);
 LinkEnd receiving_end(const PlacedVehicle& vehicle, const acoustics::Modem& sender);
 
-// Which links have rows: of each transmitter that a shard serves those to receivers within its range,
-// transmitter by transmitter, the receivers in the order of the vehicles.
+// The links that have rows: for each transmitter that a shard serves, those to receivers within its range.
+// They are sorted by transmitter, then receiver, in the order of the vehicles.
 struct TableRows {
   struct Transmitter {
-    std::size_t vehicle;  // its index
+    std::size_t vehicle;  // index into the vehicles
     double range_m;
-    std::vector<std::size_t> receivers;  // theirs
+    std::vector<std::size_t> receivers;  // indices into the vehicles
   };
   std::vector<Transmitter> transmitters;
-  std::vector<EndPair> links;                   // of all of them
-  std::vector<std::optional<LinkRow>> carried;  // of links whose rows hold on (kept_rows.h); empty: of none
+  std::vector<EndPair> links;                   // the links of all transmitters
+  std::vector<std::optional<LinkRow>> carried;  // reused rows (kept_rows.h), by link; empty: none is reused
 
   bool is_carried(std::size_t link) const { return !carried.empty() && carried[link]; }
-  // Those that are not carried on.
+  // Returns the links whose rows are not reused.
   std::vector<EndPair> to_compute() const;
 };
 
-// `ranges_m`: of each vehicle, m (ReachModel::reception_ranges_m). Empty: everybody has rows to everybody.
+// Returns the links that have rows. `ranges_m` holds the range of each vehicle, m
+// (ReachModel::reception_ranges_m); when it is empty every vehicle has rows to every other.
 TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vector<double>& ranges_m = {},
                      Shard shard = {});
 
 using MultipathFunction =
     std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
 
-// One table a transmitter, of links whose sound leaves at `instant`; a vehicle alone has an empty one. The
-// propagation is ready for the links of `rows` to compute; all are of `vehicles`. `multipath` is called where
-// paths are straight by choice: rays hold the echoes of the bottom. `kept`, unless null, takes what is
-// computed. `noise`, unless null, replaces the ambient noise of levels, capacity and forecasts.
+// Returns one table for each transmitter, for links whose sound leaves at `instant`; a vehicle without others
+// has an empty table. `rows` holds links between `vehicles`, and the propagation must be ready for those to
+// be computed. `multipath` is called for links whose paths are straight by choice, because rays include the
+// echoes of the bottom. `kept`, unless null, stores the computed rows. `noise`, unless null, replaces the
+// ambient noise of levels, capacity and forecasts.
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
                                    const MultipathFunction& multipath,

@@ -32,7 +32,8 @@ Multipath MultipathCache::look_up(SimTime at, const PlacedVehicle& transmitter, 
   return verdict_of(entry->second, at, transmitter, receiver, propagation);
 }
 
-// A verdict takes as long as a dozen links; modems change rarely, so each verdict is kept beside its survey.
+// Computing a verdict costs as much as a dozen links. Modems change rarely, so each verdict is stored with
+// its survey.
 Multipath MultipathCache::verdict_of(Entry& entry, SimTime at, const PlacedVehicle& transmitter,
                                      const PlacedVehicle& receiver, Propagation& propagation) {
   const bool reversed = transmitter.id > receiver.id;
@@ -53,7 +54,8 @@ void MultipathCache::begin_tick(const std::vector<PlacedVehicle>& vehicles) {
 }
 
 void MultipathCache::store(const VehiclePair& pair, EchoSurvey survey) {
-  if (!places_.contains(pair.first) || !places_.contains(pair.second)) return;  // one of the two has left
+  // One of the two vehicles has left.
+  if (!places_.contains(pair.first) || !places_.contains(pair.second)) return;
   entries_[pair] = {std::move(survey), {}};
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of the bottom echoes between vehicles, and which of it the next link table may use.
+// A cache of echo surveys between pairs of vehicles, and of the verdicts whether a bottom echo is likely, for
+// the next link table.
 //
-// Rule. The row of tick k holds the echoes of the geometry of tick k-1: its answer has had a whole period to
-// arrive, so a table never waits, and a replay gives the same tables. A survey serves as long as both ends
-// (at tick k-1) lie within `reuse_distance` of where they were when it was queried; without one the row holds
-// unknown. One survey serves both directions. Which pairs are surveyed: echo_plan.h.
+// Rule. The row of tick k states the echoes for the geometry of tick k-1. The survey of that geometry has had
+// a whole period to arrive, so a table never waits, and a replay gives the same tables. A survey is used as
+// long as both ends (at tick k-1) lie within `reuse_distance` of the positions that it was made for; without
+// such a survey the row holds kUnknown. One survey serves both directions of a link. echo_plan.h decides
+// which pairs are surveyed.
 #pragma once
 
 #include <cstddef>
@@ -28,22 +30,26 @@ namespace halocline::channel_server {
 
 class MultipathCache {
  public:
-  // m, 0 and up; 0 queries anew whatever moved at all.
+  // `reuse_distance_m` is at least 0; with 0 a pair is surveyed again after any motion.
   explicit MultipathCache(double reuse_distance_m) : reuse_distance_m_(reuse_distance_m) {}
 
-  // For the row of the next tick, from the geometry of the last begin_tick(), in the water of `at`.
+  // Returns the verdict for a row of the next tick, from the geometry of the last begin_tick(), in the water
+  // at `at`.
   Multipath at_last_tick(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
                          Propagation& propagation);
-  // For two places given; unknown where no survey of the pair serves them.
+  // Returns the verdict for the given positions of both vehicles; kUnknown when no survey of the pair is near
+  // enough.
   Multipath at(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
                Propagation& propagation);
 
-  // The tables of a tick are made; its geometry is this.
+  // Stores the positions of a tick, after its tables have been made, and drops the surveys of vehicles that
+  // have left.
   void begin_tick(const std::vector<PlacedVehicle>& vehicles);
-  // The survey's `from` is the lower id. Of vehicles that are not present it is not kept.
+  // Stores a survey whose `from` is the vehicle of the lower id. It is dropped when a vehicle of the pair is
+  // not present.
   void store(const VehiclePair& pair, EchoSurvey survey);
 
-  // The water is another from now on: verdicts are computed anew.
+  // Drops all verdicts, because the water has changed; surveys stay.
   void forget_verdicts();
   void clear();
   std::size_t surveys_kept() const { return entries_.size(); }
@@ -56,7 +62,7 @@ class MultipathCache {
   };
   struct Entry {
     EchoSurvey survey;
-    Verdict verdicts[2];  // from the lower id, from the higher
+    Verdict verdicts[2];  // sound from the lower id, and from the higher
   };
   bool serves(const Entry& entry, const Vec3& low, const Vec3& high) const;
   Multipath verdict_of(Entry& entry, SimTime at, const PlacedVehicle& transmitter,

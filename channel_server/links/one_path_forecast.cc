@@ -14,7 +14,7 @@
 namespace halocline::channel_server {
 namespace {
 
-// A path that has not bounced fades by the medium alone, whatever wind and frequency.
+// A path that has not bounced fades by the medium alone, independently of wind and frequency.
 acoustics::PathFading fading_without_bounce(const acoustics::FadingModel& fading) {
   return path_fading(fading, /*wind_mps=*/0, /*frequency_hz=*/1000, 0, 0);
 }
@@ -46,9 +46,11 @@ std::optional<acoustics::LinkPrediction> OnePathForecast::at(const std::vector<a
   const double ratio = acoustics::fast_power(paths.front().level.value) / noise;
   const double place = (10 * elementary::log10(ratio) - kLeastDb) / kStepDb;
   if (!(place >= 0 && place < static_cast<double>(rows_.size() - 3))) return std::nullopt;
-  const auto i = static_cast<std::size_t>(place);  // between the rows i + 1 and i + 2
+  const auto i = static_cast<std::size_t>(place);  // the ratio lies between rows i + 1 and i + 2
   const double t = place - static_cast<double>(i);
-  // Slopes at both are those between their neighbours (Catmull and Rom 1974).
+  // Catmull-Rom spline (Catmull and Rom 1974) between b and c, at t in 0..1, with the neighbours a and d:
+  //   p(t) = b + t/2 (c - a + t (2 a - 5 b + 4 c - d + t (3 (b - c) + d - a)))
+  // Its slopes at b and c are (c - a)/2 and (d - b)/2.
   const auto between = [&](double Chances::*one) {
     const double a = rows_[i].*one, b = rows_[i + 1].*one, c = rows_[i + 2].*one, d = rows_[i + 3].*one;
     return b + t / 2 * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));

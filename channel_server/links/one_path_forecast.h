@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Predictions of links that have one path without a bounce, by a table: there is one for each packet and each
-// ratio of signal to noise, as nothing else of the link counts.
+// A table of predictions for links with a single path that has not bounced. For a given packet such a link
+// depends on the signal-to-noise ratio alone.
 //
-// Between ratios of kStepDb a cubic goes through the four nearest: within 5e-4 of
-// acoustics/reception/link_prediction.h, at a tenth of its cost; where that jumps, by some hundredths for
-// phase-shift keying of many bits, about between its values beside the jump. Immutable: calls may overlap
-// between threads. Making one takes a millisecond or two.
+// The table has steps of kStepDb. Between them a cubic through the four nearest entries is within 5e-4 of
+// acoustics/reception/link_prediction.h, at a tenth of its cost. Where that prediction jumps, the error is
+// some hundredths for phase-shift keying of many bits: the interpolated value lies about between the values
+// on both sides of the jump. Immutable, so calls may run in parallel. Construction takes a millisecond or
+// two.
 #pragma once
 
 #include <optional>
@@ -22,21 +23,22 @@ class OnePathForecast {
  public:
   static constexpr double kLeastDb = -30, kMostDb = 50, kStepDb = 0.2;
 
-  // Of packets with these curves, over the band of their modem. Empty, without a table, where nothing fades.
+  // Builds the table for packets with these curves, over the band of their modem. The table is empty without
+  // fading.
   OnePathForecast(const acoustics::FadingModel& fading, const acoustics::ReceptionCurves& curves);
 
-  // `noise` in uPa^2 over the band, less the receiver's directivity. Empty where the table does not hold:
-  // other paths, other ratios.
+  // Returns the prediction from the table; empty for other paths and for ratios beyond the table. `noise` is
+  // in uPa^2 over the band, less the receiver's directivity.
   std::optional<acoustics::LinkPrediction> at(const std::vector<acoustics::SoundPath>& paths,
                                               double noise) const;
 
  private:
   struct Chances {
     double acquisition, delivery;
-    double own_share;  // of the signal that interferes with itself
+    double own_share;  // share of the signal that interferes with itself
   };
 
-  acoustics::PathFading of_path_;  // that has not bounced
+  acoustics::PathFading of_path_;  // fading of a path that has not bounced
   std::vector<Chances> rows_;
 };
 

@@ -12,7 +12,7 @@
 namespace halocline::channel_server {
 namespace {
 
-constexpr int kSendings = 4;  // of a batch without an answer
+constexpr int kSendings = 4;  // number of times that a batch without an answer is sent
 
 }  // namespace
 
@@ -83,8 +83,8 @@ std::vector<RayQueryBatch> RayQueryClient::take_batches(SimTime steady) {
   return batches;
 }
 
-// Surveys are not split: all rays of one stage of one survey go in one batch. All tiles have one spacing,
-// that of the seabed's map.
+// A query is never split: all rays of one stage of one survey go in one batch. All tiles have the same
+// spacing, that of the map of the seabed.
 RayQueryBatch RayQueryClient::send_from(Queue& queue, SimTime steady) {
   const RayKind kind = *next_query(queue.front().survey);
   const std::size_t max_rays = kind == RayKind::kTiles ? kTilesPerBatch : rule_.rays_per_batch;

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Has surveys of the terrain answered by a service that may be slow or absent: batches their rays, limits the
-// batches in flight, repeats and times out, and detects when the service is away and back.
+// A client of the terrain service, which may be slow or absent: it sends the rays of surveys in batches,
+// limits the batches in flight, repeats them, times them out, and detects when the service becomes
+// unavailable and available again.
 //
-// Surveys go through their queries (a tile; of an echo survey depths, then ways), each in batches of one kind
-// of up to `rays_per_batch` rays or kTilesPerBatch tiles. No more than `batches_in_flight` wait for an
-// answer. Routine surveys that have not been sent by the next tick are dropped and counted: their rows hold
-// unknown. Urgent surveys go before routine ones.
+// A survey consists of one query (a tile) or two (an echo survey: depths, then ways). A batch holds queries
+// of one kind, up to `rays_per_batch` rays or kTilesPerBatch tiles. At most `batches_in_flight` batches wait
+// for an answer. Urgent surveys go before routine ones. Routine surveys that have not been sent by the next
+// tick are dropped and counted; their rows hold kUnknown.
 //
-// A batch without an answer is sent again after each quarter of the deadline, and given up at the deadline:
-// the service is away then. Where the owner looks for the first time after the deadline, because it was busy
-// itself, the deadline counts from there. While it is away urgent surveys fail at once, and one batch at a
-// time keeps probing; the first answer ends it.
+// A batch without an answer is sent again after each quarter of the deadline and fails at the deadline; the
+// service then counts as unavailable. If the owner was busy and checks a batch for the first time only after
+// its deadline, the deadline counts from that check. While the service is unavailable, urgent surveys fail at
+// once and one batch at a time keeps probing; the first answer ends this state.
 //
-// Time is steady time, given in. Nothing here sends: the owner takes batches and brings answers. A failed
-// survey is returned as unanswered. Not thread-safe.
+// The owner supplies steady time, sends the batches and delivers the answers; this class does no input or
+// output. A failed survey is returned as unanswered. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -38,14 +39,14 @@ struct RayQueryBatch {
   std::int64_t request_id = 0;
   RayKind kind = RayKind::kDepths;
   std::vector<TerrainRay> rays;
-  double spacing_m = 0;  // of tiles: of their points
+  double spacing_m = 0;  // spacing of the points of tiles, m; 0 for other kinds
 };
 
 class RayQueryClient {
  public:
-  // 4096 depths, a reply of 37 kB.
+  // 64 tiles are 4096 depths, a reply of 37 kB.
   static constexpr std::size_t kTilesPerBatch = 64;
-  // Identity of a survey, ascending from 1.
+  // The identity of a survey, ascending from 1.
   using SurveyId = std::int64_t;
   struct Finished {
     SurveyId id = 0;
@@ -61,34 +62,34 @@ class RayQueryClient {
 
   SurveyId submit_routine(TerrainSurvey survey);
   SurveyId submit_urgent(TerrainSurvey survey);
-  // Sends its first query at once, for the service's answer alone: no survey finishes. Nothing while the
-  // service is away.
+  // Sends the first query of a survey only to learn whether the service answers; it never appears as
+  // finished. Does nothing while the service is unavailable.
   void probe(TerrainSurvey survey);
-  // Drops routine surveys not sent yet, and returns them.
+  // Drops routine surveys that have not been sent, and returns their ids.
   std::vector<SurveyId> begin_tick();
 
-  // What to send at `steady`: new batches and repetitions. Gives up what is overdue.
+  // Returns the batches to send at `steady`, new ones and repetitions. Batches beyond their deadline fail.
   std::vector<RayQueryBatch> take_batches(SimTime steady);
-  // The service answered `request_id`; unknown ids (late answers) only show that it is present. An answer of
-  // another count than queried is no answer.
+  // Takes the service's answer to `request_id`. An unknown id (a late answer) only shows that the service is
+  // available. An answer with a wrong count counts as failed.
   void answer(std::int64_t request_id, std::span<const RayAnswer> answers);
-  // The service refused: its surveys fail, it is present.
+  // Takes the service's refusal of `request_id`: the batch's surveys fail, but the service is available.
   void refuse(std::int64_t request_id);
-  // Since the last call, in order of finishing.
+  // Returns the surveys finished since the last call, in order of finishing.
   std::vector<Finished> take_finished();
 
-  // When take_batches is next to be called; at_once() when there is something to send.
+  // Returns when take_batches() is next to be called; at_once() when there is something to send or to take.
   SimTime due() const;
   bool is_away() const { return away_; }
   const Counters& counters() const { return counters_; }
-  // Another run: forgets every survey; none is returned as finished.
+  // Removes every survey, for another run; none is returned as finished.
   void clear();
 
  private:
   struct Waiting {
     SurveyId id = 0;
     bool urgent = false;
-    bool silent = false;  // a probe, whose answer is not needed
+    bool silent = false;  // a probe, whose answer's contents are not needed
     TerrainSurvey survey;
   };
   struct InFlight {
@@ -96,12 +97,12 @@ class RayQueryClient {
     std::vector<Waiting> surveys;
     SimTime sent;
     int repeats = 0;
-    bool looked_after = false;  // by take_batches(), since it was sent
+    bool looked_after = false;  // take_batches() has checked it since it was sent
   };
   using Queue = std::deque<Waiting>;
   Queue& queue_of(const Waiting& waiting);
   bool may_send() const;
-  // What goes next; null when nothing may.
+  // Returns the queue to send from next; null when nothing may be sent.
   const Queue* next_queue() const;
   SimTime next_action(const InFlight& batch) const;
   RayQueryBatch send_from(Queue& queue, SimTime steady);
@@ -115,7 +116,7 @@ class RayQueryClient {
   bool away_ = false;
   SurveyId last_survey_ = 0;
   std::int64_t last_request_ = 0;
-  // What is begun is finished before anything new is; what is urgent goes before all.
+  // Surveys that have begun come before new ones, and urgent ones before all others.
   Queue urgent_ways_, urgent_depths_, routine_ways_, routine_depths_;
   std::map<std::int64_t, InFlight> in_flight_;
   std::vector<Finished> finished_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The noise that receivers hear, as link tables and link queries state it: ambient, that of the receiver's
-// own vehicle, and the mean over fading of what other vehicles radiate. The packet medium has the same, but
-// with the fading of each instant (channel_server/packets/vehicle_sounds.h).
+// The noise at receivers as link tables and link queries state it: ambient noise, noise of the receiver's own
+// vehicle, and the mean over fading of the noise that other vehicles radiate. The packet medium has the same
+// noise, but with the fading of each instant (channel_server/packets/vehicle_sounds.h).
 #pragma once
 
 #include <array>
@@ -20,30 +20,31 @@ class ReceiverNoise {
  public:
   virtual ~ReceiverNoise() = default;
 
-  // Whether it may be another than the ambient one of the environment.
+  // True when the noise may differ from the ambient noise of the environment.
   virtual bool differ() const = 0;
-  // By how much it exceeds that over the transmitter's band, dB, where a link's sound leaves at `at`.
-  // `silent`: a vehicle whose noise is left out; 0: none.
+  // Returns by how much the noise exceeds the ambient noise over the transmitter's band, dB, for a link whose
+  // sound leaves at `at`. `silent` is a vehicle whose noise is left out; 0 for none.
   virtual Decibels above_ambient(const EndPair& link, SimTime at, VehicleId silent) = 0;
-  // Whether the propagation knows all that above_ambient() needs, as Propagation::is_ready.
+  // True when the propagation knows all that above_ambient() needs; as Propagation::is_ready, it requests
+  // what is missing.
   virtual bool is_ready(const EndPair& link, SimTime at, VehicleId silent) = 0;
 };
 
-// At the receivers of links whose sound leaves at one instant; each receiver and band is computed once. Not
-// thread-safe.
+// The noise at the receivers of links whose sound leaves at one instant. Each pair of receiver and band is
+// computed once. Not thread-safe.
 class NoiseOfLinks {
  public:
-  // `model` outlives it.
+  // `model` must outlive this object.
   NoiseOfLinks(ReceiverNoise& model, SimTime at, VehicleId silent = 0)
       : model_(model), at_(at), silent_(silent) {}
 
-  // As ReceiverNoise::is_ready for all of them; what is not known is requested at once.
+  // True when ReceiverNoise::is_ready holds for all links; everything missing is requested at once.
   bool are_ready(const std::vector<EndPair>& links);
-  // Sets LinkEnd::above_ambient of the receiver.
+  // Sets LinkEnd::above_ambient of the link's receiver.
   void set(EndPair& link);
 
  private:
-  using Key = std::pair<VehicleId, std::array<double, 5>>;  // place and band
+  using Key = std::pair<VehicleId, std::array<double, 5>>;  // receiver id; position, m, and band, Hz
   static Key key_of(const EndPair& link);
 
   ReceiverNoise& model_;

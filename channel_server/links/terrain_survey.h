@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surveys of the terrain in one or more queries: each has the kind and the rays of its next query, and takes
-// the answers.
+// A survey of the terrain in one or more queries: it names the kind and the rays of its next query and takes
+// their answers.
 #pragma once
 
 #include <optional>
@@ -16,15 +16,15 @@ namespace halocline::channel_server {
 
 using TerrainSurvey = std::variant<EchoSurvey, TileSurvey>;
 
-// The kind of its next query; empty after the last.
+// Returns the kind of the next query; empty after the last.
 inline std::optional<RayKind> next_query(const TerrainSurvey& survey) {
   return std::visit([](const auto& one) { return one.next_query(); }, survey);
 }
-// The rays of that query.
+// Returns the rays of that query.
 inline std::vector<TerrainRay> rays_of(const TerrainSurvey& survey) {
   return std::visit([](const auto& one) { return one.rays(); }, survey);
 }
-// As many answers as there are to those rays.
+// Takes as many answers as those rays need.
 inline void take(TerrainSurvey& survey, std::span<const RayAnswer> answers) {
   std::visit([&](auto& one) { one.take(answers); }, survey);
 }

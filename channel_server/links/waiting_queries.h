@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Queries of clients that wait for an answer.
+// Recognition of repeated queries among those that wait for an answer.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace halocline::channel_server {
 
-// Whether the query is a repetition of one that waits: of the same client, with the same request_id.
+// True when a query with the same client and request_id is already waiting.
 template <class Waiting, class Query>
 bool is_among(const std::deque<Waiting>& waiting, const Query& query) {
   return std::any_of(waiting.begin(), waiting.end(), [&](const Waiting& one) {

@@ -19,13 +19,13 @@
 namespace halocline::channel_server {
 namespace {
 
-// A fixed point of the arrival is exact enough when a round moves it by less than this; at v/c = 0.07 (100
-// m/s, the fastest that a state may hold) that takes 9 rounds.
+// The fixed-point iteration for the arrival ends when a round changes it by less than this. At v/c = 0.07
+// (100 m/s, the fastest that a state may be) it takes 9 rounds.
 constexpr double kSettledS = 1e-10;
 constexpr int kMaxRounds = 50;
 constexpr int kMaxPropagationCalls = 3;
-// A reception holds for a receiver this close to the position it was evaluated for, and nearly as fast:
-// 0.01 m/s shift a frequency by 7e-6 of itself.
+// A reception is reused for a receiver within this distance of the position for which it was evaluated, and
+// within this velocity: 0.01 m/s shifts a frequency by 7e-6 of itself.
 constexpr double kSamePlaceM = 0.1, kSameVelocityMps = 0.01;
 
 SimDuration shrunk(SimDuration duration, double doppler_factor) {
@@ -39,7 +39,8 @@ bool serves(const Flight& flight, const LinkEnd& end) {
   return same || flight.propagation_calls >= kMaxPropagationCalls;
 }
 
-// Along the first significant path, s/m; along the straight line without one.
+// Returns the slowness vector at the receiver along the first significant path, or along the straight line
+// without a path, s/m.
 Vec3 slowness_at(const Flight& flight, const acoustics::Environment& water) {
   const Vec3 &from = flight.packet->departure_ned_m, &to = flight.place.position_ned_m;
   const double speed_mps = sound_speed_at(water, to);
@@ -50,7 +51,7 @@ Vec3 slowness_at(const Flight& flight, const acoustics::Environment& water) {
   return acoustics::ray_direction(from, to, angle) / speed_mps;
 }
 
-// Takes the reception at `end`, in the water of the departure.
+// Stores a reception computed for the receiver at `end`, with the water at the departure.
 void evaluate(Flight& flight, const LinkEnd& end, Reception reception, const acoustics::Environment& water) {
   ++flight.propagation_calls;
   flight.modem = *end.modem;
@@ -63,10 +64,10 @@ void evaluate(Flight& flight, const LinkEnd& end, Reception reception, const aco
   flight.slowness_s_per_m = slowness_at(flight, water);
 }
 
-// How much later than in the reception, because the receiver has moved on.
+// Returns the delay, in excess of that of the reception, that the receiver's motion since then causes, s.
 double shift_s(const Flight& flight) { return flight.travel_time_s - flight.solved_delay_s; }
 
-// When a path of the reception begins to sound.
+// Returns when a path of the reception begins to sound at the receiver.
 SimTime begin_of(const Flight& flight, const SoundPath& path) {
   return flight.packet->departure + SimDuration::from_seconds(path.delay_s + shift_s(flight));
 }
@@ -77,8 +78,9 @@ acoustics::FadingLink fading_link(const Flight& flight, std::uint64_t seed) {
           static_cast<std::uint32_t>(std::max(from, to)), from > to};
 }
 
-// When the receiver is looked for: until there is a reception, as long after the departure as sound takes
-// along the straight line to where the receiver is then.
+// Returns the instant at which the receiver's position is predicted. Before the first reception it is the
+// departure plus the travel time along the straight line to the receiver's position at the departure; after
+// it, the arrival of the last solution.
 SimTime expected_arrival(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                          Propagation& propagation) {
   if (flight.solutions > 0 && flight.propagation_calls > 0) return flight.arrival();
@@ -90,8 +92,8 @@ SimTime expected_arrival(const Flight& flight, SimTime decided_at, const Vehicle
   return departure + SimDuration::from_seconds((place->position_ned_m - from).norm() / speed_mps);
 }
 
-// Where the receiver is when the propagation is evaluated for it next, with what is known at `decided_at`;
-// empty: nowhere.
+// Returns the receiver's end of the link for the next evaluation of the propagation, with what is known at
+// `decided_at`; empty when the receiver has no position.
 std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                                 Propagation& propagation) {
   const SimTime expected = expected_arrival(flight, decided_at, fleet, propagation);
@@ -121,7 +123,7 @@ void evaluate_together(const std::vector<Flight*>& begun, const VehicleRegistry&
   if (begun.empty()) return;
   const Packet& packet = *begun.front()->packet;
   std::vector<EndPair> links;
-  std::vector<Flight*> flights;  // of these
+  std::vector<Flight*> flights;  // the flights of `links`
   for (Flight* flight : begun) {
     const auto end = next_end(*flight, packet.departure, fleet, propagation);
     if (!end) continue;
@@ -200,7 +202,7 @@ void evaluate_signal(Flight& flight, const acoustics::FadingModel& fading, std::
   if (flight.reception.paths.empty()) return;
   const auto& measured = flight.reception.measured;
   ReceivedSignal& signal = flight.signal;
-  // The receiver gets what lies within its own band.
+  // The receiver gets only the power within its own band.
   const double shared = to_power_ratio(-band_loss(flight.packet->modem, flight.modem)).value;
   const auto& paths = flight.reception.paths;
   const acoustics::FadingLink link = fading_link(flight, seed);

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One packet on its way to one receiver: when and how its sound arrives where the receiver is by then.
+// The propagation of one packet to one receiver that may move: when and how its sound arrives at the position
+// that the receiver has reached by then.
 //
-// Model. The first significant path arrives at the t that solves
+// Model. The packet departs at s. Its first significant path arrives at the instant t that solves
 //     t = s + delay(sender at s, receiver at t).
-// The propagation is evaluated where the receiver is predicted to be after the straight line's travel time;
-// from there the delay to a position nearby is taken to first order, delay + (direction of arrival / sound
-// speed) . (displacement), and t found by fixed point (a contraction: the error falls by v/c, 1e-3 for a
-// submarine, each round). When the sound is about to arrive more than 0.1 m from there, the propagation is
-// evaluated again where it will meet the receiver, so that second-order terms (displacement^2 / (2 range c))
-// are those of the 0.1 m within which a reception is reused: below a nanosecond beyond 2 km.
+// The propagation is evaluated at the receiver's predicted position after the travel time along the straight
+// line. From there the delay to a nearby position x is linearised,
+//     delay(x) = delay(x0) + p . (x - x0),   p: slowness vector of the arriving ray, 1 / sound speed long,
+// and t is found by fixed-point iteration. The iteration is a contraction: each round reduces the error by
+// v/c, 1e-3 for an AUV. When the sound is about to arrive and the receiver will be more than 0.1 m from x0,
+// the propagation is evaluated again at the predicted point of arrival. The neglected second-order terms,
+// displacement^2 / (2 range c), are therefore those of at most 0.1 m: below a nanosecond beyond 2 km.
 //
-// Evaluations of the propagation: one for a receiver at rest or on a straight course, three at most for
-// one that turns. All paths of a flight hold for the one place of its first significant path.
+// The propagation is evaluated once for a receiver at rest or on a straight course, and at most three times
+// for one that turns. All paths of a flight are computed for the receiver's position at the arrival of the
+// first significant path.
 #pragma once
 
 #include <cstdint>
@@ -38,72 +41,76 @@
 namespace halocline::channel_server {
 
 struct Flight {
-  // kSolved: the sound is there, what vehicles sound like is not known yet.
+  // The stage of a flight: kTravelling before its first sound, kSolved when the sound has arrived but the
+  // noise of vehicles at the receiver is not known yet, kPreamble until the end of the preamble, kBits until
+  // the last bit.
   enum class Stage { kTravelling, kSolved, kPreamble, kBits };
 
   PacketPointer packet;
-  std::uint64_t identity = 0;  // of the packet, for draws
+  std::uint64_t identity = 0;  // identity_for_draws() of the packet
   VehicleId receiver_id = 0;
   std::string receiver;
   Stage stage = Stage::kTravelling;
 
-  // Of the latest solution.
+  // Results of the latest solution.
   acoustics::Modem modem;  // the receiver's
-  Placement place;         // the receiver's that `reception` holds for
+  Placement place;         // the receiver's position and velocity for which `reception` was computed
   Reception reception;
-  acoustics::GuardWindow window;  // where the receiver locks; of no path, empty
-  double solved_delay_s = 0;  // of the first significant path at `place`; of the straight line without one
-  Vec3 slowness_s_per_m = Vec3::Zero();  // of that path where it arrives
+  acoustics::GuardWindow window;  // the guard window on which the receiver synchronises; empty without a path
+  // Delay of the first significant path at `place`; of the straight line without a path.
+  double solved_delay_s = 0;
+  Vec3 slowness_s_per_m = Vec3::Zero();  // slowness vector of that path at `place`
   int propagation_calls = 0, solutions = 0;
-  double travel_time_s = 0;  // of the first significant path
+  double travel_time_s = 0;  // along the first significant path
 
-  // Once it has arrived.
-  ReceiverState* sounds_at = nullptr;  // which it is open at until it ends
-  bool is_too_late = false;            // it overlaps a reception that was decided before it was known
-  bool receiver_absent = false;        // at the first significant path: its state is older than the time-out
-  std::vector<NoiseSound> noise;       // of other vehicles, during the packet
-  double large_scale = 1;              // of the pressures, by the link's large-scale fading
+  // Set from the arrival on.
+  ReceiverState* sounds_at = nullptr;  // the receiver at which this reception is open; null before
+  bool is_too_late = false;       // the packet overlaps a reception that was decided before its request came
+  bool receiver_absent = false;   // the receiver's last state had timed out at the first significant path
+  std::vector<NoiseSound> noise;  // noise of other vehicles, constant during the packet
+  double large_scale = 1;         // factor on pressures by the link's large-scale fading
   ReceivedSignal signal;
-  bool is_evaluated = false;  // the signal, by evaluate_signal()
+  bool is_evaluated = false;  // true once evaluate_signal() has set `signal`
   PacketDraws draws = {};
-  std::shared_ptr<const Packet> followed;  // another packet, which the receiver has acquired before
+  // The packet that the receiver is following instead; null without one.
+  std::shared_ptr<const Packet> followed;
   bool acquired = false;
-  bool reports = false;       // its detection was reported, so its end is
-  double timing_error_s = 0;  // of the arrival, as the receiver measures it; 0 unless acquired
+  bool reports = false;       // the detection was reported, so the end is reported, too
+  double timing_error_s = 0;  // error of the measured arrival; 0 unless acquired
   DecisionStatistics statistics;
 
   SimTime arrival() const { return packet->departure + SimDuration::from_seconds(travel_time_s); }
-  // Of the first path of all.
+  // Returns when the earliest path begins to sound.
   SimTime first_sound() const;
-  // When the path that the guard window begins at begins.
+  // Returns when the first path of the guard window begins to sound: the receiver synchronises on it.
   SimTime lock() const;
-  // Of the strongest path in the guard window; 1 without a path.
+  // Returns the Doppler factor of the strongest path in the guard window; 1 without a path.
   double doppler_factor() const;
 };
 
-// Gives flights of one packet, none of which was solved yet, the reception that try_to_solve() would ask for,
-// where the propagation is ready for it; that is shared out by `for_each`.
+// Computes the receptions that try_to_solve() would ask for, for flights of one packet of which none is
+// solved yet, and only where the propagation is ready. The work is shared out by `for_each`.
 void evaluate_together(const std::vector<Flight*>& begun, const VehicleRegistry& fleet,
                        Propagation& propagation, const ForEach& for_each);
 
-// Solves for travel time and reception, with what is known at `decided_at`; false, and nothing is changed,
-// where the propagation does not know all that it needs (Propagation::is_ready_for_packet). A receiver that
-// is forgotten keeps the last solution. Throws as Propagation::reception.
+// Solves for travel time and reception, with what is known at `decided_at`. Returns false and changes nothing
+// when the propagation does not know all that it needs (Propagation::is_ready_for_packet). For a receiver
+// that has been forgotten the last solution stays. Throws as Propagation::reception does.
 [[nodiscard]] bool try_to_solve(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                                 Propagation& propagation);
 
-// All paths of a flight that has arrived, as the receiver gets them, with the link's large-scale fading.
+// Returns the paths of an arrived flight as they sound at the receiver, with the link's large-scale fading.
 AudiblePacket audible_packet(const Flight& flight);
-// The same, without paths where they are too weak to disturb; such a packet may be acquired all the same.
-// Without `reach` all disturb.
+// Returns audible_packet(), without its paths when they are too weak to disturb other receptions; such a
+// packet may still be acquired. Without `reach` every packet disturbs.
 AudiblePacket disturbing_sound(const Flight& flight, const ReachModel* reach);
-// The packet's times at the receiver; `noise` in uPa^2 over the packet's band, less the receiver's
-// directivity.
+// Returns the times of the packet at the receiver, without the history of its signal. `noise` is in uPa^2
+// over the packet's band, less the receiver's directivity.
 ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading);
-// Sets signal and echoes over those times, as they have been known since the signal began. Of no path: they
-// stay empty. Calls for different flights may overlap between threads.
+// Sets the history of signal and echoes between those times, with the fading since the signal began. It stays
+// empty without a path. Calls for different flights may run in parallel.
 void evaluate_signal(Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed);
-// 10^(X/20) of the flight's link when it locks.
+// Returns the large-scale fading factor on pressures, 10^(X/20) with X in dB, of the flight's link at lock().
 double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed);
 
 }  // namespace halocline::channel_server

@@ -18,12 +18,13 @@
 namespace halocline::channel_server {
 namespace {
 
-// Where the sound comes from, seen by the receiver.
+// Sets the direction towards the source, as the receiver sees it.
 void set_direction(const Flight& flight, PacketOutcome& outcome) {
   const Vec3 back = flight.packet->departure_ned_m - flight.place.position_ned_m;
   outcome.arrival_azimuth_rad = elementary::atan2(back.y(), back.x());
   const auto& paths = flight.reception.paths;
-  // Sound that travels downwards comes from above.
+  // A path that travels downwards arrives from above, so the elevation of its source equals its arrival
+  // angle, which is positive down.
   outcome.arrival_elevation_rad = paths.empty()
                                       ? elementary::atan2(-back.z(), elementary::hypot(back.x(), back.y()))
                                       : paths[first_significant(paths)].arrival_angle_rad;
@@ -33,13 +34,13 @@ bool is_for(const SendRequest& request, VehicleId receiver) {
   return request.destination_id == receiver || request.destination_id == kBroadcastId;
 }
 
-// What a vehicle's clock gains from one instant to another, s.
+// Returns what a vehicle's clock gains from one instant to another, s.
 double gain_s(const VehicleClocks& clocks, VehicleId id, SimTime from, SimTime to) {
   return clocks.error_s(id, to) - clocks.error_s(id, from);
 }
 
-// Of an answer: what the one that asked measures by its clock, less what both ends know of packets and
-// turnaround.
+// Returns the two-way travel time that the vehicle that asked measures with its clock from an answer: the
+// elapsed time less the packet's duration and the turnaround, which both ends know, s.
 double two_way_travel_time_s(const Flight& answer, const VehicleClocks& clocks) {
   const Packet& asked = *answer.packet->answers;
   const SimDuration waited =
@@ -48,14 +49,14 @@ double two_way_travel_time_s(const Flight& answer, const VehicleClocks& clocks) 
          gain_s(clocks, answer.receiver_id, asked.departure, answer.arrival());
 }
 
-// The receiver's clock at the arrival, less the sender's at the departure.
+// Returns the receiver's clock at the arrival less the sender's clock at the departure, s.
 double one_way_travel_time_s(const Flight& flight, const VehicleClocks& clocks) {
   const Packet& packet = *flight.packet;
   return flight.travel_time_s + clocks.error_s(flight.receiver_id, flight.arrival()) -
          clocks.error_s(packet.request.source_id, packet.departure);
 }
 
-// A time of arrival as the receiver's modem gives it: with its error, in steps of its quantum.
+// Returns a time as the receiver's modem measures it: with the timing error, rounded to its time quantum, s.
 double measured(const Flight& flight, double time_s) {
   const double quantum_s = flight.modem.time_quantum.seconds(), noisy_s = time_s + flight.timing_error_s;
   return quantum_s > 0 ? std::round(noisy_s / quantum_s) * quantum_s : noisy_s;
@@ -76,7 +77,7 @@ OutcomeKind outcome_without_path(PathState state) {
   return OutcomeKind::kShadow;
 }
 
-// The packet's departure by its sender's clock.
+// Returns the packet's departure by its sender's clock.
 SimTime departure_stamp(const Flight& flight, const VehicleClocks& clocks) {
   const Packet& packet = *flight.packet;
   return packet.departure +
@@ -205,7 +206,7 @@ bool asks_for_answer(const PacketOutcome& outcome, const VehicleEquipment& equip
   return outcome.deliver && is_asked && wants_answer(request);
 }
 
-// The clock that gains g over the turnaround makes it g shorter (to the first order in its drift).
+// A clock that gains g over the turnaround makes it g shorter, to first order in its drift.
 ModemReply answer_of(const Flight& flight, SimTime at, const VehicleClocks& clocks) {
   const Packet& asked = *flight.packet;
   SendRequest answer;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The record of a flight at its end, and what decides it before noise and other sounds do.
+// The record of a flight at its end, and the outcomes that are decided without noise and other sounds.
 #pragma once
 
 #include <cstdint>
@@ -21,38 +21,46 @@
 
 namespace halocline::channel_server {
 
-// The first bit's arrival of a packet that was acquired, by the receiver's clock, as its modem measures it.
+// Returns the arrival of an acquired packet's first bit, by the receiver's clock and as its modem measures
+// it.
 SimTime measured_arrival(const Flight& flight, const VehicleClocks& clocks);
 
-// Without regard to noise and other sounds; kReceived: the packet may be acquired.
+// Returns the outcome that is decided without noise and other sounds; kReceived when the packet may be
+// acquired.
 OutcomeKind outcome_before_acquisition(const Flight& flight);
-// A wall where nothing fades; with fading the shift costs signal (acoustics/reception/signal_history.h).
+// True when the Doppler shift exceeds the modem's tolerance. This is a hard limit for links without fading
+// only; with fading the shift reduces the signal instead (acoustics/reception/signal_history.h).
 bool is_shifted_too_far(const Flight& flight);
 
-// Evaluates the signal of `first`, and beside it those of `soon`, flights in their preambles, that will be
-// asked for unless their receivers acquire others before; shared out by `for_each`.
+// Evaluates the signal of `first` and, in parallel, those of the flights in `soon`, which are in their
+// preambles. The signals of `soon` will be needed unless their receivers acquire other packets before. The
+// work is shared out by `for_each`.
 void evaluate_signals(Flight& first, std::vector<Flight*> soon, const acoustics::FadingModel& fading,
                       std::uint64_t seed, const ForEach& for_each);
 
-// At the last bit, at `at`: sets the rest of the statistics. `receiver`: what sounds there meanwhile.
+// Decides the outcome at the instant `at` of the last bit and sets the remaining statistics. `receiver` holds
+// the sounds at the receiver.
 OutcomeKind decide_outcome(Flight& flight, SimTime at, const VehicleRegistry& fleet,
                            const ReceiverState& receiver);
 
-// The record of a flight that ended as `kind`; `promiscuous`: the receiver takes packets for others, too.
+// Returns the record of a flight that ended as `kind`. A `promiscuous` receiver also takes packets for
+// others.
 PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleEquipment& equipment,
                          bool promiscuous = false);
-// Of a packet that does not get as far as `range_m`, at a receiver, or without one at several: kOutOfReach.
-// Levels are kSilence, nothing else was computed.
+// Returns the outcome kOutOfReach of a packet at a receiver `range_m` away, or with receiver_id 0 at several
+// receivers. Levels are kSilence; nothing else was computed.
 PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m, VehicleId receiver_id = 0,
                                    std::string receiver = {});
-// What a packet took from the battery of its sender, and of its receiver by its end; nothing without one.
+// Add the energy that a packet took from the battery of its sender, and of its receiver by the packet's end.
+// Nothing is added for a vehicle without a battery.
 void add_sending(const Packet& packet, const VehiclePower& power, std::vector<MediumEvent>& events);
 void add_receiving(const Flight& flight, const PacketOutcome& outcome, SimTime at, const VehiclePower& power,
                    std::vector<MediumEvent>& events);
-// Whether the receiver's modem answers by itself: a ping, or a packet that wants an acknowledgement, received
-// by its addressee; a ping to all received by a transponder.
+// True when the receiver's modem answers without its user's program: its addressee received a ping or a
+// packet that asks for an acknowledgement, or a transponder received a ping to all.
 bool asks_for_answer(const PacketOutcome& outcome, const VehicleEquipment& equipment);
-// The answer to a packet that was received by `at`: it leaves a turnaround later by the receiver's clock.
+// Returns the answer to a packet that was received by `at`. It leaves one turnaround time after the packet's
+// last bit, by the receiver's clock.
 ModemReply answer_of(const Flight& flight, SimTime at, const VehicleClocks& clocks);
 
 }  // namespace halocline::channel_server

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flights of a medium, in the order of their next events: by instant, then by stage, receiver and packet.
+// A queue of the flights of a medium, in the order of their next events: by instant, then stage, receiver and
+// packet.
 //
-// A binary heap of small entries, most of which are compared without a look at the flights. Flights stay
-// where they are made; one that has ended serves the next packet, so there are as many as ever were under way
-// at a time.
+// It is a binary heap of small entries, which are mostly compared without access to the flights. Flights stay
+// at their place in memory, and an ended flight is reused for the next packet, so memory holds only as many
+// flights as were ever under way at one time.
 #pragma once
 
 #include <cstddef>
@@ -23,25 +24,26 @@ class FlightQueue {
  public:
   bool empty() const { return entries_.empty(); }
   std::size_t size() const { return entries_.size(); }
-  // Of the first flight, only while not empty.
+  // Returns the instant of the first flight's next event; requires a queue that is not empty.
   SimTime next_event() const { return entries_.front().at; }
-  // Removes it: to be added again, or to be ended.
+  // Removes and returns the first flight; the caller adds it again or ends it.
   Flight& take_first();
 
-  // Of a packet (`identity`: identity_for_draws) to a receiver; to be added.
+  // Makes a flight of a packet to a receiver, not yet in the queue. `identity` is identity_for_draws() of the
+  // packet.
   Flight& make_flight(PacketPointer packet, std::uint64_t identity, VehicleId receiver_id,
                       std::string receiver);
-  // Its next event is at `at`, in the stage that it has. No other flight may be of the same packet to the
-  // same receiver.
+  // Adds a flight whose next event, in its present stage, is at `at`. No other flight may be of the same
+  // packet to the same receiver.
   void add(SimTime at, Flight& flight);
   void end(Flight& flight);
   void clear();
-  // Calls visit(instant of the next event, flight) for each, in no order.
+  // Calls visit(instant of the next event, flight) for each flight, in no particular order.
   template <class Visit>
   void visit(Visit&& visit) const {
     for (const Entry& entry : entries_) visit(entry.at, *entry.flight);
   }
-  // The flights of one stage whose next event is at `time` or before, in no order.
+  // Returns the flights in one stage whose next event is at `time` or before, in no particular order.
   std::vector<Flight*> due_by(SimTime time, Flight::Stage stage) const;
 
  private:

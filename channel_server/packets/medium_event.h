@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What happens in the medium: to packets, at modems and to batteries.
+// Events of the medium: at packets, modems and batteries.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace halocline::channel_server {
 
-// What one packet takes from a vehicle's battery: of its sender whole at the departure, of a receiver that
-// acquired it, whatever became of it, at its end.
+// The energy that one packet takes from a vehicle's battery. A sender spends all of it at the departure; a
+// receiver that acquired the packet spends it at the packet's end, whatever the outcome.
 struct EnergyUse {
   std::string vehicle;
   bool is_transmission = true;
@@ -22,38 +22,38 @@ struct EnergyUse {
   PacketName packet;
 };
 
-// In the order of modem_event_t.
+// The kind of a modem's event. The enumerators have the values of modem_event_t.
 enum class ModemEventKind {
   kTransmissionBegan,
   kTransmissionEnded,
-  kPacketDetected,  // at the end of its preamble
-  kPacketEnded,     // the last bit of one detected
+  kPacketDetected,  // at the end of the preamble
+  kPacketEnded,     // at the last bit of a detected packet
   kCarrierBegan,
   kCarrierEnded,
-  kHeaderReceived,  // of one detected: whose it is, and for whom
+  kHeaderReceived,  // header of a detected packet: its source and destination are known
 };
 
-// What a modem does or notices (modem_watch.h).
+// An event at a modem: a transmission of its own or something that it detects (modem_watch.h).
 struct ModemEvent {
   std::string vehicle;
   ModemEventKind kind = ModemEventKind::kTransmissionBegan;
-  std::int64_t session = 0, packet_sequence = 0;  // of an own transmission
-  Decibels level = {};  // of the packet or carrier, dB re 1 uPa; 0 of an own transmission
-  Decibels sinr = {};   // of a packet that ended
-  OutcomeKind outcome = OutcomeKind::kReceived;  // likewise
-  // Of a header that was received, or a packet that was.
+  std::int64_t session = 0, packet_sequence = 0;  // for an own transmission
+  Decibels level = {};  // level of the packet or carrier, dB re 1 uPa; 0 for an own transmission
+  Decibels sinr = {};   // for a packet that ended
+  OutcomeKind outcome = OutcomeKind::kReceived;  // for a packet that ended
+  // Set for a received header and for a received packet.
   VehicleId source_id = 0, destination_id = 0;
-  SimDuration packet_duration = {};  // as sent
-  SimTime packet_end = {};           // of its last bit at the receiver
-  std::int32_t rate_number = 0;      // of a packet that was detected
-  SimTime measured_arrival = {};     // likewise, at its detection alone (PacketOutcome)
+  SimDuration packet_duration = {};  // duration at the sender
+  SimTime packet_end = {};           // arrival of its last bit at the receiver
+  std::int32_t rate_number = 0;      // for a detected packet
+  SimTime measured_arrival = {};     // only at a detection: the arrival as measured (PacketOutcome)
 };
 
 struct MediumEvent {
   SimTime at;  // exactly when it happened
-  // Answers only for other shards.
+  // The event; a ModemReply only when other shards need it.
   std::variant<Receipt, PacketOutcome, ModemReply, ModemEvent, EnergyUse> what;
-  bool late = false;  // the medium had been advanced beyond `at` before it could know of this
+  bool late = false;  // the medium had advanced beyond `at` before it could know of the event
 };
 
 }  // namespace halocline::channel_server

@@ -13,7 +13,7 @@
 namespace halocline::channel_server {
 namespace {
 
-// What the modem knows once it has the packet's header.
+// Sets what the modem knows once it has decoded the packet's header.
 void set_header(const Flight& flight, ModemEvent& event) {
   event.source_id = flight.packet->request.source_id;
   event.destination_id = flight.packet->request.destination_id;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What modems notice besides whole packets, for those that report it (Listening::events): their own
-// transmissions, packets detected, and carrier.
+// The events that modems report besides whole packets, if they report any (Listening::events): their own
+// transmissions, detections of packets, and carrier.
 //
-// Carrier. Each path of each packet of others counts with its mean power in the modem's band while it sounds.
-// Carrier is sensed where their sum exceeds the noise of the band, less the directivity index, by the modem's
-// carrier_threshold:
+// Carrier. Each path of each packet from other modems counts with its mean power P_i in the modem's band
+// while it sounds. Carrier is sensed when the sum exceeds the noise power N of the band, less the directivity
+// index, by the modem's carrier_threshold, dB:
 //   sum_i P_i(t) > 10^(threshold / 10) N
-// Changes come at the exact instants at which the sum passes that level, but not within kCarrierHold of the
-// one before: a detector of energy averages over so much. A modem that transmits or sleeps senses nothing.
-// The noise is that of the instant at which sound last began or ended.
+// Changes are reported at the exact instants at which the sum crosses that level, but at least kCarrierHold
+// apart: an energy detector averages over about that time. A modem that transmits or sleeps senses nothing. N
+// is the noise at the instant at which a sound last began or ended.
 //
-// Each TRANSMISSION_ENDED, PACKET_ENDED and CARRIER_ENDED follows its beginning, even where the modem reports
-// no more by then. Bounded: two events for a transmission, three for a packet followed (one at a time), 100
-// changes of carrier a second. Not thread-safe.
+// Each TRANSMISSION_ENDED, PACKET_ENDED and CARRIER_ENDED follows its beginning, even if the modem has
+// stopped reporting by then. The number of events is bounded: two for a transmission, three for a packet that
+// is followed (one at a time), and 100 carrier changes a second. Not thread-safe.
 #pragma once
 
 #include <algorithm>
@@ -37,28 +37,28 @@ class ModemWatch {
  public:
   static constexpr SimDuration kCarrierHold = SimDuration::from_milliseconds(10);
 
-  // All must outlive it.
+  // The references must outlive this object.
   ModemWatch(const VehicleRegistry& fleet, VehicleSounds& sounds) : fleet_(fleet), sounds_(sounds) {}
 
-  // A packet leaves now.
+  // Reports the begin of a transmission, and schedules the report of its end.
   void begin_transmission(const Packet& packet, std::vector<MediumEvent>& events);
-  // When the next transmission that was reported ends, or the next header of a packet that was; never()
+  // Returns when the next reported transmission ends, or the next header of a detected packet; never()
   // without one.
   SimTime next_end() const { return std::min(next_of(ends_), next_of(headers_)); }
   void end_transmission_or_header(std::vector<MediumEvent>& events);
 
-  // The receiver of a flight has acquired its packet, at the end of the preamble.
+  // Reports that the receiver of a flight has acquired its packet, at the end of the preamble.
   void detect(Flight& flight, std::vector<MediumEvent>& events);
-  // The last bit of a packet, detected or not.
+  // Reports the end of a packet at its last bit, if its detection was reported.
   static void end(const Flight& flight, SimTime at, OutcomeKind outcome, std::vector<MediumEvent>& events);
 
-  // What is heard at a vehicle, or how its modem listens, changes at `at`: its carrier is to be judged then,
-  // after all else of that instant. Nothing where the modem reports nothing.
+  // Schedules an update of a vehicle's carrier at `at`, after all else of that instant, because what is heard
+  // there or how its modem listens changes then. Does nothing when the modem reports no events.
   void judge_carrier_at(VehicleId id, SimTime at);
   SimTime next_carrier() const { return due_.empty() ? SimTime::never() : due_.begin()->first; }
-  // Of whom next_carrier() is; only while there is one.
+  // Returns the vehicle of next_carrier(); requires that there is one.
   VehicleId next_to_judge() const { return due_.begin()->second; }
-  // `heard` by that vehicle.
+  // Updates the carrier of next_to_judge(); `heard` holds the sounds at that vehicle.
   void judge_carrier(const ReceiverState& heard, std::vector<MediumEvent>& events);
 
   void forget_before(SimTime time);
@@ -75,16 +75,16 @@ class ModemWatch {
   static SimTime next_of(const ByEnd<Value>& ends) {
     return ends.empty() ? SimTime::never() : ends.begin()->first.first;
   }
-  // Whether the header of a packet that was detected is right, at its last bit.
+  // True when the header of a detected packet is right at its last bit.
   bool has_header(const Flight& flight, SimTime end) const;
   void change(VehicleId id, Carrier& carrier, SimTime at, double power, std::vector<MediumEvent>& events);
 
   const VehicleRegistry& fleet_;
   VehicleSounds& sounds_;
-  ByEnd<ModemEvent> ends_;        // of transmissions
-  ByEnd<const Flight*> headers_;  // of packets that are followed, until their headers end
+  ByEnd<ModemEvent> ends_;        // reported transmissions that have not ended
+  ByEnd<const Flight*> headers_;  // packets that are followed, by the end of their headers
   std::map<VehicleId, Carrier> carriers_;
-  std::set<std::pair<SimTime, VehicleId>> due_;  // to judge once too often changes nothing
+  std::set<std::pair<SimTime, VehicleId>> due_;  // an update that is not needed changes nothing
 };
 
 }  // namespace halocline::channel_server

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Noise over the bands in use, each integrated once: a run has few bands and a sea state that changes slowly.
+// A cache of ambient noise levels over the bands in use: each is integrated once, because a run has few bands
+// and a sea state that changes slowly.
 #pragma once
 
 #include <array>
@@ -19,15 +20,15 @@ class NoiseLevelCache {
  public:
   static constexpr std::size_t kMaxKept = 32;
 
-  // dB re 1 uPa; as acoustics::noise_level_over_band.
+  // Returns the level over the band, dB re 1 uPa, as acoustics::noise_level_over_band.
   Decibels level(const acoustics::Band& band, const acoustics::NoiseSources& sources);
 
  private:
-  // Low and high end of the band, Hz; shipping; wind, m/s; rain, mm/h. A table is as old as its sea, which
-  // outlives it.
+  // Low and high end of the band, Hz; shipping; wind, m/s; rain, mm/h; the table of the sea, which outlives
+  // the cache and never changes.
   using Key = std::pair<std::array<double, 5>, const acoustics::NoiseSpectrum*>;
   LruCache<Key, Decibels> levels_{kMaxKept};
-  // What was asked for last, which is what most packets ask for.
+  // The last query and its result: most packets repeat it.
   Key last_ = {};
   Decibels last_level_;
 };

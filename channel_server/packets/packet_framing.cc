@@ -22,7 +22,7 @@ bool has_kind(const Modem& modem, PacketKind kind) {
   return !is_janus(kind) || modem.layout.application_bits > 0;
 }
 
-// A modem's own rate or another.
+// A rate of a modem: its own rate or one of its others.
 struct Rate {
   std::int32_t number;
   const Modem* modem;
@@ -42,7 +42,7 @@ std::optional<Rate> find_rate(const VehicleModem& vehicle, std::optional<std::in
   return rate == nullptr ? std::nullopt : std::optional(rate_of(*rate));
 }
 
-// Whether the bytes are a number below 2^bits, in no more bytes than that needs.
+// True when the bytes are a number below 2^bits and there are no more of them than that needs.
 bool fits(std::span<const std::uint8_t> bytes, std::size_t bits) {
   const std::size_t unused = 8 * bytes.size() > bits ? 8 * bytes.size() - bits : 0;
   return unused < 8 && (unused == 0 || static_cast<std::size_t>(std::countl_zero(bytes.front())) >= unused);
@@ -68,7 +68,7 @@ std::optional<Division> divide_data(const Rate& rate, const SendRequest& request
   return Division{*std::move(format), request.frame_bytes};
 }
 
-// The application data in the header is frame 0; its bits are the header's.
+// The application data in the header counts as frame 0, which has no bits beyond the header's.
 std::optional<Division> divide_janus(const Rate& rate, const SendRequest& request) {
   const acoustics::FrameLayout& layout = rate.modem->layout;
   const std::span<const std::uint8_t> payload = request.payload;

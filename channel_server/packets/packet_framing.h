@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a modem sends what is requested: at which of its rates, and how the packet is divided.
+// The framing of a requested packet: the modem's rate at which it is sent, and its division into frames.
 //
-// Without a rate in the request a packet goes at the modem's own rate; one of a kind that this has not, at
-// the rate of the least number that has it (a Micromodem's mini-packets are frequency-shift keying). Kinds:
+// A request without a rate uses the modem's own rate. When that rate has no packets of the requested kind,
+// the rate of the lowest number that has them is used (a Micromodem's mini-packets are frequency-shift
+// keying). Kinds:
 //   data        header and frames of the payload
-//   ping        likewise; its answer has no payload
-//   ack         a mini-packet where a rate has these, else data of one bit for each frame acknowledged, in
+//   ping        as data; its answer has no payload
+//   ack         a mini-packet if a rate has these, else data with one bit for each acknowledged frame, in
 //               whole bytes
-//   mini        one block of `mini_packet_bits`, no header; 13 bits of them are the payload's
-//   JANUS       the header alone, whose `application_bits` are the payload's; with cargo, a second frame
+//   mini        one block of `mini_packet_bits` without a header; 13 of the bits carry the payload
+//   JANUS       the header alone, whose `application_bits` carry the payload; with cargo, a second frame
 //               follows
-// A payload of bits lies in whole bytes, the high byte first, in their lowest bits.
+// A payload of bits is stored in whole bytes, the high byte first, right-aligned in the lowest bits.
 #pragma once
 
 #include <cstddef>
@@ -24,15 +25,16 @@
 
 namespace halocline::channel_server {
 
-// Of a Micromodem's mini-packet (WHOI's command CCMUC).
+// Payload bits of a Micromodem's mini-packet (WHOI's command CCMUC).
 inline constexpr std::size_t kMiniPayloadBits = 13;
 
 struct Framing {
-  SendResult problem = SendResult::kAccepted;  // kNoRate, kNoKind or kTooLarge: all else is of no consequence
+  // kNoRate, kNoKind or kTooLarge leave the other members without meaning.
+  SendResult problem = SendResult::kAccepted;
   std::int32_t rate_number = 0;
-  acoustics::Modem modem;  // as which it sends
+  acoustics::Modem modem;  // the modem's parameters at that rate, and the requested source level
   acoustics::PacketFormat format;
-  std::vector<std::int32_t> frame_bytes;  // of the payload
+  std::vector<std::int32_t> frame_bytes;  // payload bytes in each frame
   acoustics::PacketTiming timing = {};
 };
 

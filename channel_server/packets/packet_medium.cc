@@ -16,11 +16,13 @@
 namespace halocline::channel_server {
 namespace {
 
-// An arrival solved at an instant no further before it than this stands: the receiver moves by micrometres.
+// Largest error of a first sound's instant that ends the iteration: within it the receiver moves by
+// micrometres.
 constexpr SimDuration kSolvedInTime = SimDuration::from_microseconds(1);
-// Signals of which most are asked for within this time are evaluated together.
+// Signals that are likely to be needed within this time are evaluated together.
 constexpr SimDuration kSoon = SimDuration::from_milliseconds(100);
-// Each solution a little later halves the rest at least; this many mean a receiver that runs from the sound.
+// Largest number of solutions for one arrival. Each solution, a little later than the one before, at least
+// halves the remaining error; this many mean a receiver that outruns the sound.
 constexpr int kMaxSolutions = 64;
 
 }  // namespace
@@ -129,7 +131,7 @@ bool PacketMedium::must_be_put_off(const Departure& departure) const {
 void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events) {
   if (departure.queued) {
     const PacketPointer packet = at_its_departure(*departure.queued, fleet_);
-    // The battery may have run out while it waited: then it is never sent.
+    // The battery may have run out while the packet waited; then it is never sent.
     if (power().has_power(packet->request.source_id, packet->departure)) launch(packet, events);
     return;
   }
@@ -158,7 +160,7 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
       add_departure(decision.start, {request, nullptr, packet});
     }
   }
-  if (departure.answers) return;  // a modem gives itself no receipt
+  if (departure.answers) return;  // a modem's own answer gets no receipt
   Receipt receipt{request.vehicle, request.session, request.packet_sequence, decision.result, {}, {}};
   if (accepted) {
     receipt.start = decision.start;
@@ -169,7 +171,7 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
   events.push_back({request.start, std::move(receipt)});
 }
 
-// Everybody knows the states of all, so the shard of the sender counts those out of reach.
+// Every shard knows all states, so the sender's shard alone counts the receivers out of reach.
 void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>& events) {
   const SimTime departure = packet->departure;
   const VehicleId source = packet->request.source_id, destination = packet->request.destination_id;
@@ -247,7 +249,7 @@ bool PacketMedium::try_to_arrive(Flight& flight, SimTime at) {
 void PacketMedium::begin_reception(Flight& flight, SimTime at) {
   const SimTime arrival = flight.arrival();
   auto& budget = flight.reception.budget;
-  // The reception holds for a place within a decimetre.
+  // The reception was computed within a decimetre of this place; the range is that of the place itself.
   const auto place = fleet_.prediction(flight.receiver_id, arrival, at);
   if (place) budget.range_m = (place->position_ned_m - flight.packet->departure_ned_m).norm();
   sounds_.set_noise(flight, at);

@@ -8,16 +8,17 @@
 namespace halocline::channel_server {
 namespace {
 
-// Forgetting is worth a walk over everything only when there is much new.
+// Sounds are dropped only when at least this many are new, because a pass visits all of them.
 constexpr std::size_t kFewSounds = 64;
 
-// A packet without a duration counts at its instant.
+// A packet without a duration counts at its single instant.
 bool overlap(const PacketInterval& span, SimTime begin, SimTime end) {
   return begin < span.end && (span.begin < end || span.begin == begin);
 }
 
-// Whether both answer one ping to all. Each transponder has a frequency or a code of its own, for which
-// receivers have a filter each: such answers neither disturb nor displace one another.
+// True when both packets answer one ping to all. Each transponder has a frequency or a code of its own, and
+// receivers have a filter for each: such answers neither disturb one another nor keep each other from being
+// acquired.
 bool answer_one_ping(const Packet& a, const Packet& b) {
   const SendRequest &one = a.request, &other = b.request;
   return one.kind == PacketKind::kPingReply && other.kind == PacketKind::kPingReply &&

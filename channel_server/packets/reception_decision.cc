@@ -16,7 +16,7 @@
 namespace halocline::channel_server {
 namespace {
 
-// The sum of the powers of many paths over [begin, end): constant from one step to the next.
+// The sum of the powers of many paths over [begin, end), as a step function of time.
 class PowerSteps {
  public:
   PowerSteps(const std::vector<Interference>& paths, SimTime begin, SimTime end) {
@@ -40,12 +40,13 @@ class PowerSteps {
     double power = 0;
     for (std::size_t i = 0; i < changes.size(); ++i) {
       power += changes[i].power;
-      // What rounding leaves after the last path has ended may lie below 0.
+      // Rounding may leave a small negative sum after the last path has ended.
       if (i + 1 == changes.size() || changes[i + 1].at > changes[i].at)
         steps_.push_back({changes[i].at, std::max(power, 0.0)});
     }
   }
-  // Calls visit(seconds, power) for each stretch of constant power within [from, to), a part of the whole.
+  // Calls visit(seconds, power) for each interval of constant power within [from, to), a part of [begin,
+  // end).
   template <class Visitor>
   void for_each_stretch(SimTime from, SimTime to, Visitor&& visit) const {
     if (steps_.empty()) return visit((to - from).seconds(), 0.0);
@@ -64,10 +65,11 @@ class PowerSteps {
     SimTime from;
     double power;
   };
-  std::vector<Step> steps_;  // by time, the first where the whole begins; none without paths
+  std::vector<Step> steps_;  // ascending, the first at `begin`; empty without paths
 };
 
-// Means of signal and own echoes over a part of the packet; of no duration, those of its first instant.
+// The means of the signal and of the packet's own echoes over a part of the packet, uPa^2; their values at
+// its first instant if the part has no duration.
 struct SignalMeans {
   double signal = 0, echoes = 0;
 };
@@ -96,7 +98,8 @@ PowerRatio mean_sinr(const ReceivedSignal& signal, const std::vector<Interferenc
                           mean_power(signal.bursts, begin, end))};
 }
 
-// Adds what falls into [begin, end), `whole_s` long, to the block's decoder.
+// Adds to the decoder of a block the SINR of each cell of the history within [begin, end), weighted by the
+// cell's share of that span and of the band: SINR = S / (N + echoes + interference).
 void add_cells(const ReceivedSignal& signal, const PowerSteps& others, SimTime begin, SimTime end,
                acoustics::BlockDecoder& block) {
   const acoustics::SignalHistory& history = signal.history;
@@ -120,20 +123,20 @@ std::vector<Interference> with_bursts(std::vector<Interference> others, const Re
   return others;
 }
 
-// At which an information bit of the packet begins; they lie evenly.
+// Returns the instant at which an information bit of the packet begins; the bits are evenly spaced.
 SimTime instant_of(const ReceivedSignal& signal, std::int64_t bit) {
   const double bits_s = (signal.end - signal.preamble_end).seconds();
   const auto all_bits = static_cast<double>(signal.packet->timing.information_bits);
   return signal.preamble_end + SimDuration::from_seconds(bits_s * static_cast<double>(bit) / all_bits);
 }
 
-// The chances of a packet's blocks, one after the other.
+// The success probabilities of a packet's blocks, header and frames, computed one after the other.
 class BlockChances {
  public:
   BlockChances(const ReceivedSignal& signal, const std::vector<Interference>& others)
       : signal_(signal), steps_(with_bursts(others, signal), signal.preamble_end, signal.end) {}
 
-  // Of the next block being right.
+  // Returns the probability that the next block is right.
   double next(std::int64_t bits) {
     if (bits == 0) return 1;
     acoustics::BlockDecoder block(signal_.packet->modem, signal_.fades);
@@ -151,8 +154,8 @@ class BlockChances {
 };
 
 struct Decoded {
-  double probability = 0;         // of at least one frame
-  std::uint32_t frames_good = 0;  // by the draws
+  double probability = 0;         // probability that at least one frame is right
+  std::uint32_t frames_good = 0;  // bit i is set when frame i is right by the draws
 };
 
 Decoded decode(const ReceivedSignal& signal, const std::vector<Interference>& others,
@@ -162,7 +165,8 @@ Decoded decode(const ReceivedSignal& signal, const std::vector<Interference>& ot
   const double header = chances.next(format.header_bits);
   const bool header_good = draws.success < header;
   Decoded decoded;
-  double first = 1, none = 1;  // the chance of the first frame, and of all being wrong, given the header
+  // The probabilities, given the header, that the first frame is right and that all frames are wrong.
+  double first = 1, none = 1;
   for (std::size_t i = 0; i < format.frame_bits.size(); ++i) {
     const double chance = chances.next(format.frame_bits[i]);
     if (i == 0) first = chance;
@@ -171,7 +175,7 @@ Decoded decode(const ReceivedSignal& signal, const std::vector<Interference>& ot
         i == 0 ? draws.success < header * chance : header_good && draws.later_frames[i - 1] < chance;
     if (good) decoded.frames_good |= 1u << i;
   }
-  // Of one frame without the loss of digits in 1 - (1 - P).
+  // For one frame the product is used directly, because 1 - (1 - P) would lose digits.
   decoded.probability = format.frame_bits.size() == 1 ? header * first : header * (1 - none);
   return decoded;
 }

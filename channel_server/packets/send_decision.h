@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of a request to transmit at its start, and the packet that it makes.
+// The decision about a request to transmit at its start, and the packet of a queued request at its departure.
 #pragma once
 
 #include "channel_server/packets/packet.h"
@@ -10,19 +10,19 @@
 
 namespace halocline::channel_server {
 
-inline constexpr std::size_t kMaxQueuedSends = 16;  // at one modem
+inline constexpr std::size_t kMaxQueuedSends = 16;  // queued packets at one modem
 
 struct SendDecision {
   SendResult result;
-  SimTime start;  // of the transmission, where it is accepted or queued
+  SimTime start;  // start of the transmission when it is accepted or queued
 };
 
-// Of a request that is sent as `framing`.
+// Decides about a request that is sent with `framing`.
 SendDecision decide_send(const SendRequest& request, const Framing& framing, const VehicleRegistry& fleet,
                          const SendRegister& sends);
 
-// A queued packet as it departs: where the sender is by then, or was when the packet was accepted should it
-// be forgotten since.
+// Returns a queued packet as it departs, with the sender's position then. When the sender has been forgotten
+// since, the packet keeps the position at which it was accepted.
 PacketPointer at_its_departure(const Packet& queued, const VehicleRegistry& fleet);
 
 }  // namespace halocline::channel_server

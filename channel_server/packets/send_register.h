@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The receipt of each transmission requested, so that a repetition is answered, not transmitted again; and
-// the intervals in which each modem is occupied.
+// A register of the receipts of all requested transmissions, so that a repeated request is answered and not
+// transmitted again, and of the intervals in which each modem is occupied.
 //
-// A modem that queues sends one after the other, in the order of their starts: the next one when all accepted
-// before have ended.
+// A modem that queues sends its packets one after the other, in the order of their starts: the next begins
+// when all accepted before it have ended.
 //
-// A request's name is (vehicle, session, packet_sequence); of a sender that keeps no session (0) also the
-// start, because its numbers may begin anew. Nothing is ever transmitted twice: a request is known for as
-// long as its start may be accepted; beyond that kMaxOld are kept for kOldAge, 3 MB at most, so that who
-// repeats a SEND late is told what became of it.
+// A request's name is (vehicle, session, packet_sequence). For a sender that keeps no session (0) the start
+// is part of the name, because its sequence numbers may begin again. Nothing is ever transmitted twice: a
+// request is known for as long as its start may be accepted. After that kMaxOld requests (3 MB at most) are
+// kept for kOldAge, so that a sender that repeats its request (SEND) late gets the receipt of the first.
 #pragma once
 
 #include <compare>
@@ -36,27 +36,27 @@ RequestName name_of(const SendRequest& request);
 
 class SendRegister {
  public:
-  // Of more packets the earliest starts are forgotten.
+  // The largest number of packets known; beyond it those with the earliest starts are forgotten.
   static constexpr std::size_t kMaxPackets = 100'000;
-  // Packets that stay known when their starts are too old to be accepted.
+  // The largest number of packets that stay known although their starts are too old to be accepted.
   static constexpr std::size_t kMaxOld = 10'000;
   static constexpr SimDuration kOldAge = SimDuration::from_nanoseconds(600'000'000'000);
 
-  // True for a packet that is new; it is known from now on, its receipt outstanding.
+  // Returns true for a new request, which is known from now on and has no receipt yet.
   [[nodiscard]] bool enter(const SendRequest& request);
   void decide(const SendRequest& request, const Receipt& receipt);
-  // Null while undecided.
+  // Returns null while the request is undecided, or when it is not known.
   const Receipt* receipt_of(const SendRequest& request) const;
 
-  // True when the modem is occupied at any time of [start, start + duration).
+  // True when the modem transmits during any part of [start, start + duration).
   bool is_busy(const std::string& vehicle, SimTime start, SimDuration duration) const;
-  // When a modem that queues is free for a transmission requested for `start`: never before it.
+  // Returns when a modem that queues is free for a transmission requested for `start`; at least `start`.
   SimTime free_from(const std::string& vehicle, SimTime start) const;
-  // Transmissions accepted that have not started at `instant`.
+  // Returns the number of accepted transmissions that have not started at `instant`.
   std::size_t waiting_at(const std::string& vehicle, SimTime instant) const;
   void occupy(const std::string& vehicle, SimTime start, SimDuration duration);
 
-  // No request that starts before `time` is accepted any more.
+  // Declares that no request with a start before `time` is accepted any more.
   void forget_before(SimTime time);
   std::size_t size() const { return entries_.size(); }
 

@@ -13,7 +13,7 @@
 namespace halocline::channel_server {
 namespace {
 
-// The sound of no modem: nobody receives it.
+// The waveform family of vehicle noise, which no modem receives.
 constexpr const char* kNoiseFamily = "vehicle-noise";
 
 Hearing hearing_of(const Flight& flight, SimTime decided_at) {
@@ -41,7 +41,7 @@ double VehicleSounds::own_power(VehicleId receiver, const acoustics::Band& band,
          noise_power_at_1m(own->second, speed_of(own->second, at, decided_at), band.low_hz, band.high_hz);
 }
 
-// Null where the vehicle is nowhere, or silent.
+// Returns null when the vehicle has no position or makes no noise.
 PacketPointer VehicleSounds::sound_of(const NoiseOf& noise, const Hearing& hearing) const {
   const auto& [receiver, band, at, decided_at, silent] = hearing;
   const auto now = fleet_.placement(noise.id, at, decided_at);
@@ -84,7 +84,7 @@ std::vector<PacketPointer> VehicleSounds::sounds_within_reach(const Hearing& hea
 }
 
 bool VehicleSounds::is_ready(const Hearing& hearing) {
-  bool ready = true;  // of all of them, so that all are requested at once
+  bool ready = true;  // asks for every sound, so that all missing paths are requested at once
   for (const PacketPointer& sound : sounds_within_reach(hearing)) {
     ready = propagation_.is_ready_for_packet(sound->departure, sound->link_end(), hearing.receiver) && ready;
   }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the noise of vehicles does at a receiver: to the reception of a packet, and to link tables.
+// The noise of vehicles at a receiver: in the reception of a packet, and in link tables.
 //
 // The receiver's own noise adds to the ambient noise over the packet's band. The noise of every other vehicle
-// comes along the paths of sound from where it was, as far as its reach (propagation/reach.h) goes: with the
-// mean power of all paths and the large-scale fading of the link, as the sound of packets does. It left where
-// a straight line puts it to arrive with the packet, is as loud as it was then for the whole of the packet,
-// and disturbs like a packet that sounds all the while: by name, among the colliders. Left out: how it
-// changes during the packet, and its delays along several paths. Link tables state the mean over fading.
+// within its reach (propagation/reach.h) arrives along the eigenrays from that vehicle's position, with the
+// mean power of all paths and the large-scale fading of the link, as the sound of packets does. Its departure
+// is taken as the arrival of the packet less the travel time along the straight line. It keeps the loudness
+// of that departure for the whole of the packet. It disturbs like a packet that sounds all the while, and is
+// named among the colliders.
+// Not modelled: changes of the noise during the packet, and its delays along several paths. Link tables state
+// the mean over fading.
 #pragma once
 
 #include <cstdint>
@@ -29,17 +31,18 @@
 
 namespace halocline::channel_server {
 
-// A receiver in a band of its own or of a packet's, at an instant, as decided at another.
+// A query for the noise at a receiver, in its own band or a packet's, at the instant `at`, with the states
+// known at `decided_at`.
 struct Hearing {
   LinkEnd receiver;
   acoustics::Band band;
   SimTime at, decided_at;
-  VehicleId silent = 0;  // another vehicle whose noise is left out; 0: none
+  VehicleId silent = 0;  // another vehicle whose noise is left out; 0 for none
 };
 
 class VehicleSounds {
  public:
-  // All must outlive it; without `reach` all are heard.
+  // The references must outlive this object. Without `reach` every vehicle is heard.
   VehicleSounds(const VehicleRegistry& fleet, Propagation& propagation, ReachModel* reach,
                 const acoustics::FadingModel& fading, const acoustics::NoiseVariation& variation,
                 std::uint64_t seed)
@@ -50,33 +53,34 @@ class VehicleSounds {
         variation_(variation),
         seed_(seed) {}
 
-  // Whether there are vehicles that make any.
+  // True when some vehicle makes noise.
   bool any() const { return !fleet_.equipment().noise.sources().empty(); }
-  // Whether the noise at a receiver may be another than the ambient one of the environment.
+  // True when the noise at a receiver may differ from the ambient noise of the environment.
   bool differ() const { return any() || variation_.spread_db > 0; }
-  // Power over the band that the receiver hears of itself at `at`, uPa^2.
+  // Returns the power over the band of the receiver's own noise at its hydrophone at `at`, uPa^2.
   double own_power(VehicleId receiver, const acoustics::Band& band, SimTime at, SimTime decided_at) const;
-  // Over the band, ambient and the receiver's own, dB re 1 uPa.
+  // Returns the level over the band of ambient and own noise, dB re 1 uPa.
   Decibels noise_level(VehicleId receiver, const acoustics::Band& band, SimTime at, SimTime decided_at);
-  // Sets the noise level in the packet's band, ambient and the receiver's own, and the noise of other
-  // vehicles beside it.
+  // Sets the level of ambient and own noise in the packet's band, and the noise of other vehicles.
   void set_noise(Flight& flight, SimTime decided_at);
-  // Of a flight whose arrival is solved: whether the propagation knows all that set_noise() needs, as
-  // Propagation::is_ready.
+  // True when the propagation knows all that set_noise() needs for a flight whose arrival is solved; as
+  // Propagation::is_ready, it requests what is missing.
   bool are_ready(const Flight& flight, SimTime decided_at);
 
-  // Over the band, ambient, the receiver's own and the mean power of all others, dB re 1 uPa.
+  // Returns the level over the band of ambient noise, own noise and the mean noise of all other vehicles, dB
+  // re 1 uPa.
   Decibels mean_level(const Hearing& hearing);
-  // By how much that exceeds the ambient noise of the environment, dB.
+  // Returns mean_level() less the ambient noise of the environment, dB.
   Decibels above_ambient(const Hearing& hearing);
-  // Whether the propagation knows all that these need, as Propagation::is_ready.
+  // True when the propagation knows all that these two need; as Propagation::is_ready, it requests what is
+  // missing.
   bool is_ready(const Hearing& hearing);
 
  private:
   double speed_of(const NoiseOf& noise, SimTime at, SimTime decided_at) const;
   std::vector<PacketPointer> sounds_within_reach(const Hearing& hearing);
   PacketPointer sound_of(const NoiseOf& noise, const Hearing& hearing) const;
-  // The mean power of the noise of all other vehicles at the receiver, by their id.
+  // Returns the mean noise power of each other vehicle at the receiver, sorted by vehicle id.
   std::vector<NoiseSound> others(const Hearing& hearing);
 
   const VehicleRegistry& fleet_;
@@ -88,8 +92,8 @@ class VehicleSounds {
   std::uint64_t seed_;
 };
 
-// All other packets at the flight's receiver during [begin, end), and the noise of other vehicles, which
-// sounds all the while.
+// Returns all other packets at the flight's receiver during [begin, end), and the noise of other vehicles,
+// which lasts for the whole packet.
 Interferers interferers_of(const Flight& flight, const ReceiverState& receiver, SimTime begin, SimTime end);
 
 }  // namespace halocline::channel_server
