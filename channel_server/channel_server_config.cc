@@ -22,10 +22,11 @@
 namespace halocline::channel_server {
 namespace {
 
-// Of a vehicle's noise; our choice, where a scenario gives no other.
+// References of a vehicle's noise when a scenario gives none; the values are chosen.
 constexpr double kReferenceRpm = 1500, kReferenceMps = 2;
 
-// LCM carries more, but a table a minute is no table and 50 Hz of a large fleet is a flood.
+// Bounds of the rate of link tables. LCM carries more, but 50 Hz of a large fleet already floods the bus, and
+// tables less often than once a minute are of no use.
 constexpr double kMinLinkRateHz = 1.0 / 60, kMaxLinkRateHz = 50;
 
 template <class Count>

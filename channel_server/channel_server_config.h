@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the channel server reads of a scenario file: [environment], [propagation], [[environment_change]],
+// The channel server's part of a scenario file: [environment], [propagation], [[environment_change]],
 // [modem], [vehicle.modem], [vehicle.clock], [vehicle.noise] and [channel_server].
 //
-// The structs are SI; every key's unit and range is in the .cc, where it is visited, and in --example.
+// The structs hold SI units. The unit and range of each key stand in the .cc file that visits it, and in the
+// output of --example.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +43,7 @@
 
 namespace halocline::channel_server {
 
-// The source of temperature and salinity, or of speed.
+// The source of the sound-speed profile: temperature and salinity, or sound speed itself.
 enum class ProfileSource {
   kGlobalMean,
   kGlobalMeanOfSalinity35,
@@ -58,12 +59,13 @@ struct ProfileConfig {
   ProfileSource source = ProfileSource::kGlobalMean;
   double isovelocity_mps = 1500;
   std::vector<Vec3> water_rows;                    // depth m, temperature degC, salinity psu
-  std::vector<double> speed_depths_m, speeds_mps;  // as many of each
-  FilePath file, salinity_file;                    // salinity only where in a file of its own
-  bool position_given = false;  // of the column of a gridded file; else the scenario's origin
+  std::vector<double> speed_depths_m, speeds_mps;  // equally long
+  FilePath file, salinity_file;                    // salinity_file only if salinity has a file of its own
+  // The column of a gridded file is at this position, else at the scenario's origin.
+  bool position_given = false;
   double latitude_rad = 0, longitude_rad = 0;
-  std::int64_t time_index = 0;  // of a gridded file with several times
-  // Where the source knows speeds only; absorption depends on them.
+  std::int64_t time_index = 0;  // used with a gridded file of several times
+  // Temperature and salinity for absorption, when the source holds sound speeds only.
   acoustics::WaterSample assumed{10, 35};
 };
 
@@ -72,7 +74,7 @@ struct EnvironmentConfig {
   std::string sound_speed_model = "mackenzie";
   std::string absorption_model = "francois-garrison";
   acoustics::NoiseSources noise{.wind_mps = 5};
-  FilePath noise_file;  // instead of these
+  FilePath noise_file;  // a table of noise spectra that replaces `noise`
   acoustics::NoiseVariation noise_variation;
   double spreading_exponent = 1.5;
   double ph = 8.0;
@@ -80,17 +82,18 @@ struct EnvironmentConfig {
 
 enum class PropagationModel { kRays, kStraight };
 
-// The bottom by name or by numbers; what rays look for.
+// The bottom, by name or by numbers, and the parameters of the ray search.
 struct PropagationConfig {
   PropagationModel model = PropagationModel::kRays;
-  std::string sediment = "MediumSand";  // of acoustics/sea/boundary_reflection.h; "custom": the three numbers
+  // A name of acoustics/sea/boundary_reflection.h, or "custom" for the three numbers.
+  std::string sediment = "MediumSand";
   double bottom_density_ratio = 1.9, bottom_sound_speed_mps = 1650, bottom_attenuation_db = 0.8;
   std::string surface_loss_model = "apl-bubbles";
-  std::string solver = "auto";                       // or images, snell, arcs
-  acoustics::RayOptions options{.max_bounces = -1};  // below 0: by range over depth
+  std::string solver = "auto";                       // auto, images, snell or arcs
+  acoustics::RayOptions options{.max_bounces = -1};  // negative: from range over depth
   double min_amplitude_db = -160;
-  double max_bounce_loss_db = 30;  // of all bounces of a path together
-  double shadow_loss_db = 120;     // our choice; 0: none stated
+  double max_bounce_loss_db = 30;  // total of all bounces of a path, relative to the strongest path
+  double shadow_loss_db = 120;     // chosen; 0: shadows have no level
   double diffuse_below_noise_db = 5, weak_below_diffuse_db = 6;
   double speed_tolerance_mps = 0.02, reuse_distance_m = 25;
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
@@ -100,7 +103,7 @@ struct PropagationConfig {
   acoustics::Reverberation reverberation;
 };
 
-// One [[environment_change]]; what is not given stays as it was.
+// One [[environment_change]]; a member without a value leaves its quantity unchanged.
 struct ChangeConfig {
   double at_s = 0;
   std::optional<double> wind_mps, shipping, sea_surface_z_m;
@@ -108,23 +111,26 @@ struct ChangeConfig {
   std::optional<double> rain_mm_per_h = {};
 };
 
-// How the server works; defaults as in the headers of its parts.
+// The rules of the server; defaults as in the headers of its parts.
 inline constexpr int kMaxShards = 64;
 
 struct ServerRules {
-  SimDuration link_period = SimDuration::from_milliseconds(1000);  // between two LINKS of a vehicle
+  // Time between two LINKS messages of a vehicle.
+  SimDuration link_period = SimDuration::from_milliseconds(1000);
   PositionRule position;
   MediumRule medium;
   ReachRule reach;
   RayQueryRule ray_queries;
-  int bottom_points = 9;  // under each link, for its echoes
+  int bottom_points = 9;  // points on the bottom under each link, for its echoes
   EchoRule echoes;
   SeabedRule seabed;
-  double profile_reuse_distance_m = 25;  // between the places where bottom profiles of link tables end
-  double row_reuse_distance_m = 0;       // over which rows of link tables are carried on (links/kept_rows.h)
-  int max_searches_per_tick = 0;         // of paths, for link tables; 0: as many as they need
-  int threads = 1;                       // that compute link tables
-  int predicted_payload_bytes = 32;      // of the packets whose delivery link tables predict
+  // Size of the lattice of the ends of bottom profiles of link tables, m.
+  double profile_reuse_distance_m = 25;
+  // Distance over which rows of link tables are reused, m (links/kept_rows.h).
+  double row_reuse_distance_m = 0;
+  int max_searches_per_tick = 0;     // eigenray searches for link tables; 0: as many as are needed
+  int threads = 1;                   // threads that compute link tables and the paths of packets
+  int predicted_payload_bytes = 32;  // payload of the packets whose delivery link tables predict
 };
 
 struct ChannelServerConfig {
@@ -132,7 +138,7 @@ struct ChannelServerConfig {
     std::string name;
     bool has_modem = false;
     VehicleModem modem;
-    bool carries_modem = true;  // false: a ship, a jammer
+    bool carries_modem = true;  // false for a ship or a jammer
     bool is_transponder = false;
     std::optional<ClockSettings> clock;
     std::optional<NoiseOf> noise;
@@ -146,40 +152,40 @@ struct ChannelServerConfig {
 };
 
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config);
-// Its part that is about the water: [environment], [propagation] and [[environment_change]]
-// (water_config.cc).
+// Visits [environment], [propagation] and [[environment_change]] (water_config.cc).
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
 
-// The keys of [environment] about noise.
+// Visits the keys of [environment] about noise.
 void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& config);
-// Its noise_file; empty without one. Throws InvalidArgument as acoustics::read_noise_table.
+// Returns the spectra of noise_file; empty without a file. Throws InvalidArgument as
+// acoustics::read_noise_table does.
 std::vector<acoustics::TimedSpectrum> noise_table(const EnvironmentConfig& config);
-// The sources at the start, with the first of these.
+// Returns the noise sources at the start, with the first spectrum of noise_file.
 acoustics::NoiseSources noise_sources(const EnvironmentConfig& config);
 
-// The water of a scenario. Throws InvalidArgument when a profile cannot be read or
-// is impossible.
+// Returns the water of a scenario. Throws InvalidArgument when a profile cannot be read or is impossible.
 acoustics::Environment make_environment(const EnvironmentConfig& config, const bus::Scenario& scenario);
 
-// Puts the ocean's field that the scenario names, where sound goes through it, and its profile at the world's
-// origin into the environment. Throws InvalidArgument when it cannot be.
+// Sets the environment's ocean field to the one that the scenario names, if sound is to pass through it, and
+// its profile to that at the world's origin. Throws InvalidArgument when the field cannot be used.
 void set_field(const bus::Scenario& scenario, acoustics::Environment& environment);
 
-// Its profile of sound speed. Throws likewise.
+// Returns the sound-speed profile of a scenario. Throws InvalidArgument when it cannot be read or is
+// impossible.
 acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario);
 
-// Rays as configured. Throws InvalidArgument when a part is out of range.
+// Returns the configured ray model. Throws InvalidArgument when a parameter is out of range.
 RayModel make_rays(const ChannelServerConfig& config);
 
 ConfiguredModems make_modems(const ChannelServerConfig& config);
 
-// The rules with what other sections say of them: seed, fading, the noise that varies.
+// Returns the rules with the values that other sections give: seed, fading, and variation of the noise.
 ServerRules make_rules(const ChannelServerConfig& config, const bus::Scenario& scenario);
 
-// Of the vehicles that have some.
+// Returns the clocks, noise sources, batteries and transponders of the vehicles that have them.
 VehicleEquipment make_equipment(const ChannelServerConfig& config, const bus::Scenario& scenario);
 
-// What link tables predict of packets, with the profiles of models/modems.
+// Returns the predictor of link tables, with the profiles of models/modems.
 LinkPredictor make_predictor(const ServerRules& rules);
 
 }  // namespace halocline::channel_server

@@ -26,18 +26,19 @@ namespace {
 
 namespace channels = bus::channels;
 
-// Due as soon as simulation time is known: before every time that a message may hold.
+// An instant before every time that a message may hold: due as soon as simulation time is known.
 constexpr SimTime kBeforeAll = SimTime::from_nanoseconds(-4'000'000'000'000'000'000);
 constexpr SimDuration kEnvironmentPeriod = SimDuration::from_milliseconds(60'000);
 constexpr SimDuration kScenarioPeriod = SimDuration::from_milliseconds(60'000);
-// After a jump of time no more tables than these are made up for.
+// Largest number of missed ticks for which tables are made after a jump of time.
 constexpr std::int64_t kMaxTicksBehind = 100;
-// How much longer than their rules states and receipts are kept, for every instant that may still be
-// evaluated.
+// Additional time for which states and receipts are kept, beyond their rules, for every instant that may
+// still be evaluated.
 constexpr SimDuration kKeptLonger = SimDuration::from_milliseconds(1000);
 constexpr SimDuration kForgettingPeriod = SimDuration::from_milliseconds(1000);
 
-// The same for all servers of a scenario, wherever each has its files.
+// Returns a hash of the configuration that is the same for all servers of a scenario, wherever each has its
+// files.
 std::uint64_t hash_of(const std::vector<scenario_info_t>& scenario) {
   std::string lines;
   for (const scenario_info_t& part : scenario) {
@@ -48,7 +49,8 @@ std::uint64_t hash_of(const std::vector<scenario_info_t>& scenario) {
   return xxh3(lines);
 }
 
-// At most about a kilobyte a second: a minute, or more of a configuration that carries files.
+// Returns the period of SCENARIO: a minute, or more for a configuration that carries files, so that it takes
+// about a kilobyte a second at most.
 SimDuration scenario_period(const std::vector<scenario_info_t>& scenario) {
   constexpr std::size_t kBytesAMinute = 64'000;
   std::size_t bytes = 0;
@@ -121,8 +123,8 @@ bus::Due ChannelServerNode::on_due() const {
           .steady = std::min({seabed_.due(), queries_.due(), places_.due(), exchange_.due()})};
 }
 
-// Between ticks it publishes what packets come to and answers; other servers receive only the answers of
-// that.
+// Between ticks the node publishes outcomes of packets and answers of modems; other servers receive only the
+// answers.
 SimTime ChannelServerNode::on_quiet_until(const ChannelTest& matters) const {
   if (exchange_.will_tell_of_terrain()) return SimTime::at_once();
   for (const bus::Family& family : {channels::kReceipt, channels::kReceive, channels::kModemEvent,
@@ -170,7 +172,8 @@ void ChannelServerNode::set_first_instants(SimTime now) {
   if (next_tick_ < earliest) next_tick_ = on_grid_from(earliest, rules_.link_period);
 }
 
-// What holds from an instant on counts for what leaves at that very instant, so it is published before.
+// The environment from an instant on applies to sound that leaves at that instant, so it is published before
+// the medium advances.
 bool ChannelServerNode::run_instant(SimTime instant, SimTime steady) {
   if (instant == next_scenario_) publish_scenario(instant);
   if (instant == next_environment_) publish_environment(instant);
@@ -181,7 +184,7 @@ bool ChannelServerNode::run_instant(SimTime instant, SimTime steady) {
   return true;
 }
 
-// No table of a tick that passed while the server was away is published.
+// During recovery no tables are published: their ticks passed while the server was down.
 bool ChannelServerNode::run_tick(SimTime tick, SimTime steady) {
   if (recovery_) return true;
   if (!tables_in_work_ || tables_in_work_->tick != tick) tables_in_work_ = begin_tables(tick);
@@ -220,7 +223,8 @@ bool ChannelServerNode::prepare(Tables& tables, SimTime steady) {
   Propagation& propagation = *water_.propagation;
   const SimTime tick = tables.tick;
   const std::vector<EndPair> links = tables.rows.to_compute();
-  const bool is_noise_ready = tables_.is_noise_ready(tick, links);  // asked first: all is requested at once
+  // Asked first, so that all missing data are requested at once.
+  const bool is_noise_ready = tables_.is_noise_ready(tick, links);
   if (!propagation.are_ready(tick, links) || !is_noise_ready) return false;
   if (propagation.plans_ticks()) propagation.begin_tick(tick, tables.all_links());
   if (shares_searches_) {
@@ -246,7 +250,7 @@ void ChannelServerNode::publish_environment(SimTime instant) {
       std::min(next_on_grid(instant, kEnvironmentPeriod), water_.waters->next_change_after(instant));
 }
 
-// Whoever joined since the last time gets it, too.
+// The scenario is repeated for programs that have joined since the last time.
 void ChannelServerNode::publish_scenario(SimTime instant) {
   next_scenario_ = scenario_.empty() ? SimTime::never() : next_on_grid(instant, scenario_period_);
   if (recovery_) return;
@@ -256,8 +260,8 @@ void ChannelServerNode::publish_scenario(SimTime instant) {
   }
 }
 
-// The earliest instant evaluated is the start of a SEND received late, whose sender may have timed out
-// before. It walks over all vehicles and receivers, so it is done once a second.
+// The earliest instant that may be evaluated is the start of a SEND received late, whose sender may have
+// timed out before. Forgetting visits all vehicles and receivers, so it is done once a second.
 void ChannelServerNode::forget_old(SimTime now) {
   if (now < next_forgetting_) return;
   next_forgetting_ = next_on_grid(now, kForgettingPeriod);
@@ -272,7 +276,7 @@ void ChannelServerNode::answer_queries(const bus::Now& now) {
   for (const link_query_t& query : inbox_.take_queries()) queries_.submit(to_query(query), sim, now.steady);
   for (const best_place_query_t& query : inbox_.take_place_queries())
     places_.submit(to_query(query), sim, now.steady);
-  const auto places = places_.take_replies(now.steady);  // asks for the seabed that it needs
+  const auto places = places_.take_replies(now.steady);  // requests the seabed that the places need
   seabed_.publish_queries(now);
   const auto publish = [&](const auto& replies, const bus::Family& family) {
     for (const auto& reply : replies) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The channel server on the bus: receives states, modems and transmissions of vehicles; publishes the
-// scenario, the water, the link tables, and the outcome of every packet; answers queries of links and of best
-// places. --interface lists its channels.
+// The channel server as a node on the bus. It receives states, modems and transmissions of vehicles;
+// publishes the scenario, the water, the link tables and the outcome of every packet; and answers queries of
+// links and of best places. --interface lists its channels.
 //
-// Of several servers of one water (rules.medium.shard) each receives what all the others receive and
-// publishes its share; the first also ENVIRONMENT and SCENARIO; queries go by their request_id; MODEM_REPLY
-// passes on answers to pings, FOUND_PATHS the paths that two of them need.
-// With a journal a server that was killed goes on where it was (server_recovery.h).
+// Several servers may share the water (rules.medium.shard). Each receives what all others receive and
+// publishes its share; the first one also publishes ENVIRONMENT and SCENARIO; a query is answered by the
+// server given by its request_id. MODEM_REPLY passes on answers to pings, FOUND_PATHS the eigenrays that two
+// servers need. With a journal, a server that was killed resumes where it was (server_recovery.h).
 #pragma once
 
 #include <algorithm>
@@ -52,14 +52,14 @@ namespace halocline::channel_server {
 
 class ChannelServerNode : public bus::Node {
  public:
-  // `scenario`: what SCENARIO is to hold (scenario_messages.h); empty: it is not published.
+  // `scenario` is the contents of SCENARIO (scenario_messages.h); when it is empty SCENARIO is not published.
   ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, WaterModel water,
                     const ConfiguredModems& modems, const ServerRules& rules,
                     std::vector<scenario_info_t> scenario = {}, VehicleEquipment equipment = {});
 
-  // Keeps a journal at `path`, and resumes what an earlier incarnation left there, of the same `digest` of
-  // the configuration. Once, before anything is dispatched; not in lockstep, where the conductor replays.
-  // Throws InvalidArgument when it cannot be written.
+  // Keeps a journal at `path`, and resumes from what an earlier incarnation with the same `digest` of the
+  // configuration left there. To be called once, before anything is dispatched, and not in lockstep, where
+  // the conductor replays. Throws InvalidArgument when the file cannot be written.
   void open_journal(const std::string& path, std::uint64_t digest = 0);
   bool waits_for_repair() const override { return true; }
 
@@ -71,35 +71,37 @@ class ChannelServerNode : public bus::Node {
   std::string status_text() const override;
 
  private:
-  // The instants at which something is published by itself: tables, the scenario, and the environment where
-  // it changes.
+  // Returns the next instant at which something is published without being asked for: tables, the scenario,
+  // and the environment, periodically and when it changes.
   SimTime next_instant() const { return std::min({next_tick_, next_environment_, next_scenario_}); }
   void set_first_instants(SimTime now);
-  // False when a table waits for the seabed or for another server.
+  // Publishes what is due at the instant; returns false when a table waits for the seabed or for another
+  // server.
   [[nodiscard]] bool run_instant(SimTime instant, SimTime steady);
   [[nodiscard]] bool run_tick(SimTime tick, SimTime steady);
-  // The link tables of a tick, which is as it was first seen however long they wait.
+  // The link tables of a tick in preparation. Vehicles and links stay as they were at the tick, however long
+  // the tables wait.
   struct Tables {
     SimTime tick;
     std::vector<std::unique_ptr<const VehicleModem>> modems;
     std::vector<PlacedVehicle> present;
     std::vector<double> ranges_m;
     TableRows rows;
-    std::vector<EndPair> links_of_all;  // of this server and others; empty where there are none
+    std::vector<EndPair> links_of_all;  // links of all servers; empty when this server is alone
     const std::vector<EndPair>& all_links() const { return links_of_all.empty() ? rows.links : links_of_all; }
-    bool is_prepared = false;  // what this server is to search has been searched
+    bool is_prepared = false;  // this server's eigenray searches are done
   };
   Tables begin_tables(SimTime tick);
-  // False when the seabed under them is not known yet.
+  // Returns false when the seabed under the links is not known yet.
   [[nodiscard]] bool prepare(Tables& tables, SimTime steady);
   void advance_medium(SimTime time);
-  // `latest`: the time by CLOCK, which `now` may lag behind.
+  // Applies the inputs of a step. `latest` is the time by CLOCK, which `now` may lag behind.
   void apply(StepInputs inputs, SimTime now, SimTime latest);
   void publish_environment(SimTime instant);
   void publish_scenario(SimTime instant);
   void forget_old(SimTime now);
   void answer_queries(const bus::Now& now);
-  // True when the present is reached.
+  // Redoes recorded steps; returns true when the present is reached.
   [[nodiscard]] bool recover(const bus::Now& now);
 
   ServerRules rules_;
@@ -109,7 +111,7 @@ class ChannelServerNode : public bus::Node {
   ReachModel reach_;
   PacketMedium medium_;
   VehicleSounds sounds_;
-  SoundsAtReceivers noise_;  // in tables and answers
+  SoundsAtReceivers noise_;  // noise in link tables and in answers to queries
   LinkPredictor predictor_;
   KeptRows kept_rows_;
   MultipathCache echoes_;
@@ -135,8 +137,7 @@ class ChannelServerNode : public bus::Node {
   bool shares_searches_ = false;
 };
 
-// The node of a scenario. Throws InvalidArgument when the water or a modem is
-// impossible.
+// Returns the node of a scenario. Throws InvalidArgument when the water or a modem is impossible.
 std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus::NodeIdentity& identity,
                                                        const ChannelServerConfig& config,
                                                        const bus::Scenario& scenario);

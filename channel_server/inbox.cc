@@ -15,7 +15,7 @@ namespace {
 
 namespace channels = bus::channels;
 
-// Of one kind between two steps; a second of a thousand vehicles at 50 Hz.
+// Largest number of messages of one kind between two steps: one second of a thousand vehicles at 50 Hz.
 constexpr std::size_t kMaxMessages = 50'000;
 constexpr std::size_t kMaxChanges = 100;
 
@@ -59,7 +59,7 @@ Inbox::Inbox(bus::Bus& bus, const Shard& shard, const VehicleEquipment& equipmen
   });
 }
 
-// Of several servers each answers the queries of its request_ids.
+// Among several servers each answers the queries whose request_id modulo their number is its index.
 template <class Query>
 void Inbox::subscribe_queries(std::string_view channel, const Shard& shard, std::vector<Query>& queries,
                               std::size_t most) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The messages that the channel server has received and no step has taken yet; bounded.
+// The messages that the channel server has received and no step has taken yet. Their number is bounded.
 #pragma once
 
 #include <string>
@@ -27,13 +27,14 @@ struct StepInputs {
   ByVehicle<vehicle_battery_t> batteries;
   ByVehicle<vehicle_sensors_t> sensors;
   std::vector<environment_change_t> changes;
-  std::vector<modem_reply_t> modem_replies;  // of other shards
+  std::vector<modem_reply_t> modem_replies;  // from other shards
 };
 
 class Inbox {
  public:
-  // Subscribes to STATE, MODEM, LISTEN, SEND, SET_ENVIRONMENT, LINK_QUERY, BEST_PLACE_QUERY, of several
-  // shards MODEM_REPLY, and what the equipment needs: GPS, BATTERY, SENSORS. The bus must outlive it.
+  // Subscribes to STATE, MODEM, LISTEN, SEND, SET_ENVIRONMENT, LINK_QUERY and BEST_PLACE_QUERY; to
+  // MODEM_REPLY if there are several shards; and to GPS, BATTERY and SENSORS as the equipment needs them. The
+  // bus must outlive the inbox.
   Inbox(bus::Bus& bus, const Shard& shard, const VehicleEquipment& equipment);
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;
@@ -42,11 +43,13 @@ class Inbox {
   std::vector<link_query_t> take_queries() { return std::exchange(queries_, {}); }
   std::vector<best_place_query_t> take_place_queries() { return std::exchange(place_queries_, {}); }
 
-  // The simulation time at which a step is needed for them; states and modems wait for any.
+  // Returns the simulation time at which a step is needed for the messages; states and modems alone need
+  // none.
   SimTime due() const;
-  // The start of the first packet among them that a modem may answer; never() without one.
+  // Returns the start of the first requested packet that a modem may answer; never() without one.
   SimTime next_answerable() const;
-  // Another run has begun: forgets what is stamped after `latest`. The rest may belong to the new run.
+  // Removes messages stamped after `latest`, because another run has begun. Other messages may belong to the
+  // new run.
   void forget_after(SimTime latest);
 
  private:

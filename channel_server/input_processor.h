@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Applies the inputs of a step to the models of the channel server: states, modems and how they listen to the
-// registry, changes of the water to the timeline, transmissions and answers to pings to the packet medium.
+// The processing of a step's inputs: states, modems and their listening go to the registry, changes of the
+// water to the timeline, transmissions and answers to pings to the packet medium.
 //
-// Within a step, states and transmissions are applied by their time and the vehicle's name, not in order of
-// arrival, so that of two vehicles that claim one id at one time the same one gets it in every run. What is
-// impossible is refused on its channel.
+// Within a step, states and transmissions are applied in the order of their time and the vehicle's name, not
+// of arrival. When two vehicles claim one id at one time, the same one gets it in every run. Impossible
+// inputs are refused on their channel.
 #pragma once
 
 #include <vector>
@@ -22,16 +22,16 @@ namespace halocline::channel_server {
 
 class InputProcessor {
  public:
-  // A state stamped later than this after the time by CLOCK comes from a wrong clock.
+  // A state stamped later than this after the time by CLOCK is taken to come from a wrong clock.
   static constexpr SimDuration kMaxAhead = SimDuration::from_milliseconds(10'000);
 
-  // All of them must outlive it.
+  // The references must outlive this object.
   InputProcessor(bus::Bus& bus, VehicleRegistry& vehicles, EnvironmentTimeline& waters,
                  const Propagation& propagation, PacketMedium& medium, PacketPublisher& packets);
 
-  // Publishes the receipts that need no waiting. Returns the first instant from which the inputs change the
-  // water; never() where none does. `now`: of the step; `latest`: the time by CLOCK, which a step that
-  // catches up lags behind.
+  // Applies the inputs and publishes the receipts that need no waiting. Returns the first instant from which
+  // the inputs change the water; never() if they do not. `now` is the time of the step; `latest` the time by
+  // CLOCK, which a step that catches up lags behind.
   SimTime apply(StepInputs inputs, SimTime now, SimTime latest);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Link tables, link queries and their replies, likewise of best places, ray queries and their answers, from
-// messages and back.
+// Conversion to messages and back of link tables, link queries, best-place queries and ray queries, with
+// their replies.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,12 @@
 namespace halocline::channel_server {
 
 link_t to_message(const LinkRow& row);
-// A table of more rows than a message holds comes in parts, by receiver id; one without rows is one message.
-inline constexpr std::size_t kMaxPeers = 300;  // of link_table_t: 56 kB
+// Returns the messages of a table. A table with more than kMaxPeers rows is split into parts, in the order of
+// receivers; one without rows is a single message.
+inline constexpr std::size_t kMaxPeers = 300;  // rows of one link_table_t, 56 kB
 std::vector<link_table_t> to_messages(const LinkTable& table, SimTime at);
 
-// An end that cannot be read (a modem with a NaN) carries the problem.
+// Returns a query; an end that cannot be read (a modem with a NaN) states its problem.
 LinkQuery to_query(const link_query_t& message);
 link_reply_t to_message(const LinkReply& reply);
 

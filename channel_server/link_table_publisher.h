@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Publishes the link tables of a tick as LINKS.<vehicle>, and reports in the log which vehicles appear and
-// vanish.
+// The publisher of the link tables of a tick as LINKS.<vehicle>. It also reports in the log which vehicles
+// appear and vanish.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@
 
 namespace halocline::channel_server {
 
-// What vehicles sound like, at the receivers of links.
+// The noise of vehicles at the receivers of links.
 class SoundsAtReceivers final : public ReceiverNoise {
  public:
-  explicit SoundsAtReceivers(VehicleSounds& sounds) : sounds_(sounds) {}  // which outlive it
+  explicit SoundsAtReceivers(VehicleSounds& sounds) : sounds_(sounds) {}  // must outlive it
 
   bool differ() const override { return sounds_.differ(); }
   Decibels above_ambient(const EndPair& link, SimTime at, VehicleId silent) override;
@@ -41,7 +41,7 @@ class SoundsAtReceivers final : public ReceiverNoise {
 
 class LinkTablePublisher {
  public:
-  // The parts that tables are computed from; all of them must outlive the publisher.
+  // The parts from which tables are computed; all must outlive the publisher.
   struct Models {
     const VehicleRegistry& vehicles;
     Propagation& propagation;
@@ -53,13 +53,13 @@ class LinkTablePublisher {
   LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, ForEach for_each)
       : publisher_(publisher), log_(log), models_(models), for_each_(std::move(for_each)) {}
 
-  // Whether all is known of the noise of vehicles that publish() needs for the links to compute.
+  // True when everything is known that publish() needs about the noise of vehicles for these links.
   bool is_noise_ready(SimTime tick, const std::vector<EndPair>& links);
-  // `vehicles`: those present at `tick`; the rows of those that this server serves, carried on or ready to be
-  // computed.
+  // Publishes the tables of a tick. `vehicles` are those present at `tick`; `rows` are those of vehicles that
+  // this server serves, reused or ready to be computed.
   void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
 
-  // Another run has begun.
+  // Forgets the vehicles present, for another run.
   void clear() { present_.clear(); }
   std::size_t vehicles_present() const { return present_.size(); }
   std::int64_t links_published() const { return links_published_; }

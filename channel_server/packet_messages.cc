@@ -12,7 +12,7 @@
 namespace halocline::channel_server {
 namespace {
 
-// What OUTCOME and RECEIVE have in common.
+// Returns a message with the fields that OUTCOME and RECEIVE have in common.
 template <class Message>
 Message common_fields(const PacketOutcome& outcome, SimTime at) {
   const SendRequest& request = outcome.packet->request;
@@ -58,7 +58,7 @@ void set_statistics(const DecisionStatistics& statistics, packet_outcome_t& mess
   for (const PacketName& name : statistics.colliders) message.colliders.push_back(to_message(name));
 }
 
-// The payload with zeros for the frames that were not right.
+// Returns the payload with zeros in the frames that were not right.
 std::vector<std::uint8_t> readable_payload(const Packet& packet, std::uint32_t frames_good) {
   std::vector<std::uint8_t> payload = packet.request.payload;
   auto frame = payload.begin();
@@ -196,7 +196,7 @@ modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at) {
   message.stamped = request.stamped ? 1 : 0;
   message.departure_utime = request.stamped ? outcome.departure_stamp.to_utime() : 0;
   message.travel_time_s = request.stamped ? outcome.measured_travel_time_s : 0;
-  // Who overhears an answer does not know when the question left.
+  // A vehicle that overhears an answer does not know when the ping left.
   if (request.destination_id == outcome.receiver_id)
     message.two_way_travel_time_s = outcome.two_way_travel_time_s;
   message.wants_ack = request.wants_ack && request.destination_id == outcome.receiver_id ? 1 : 0;
@@ -211,7 +211,7 @@ modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at) {
   return message;
 }
 
-// A sender that keeps no session may number anew: the instant distinguishes its packets.
+// A sender without a session may use its sequence numbers again, so the instant distinguishes its packets.
 std::string identity_of(const modem_receipt_t& m) {
   return joined({m.send_session, m.packet_sequence, m.send_session == 0 ? m.start_utime : 0});
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Transmissions, receipts and outcomes of packets, from messages and back. Session and sequence are the
-// publisher's to fill in.
+// Conversion to messages and back of transmissions, receipts, outcomes and events of packets. The publisher
+// sets session and sequence.
 #pragma once
 
 #include <string>
@@ -21,11 +21,11 @@ modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at);
 packet_outcome_t to_outcome(const PacketOutcome& outcome, SimTime at);
 modem_event_t to_message(const ModemEvent& event, SimTime at);
 modem_energy_t to_message(const EnergyUse& use, SimTime at);
-// Only for an outcome whose packet is to be delivered.
+// Returns the RECEIVE message of an outcome; requires an outcome with `deliver`.
 modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at);
 
-// What distinguishes an output from all others on its channel, whichever incarnation of the server computes
-// it (bus/runtime/crash_journal.h).
+// Return what distinguishes an output from all others on its channel, whichever incarnation of the server
+// computes it (bus/runtime/crash_journal.h).
 std::string identity_of(const modem_receipt_t& message);
 std::string identity_of(const modem_receive_t& message);
 std::string identity_of(const packet_outcome_t& message);

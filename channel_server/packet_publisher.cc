@@ -13,7 +13,7 @@ namespace channels = bus::channels;
 
 namespace {
 
-// Sender, session and number of a packet.
+// Returns sender, session and sequence number of a packet.
 std::string text_of(const SendRequest& request) {
   return request.vehicle + "/" + std::to_string(request.session) + "/" +
          std::to_string(request.packet_sequence);
@@ -38,7 +38,7 @@ void PacketPublisher::publish(const MediumEvent& event) {
   }
 }
 
-// A SEND that is repeated gets its receipt again, but not while inputs are replayed.
+// A repeated SEND gets its receipt again, except while recorded inputs are replayed.
 void PacketPublisher::publish(const Receipt& receipt, SimTime at) {
   const std::string channel = channels::kReceipt.of(receipt.vehicle);
   const modem_receipt_t message = to_message(receipt, at);
@@ -53,15 +53,15 @@ void PacketPublisher::publish(const PacketOutcome& outcome, SimTime at, bool lat
   const std::string outcomes(channels::kOutcome);
   const packet_outcome_t message = to_outcome(outcome, at);
   const std::string identity = identity_of(message);
-  // Where an earlier incarnation published the outcome, what it delivered went before it, whatever is decided
-  // now.
+  // If an earlier incarnation published the outcome, it published the delivery before it, so nothing is
+  // delivered again, whatever is decided now.
   if (outcome.deliver && !journal_.was_published(outcomes, identity)) {
     const modem_receive_t delivered = to_receive(outcome, at);
     journal_.publish_once(channels::kReceive.of(outcome.receiver), delivered, identity_of(delivered));
   }
   const std::int64_t late_before = bus_.counters().late;
   const bool is_new = journal_.publish_once(outcomes, message, identity);
-  const bool is_counted = bus_.counters().late > late_before;  // by CLOCK
+  const bool is_counted = bus_.counters().late > late_before;  // the bus has counted it as late by CLOCK
   if (journal_.is_recovering()) {
     published_late_ += is_new ? 1 : 0;
     late = is_new;

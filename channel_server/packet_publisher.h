@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Publishes what happens to packets: RECEIPT, RECEIVE, OUTCOME, MODEM_EVENT, MODEM_ENERGY, and MODEM_REPLY
-// for other shards. Each is published once in all incarnations of the server; what was due while it was away
-// counts as late.
+// The publisher of packet events: RECEIPT, RECEIVE, OUTCOME, MODEM_EVENT, MODEM_ENERGY, and MODEM_REPLY for
+// other shards. Each event is published once by all incarnations of the server together. An outcome that was
+// due while the server was down counts as late.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ namespace halocline::channel_server {
 
 class PacketPublisher {
  public:
-  // Both must outlive it.
+  // The references must outlive the publisher.
   PacketPublisher(bus::Bus& bus, bus::CrashJournal& journal) : bus_(bus), journal_(journal) {}
 
   void publish(const MediumEvent& event);
   void publish(const Receipt& receipt, SimTime at);
-  // Outcomes that were published while recovering.
+  // Returns the number of outcomes published during recovery.
   std::int64_t published_late() const { return published_late_; }
 
  private:

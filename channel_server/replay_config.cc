@@ -28,7 +28,7 @@ void visit_pair(bus::ConfigVisitor& v, ReplayConfig::Pair& pair) {
   bus::require_readable(v, "file", pair.file);
 }
 
-// Each file and receiver is read once.
+// A cache of channel records: each file and receiver is read once.
 class Records {
  public:
   MeasuredLinks::Record of(const FilePath& file, std::int64_t receiver) {

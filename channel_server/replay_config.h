@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the channel server reads of a scenario about measured channels: replay keys of [propagation].
+// The configuration of measured channels that are replayed: the replay keys of [propagation].
 #pragma once
 
 #include <cstdint>
@@ -24,20 +24,20 @@ struct ReplayConfig {
     FilePath file;
     std::int64_t receiver = 0;
   };
-  FilePath file;              // of all links without an entry of their own; empty: they are modelled
-  std::int64_t receiver = 0;  // of the file's, from 0
+  // The record for all links without an entry of their own; empty: those links are modelled.
+  FilePath file;
+  std::int64_t receiver = 0;  // index of the receiver in the file, from 0
   ReplayLevel level = ReplayLevel::kModel;
   std::vector<Pair> pairs;
 
   bool is_wanted() const { return !file.empty() || !pairs.empty(); }
 };
 
-// Within [propagation].
+// Visits the replay keys within [propagation].
 void visit_replay(bus::ConfigVisitor& v, ReplayConfig& config);
 
-// Reads the files. Throws InvalidArgument when one cannot be used, when a pair names a
-// vehicle that the scenario lacks, and when the modem of a vehicle with a replayed link has a band that its
-// file lacks.
+// Reads the files. Throws InvalidArgument when a file cannot be used, when a pair names a vehicle that the
+// scenario lacks, and when a file does not cover the band of the modem that transmits on its link.
 MeasuredLinks make_measured_links(const ReplayConfig& config, const ConfiguredModems& modems,
                                   const bus::Scenario& scenario);
 

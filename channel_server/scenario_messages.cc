@@ -46,7 +46,7 @@ scenario_info_t common_part(const bus::Scenario& scenario) {
   return message;
 }
 
-// The lines of each part.
+// Divides the configuration into the lines of each part.
 std::vector<std::vector<std::string>> shares_of(const std::string& configuration) {
   std::vector<std::vector<std::string>> shares(1);
   std::size_t bytes = 0;
@@ -56,7 +56,7 @@ std::vector<std::vector<std::string>> shares_of(const std::string& configuration
       shares.emplace_back();
       bytes = 0;
     }
-    bytes += line.size() + 5;  // a text of LCM has its length in front and a zero behind
+    bytes += line.size() + 5;  // LCM adds 4 bytes of length before a string and a zero after it
     shares.back().push_back(std::move(line));
   }
   return shares;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scenario as SCENARIO: what a log needs to explain itself, from what the server was started with.
+// The SCENARIO messages: the scenario with which the server was started, so that a log explains itself.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,12 @@
 
 namespace halocline::channel_server {
 
-// Of one message: 150 bytes a vehicle, and the lines. A line that is longer has a message of its own.
+// Bounds of one message: a vehicle takes 150 bytes, and the lines of the configuration come in addition. A
+// line longer than the bound gets a message of its own.
 inline constexpr std::size_t kMaxVehiclesOfPart = 200;
 inline constexpr std::size_t kMaxLineBytesOfPart = 24'000;
 
-// The parts, in order. Time, session and sequence are the publisher's to fill in.
+// Returns the parts of the scenario, in order. The publisher sets time, session and sequence.
 std::vector<scenario_info_t> to_messages(const bus::Scenario& scenario, const ConfiguredModems& modems);
 
 }  // namespace halocline::channel_server

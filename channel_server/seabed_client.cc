@@ -38,7 +38,7 @@ SeabedClient::SeabedClient(bus::Bus& bus, Models models, int bottom_points, Echo
                               [this](const ray_reply_t& reply) { replies_.push_back(reply); });
 }
 
-// 13 digits of base 36 hold every session; the name has 24 characters at most.
+// 13 digits of base 36 hold every session; a client name has at most 24 characters.
 std::string SeabedClient::client_name(std::int64_t session) {
   return "channel-" + in_base_36(static_cast<std::uint64_t>(session));
 }
@@ -63,7 +63,7 @@ bool SeabedClient::take_replies() {
   return is_other_terrain;
 }
 
-// Surveys on their way are answered by a mixture of the two terrains.
+// Surveys in progress are dropped, too: their answers would mix the two terrains.
 void SeabedClient::forget_terrain() {
   if (terrain_version_.empty()) return;
   models_.echoes.clear();
@@ -101,7 +101,7 @@ void SeabedClient::begin_tick(const std::vector<PlacedVehicle>& vehicles, const 
     const auto pair = surveyed_pairs_.extract(dropped);
     if (!pair.empty()) plan_.note_unanswered(pair.mapped());
   }
-  if (models_.propagation.uses_bottom()) return;  // rays hold the echoes
+  if (models_.propagation.uses_bottom()) return;  // rays include the echoes of the bottom
   models_.echoes.begin_tick(vehicles);
   for (const auto& [pair, low_ned_m, high_ned_m] : plan_.begin_tick(links)) {
     if (!shard_.serves(pair.first) && !shard_.serves(pair.second)) continue;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Queries the bathymetry service for what the models need of the seabed, and hands its answers to them: tiles
-// to the map of the seabed, urgently, because packets wait for them; echo surveys to the multipath cache; and
-// those of link queries to their service. Tiles that failed are queried again a second later, or once the
-// service is back.
+// The client of the bathymetry service: it queries what the models need of the seabed and passes on the
+// answers. Tiles go to the map of the seabed, urgently because packets wait for them; echo surveys to the
+// multipath cache; surveys of link queries to the link query service. Failed tiles are queried again a second
+// later, or as soon as the service is available again.
 //
-// Publishes RAY_QUERY, subscribes to RAY_REPLY of a client name that contains the server's session, so that a
-// recorded reply is not taken for its own. Batches, repetitions, time-outs: links/ray_query_client.h.
+// Publishes RAY_QUERY and subscribes to RAY_REPLY of its client name, which contains the server's session, so
+// that a recorded reply is not mistaken for its own. links/ray_query_client.h describes batches, repetitions
+// and time-outs.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +32,7 @@ namespace halocline::channel_server {
 
 class SeabedClient {
  public:
-  // Who uses the answers; all of them must outlive the client.
+  // The users of the answers; all must outlive the client.
   struct Models {
     RayQueryClient& rays;
     LinkQueryService& queries;
@@ -39,30 +40,31 @@ class SeabedClient {
     SeabedMap& seabed;
     const Propagation& propagation;
   };
-  // `bottom_points`: of an echo survey. `shard`: whose vehicles' surveys are queried here.
+  // `bottom_points` is the number of points of an echo survey. `shard` selects the vehicles whose surveys are
+  // queried here.
   SeabedClient(bus::Bus& bus, Models models, int bottom_points, EchoRule echoes, Shard shard);
   SeabedClient(const SeabedClient&) = delete;
   SeabedClient& operator=(const SeabedClient&) = delete;
 
-  // The name to which replies to a server of this session go.
+  // Returns the client name to which replies to a server of this session are addressed.
   static std::string client_name(std::int64_t session);
 
-  // True when the replies received are of another terrain than those before: what was known of that is
-  // forgotten.
+  // Takes the replies received. Returns true when they are of another terrain than those before; everything
+  // known of the earlier terrain is then dropped.
   [[nodiscard]] bool take_replies();
-  // Echo surveys that no batch has taken yet make room for those of the tables of a tick, at which `vehicles`
-  // are present; `links`: all links between them.
+  // Submits the echo surveys for the tables of a tick; earlier ones that no batch has taken yet are dropped.
+  // `vehicles` are those present at the tick, `links` all links between them.
   void begin_tick(const std::vector<PlacedVehicle>& vehicles, const std::vector<EndPair>& links);
   void publish_queries(const bus::Now& now);
-  // Asks for the terrain's version: another server has learned one.
+  // Asks for the version of the terrain, because another server has learned one.
   void ask_for_terrain();
 
-  // Steady time at which take_replies() or publish_queries() has something to do, or who waits for the seabed
-  // may go on.
+  // Returns the steady time at which take_replies() or publish_queries() has something to do, or those that
+  // wait for the seabed may continue.
   SimTime due() const { return has_news_ || !replies_.empty() ? SimTime::at_once() : models_.rays.due(); }
-  // Empty before the first reply.
+  // Returns the version of the terrain; empty before the first reply.
   const std::string& terrain_version() const { return terrain_version_; }
-  // Another run has begun.
+  // Drops all surveys, for another run.
   void clear();
   std::string status_text() const;
 
@@ -82,7 +84,7 @@ class SeabedClient {
   std::map<RayQueryClient::SurveyId, VehiclePair> surveyed_pairs_;
   std::set<RayQueryClient::SurveyId> surveyed_tiles_;
   SimTime next_retry_;     // steady
-  bool has_news_ = false;  // of the seabed, since the last take_replies()
+  bool has_news_ = false;  // the seabed has changed since the last take_replies()
   std::string terrain_version_;
   bool reported_away_ = false;
 };

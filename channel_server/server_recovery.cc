@@ -12,8 +12,8 @@ namespace {
 
 namespace channels = bus::channels;
 
-// How far back the journal reaches. Sound has gone 90 km by then; what is under way for longer is not
-// resumed, nor is anything after a longer absence.
+// The time that the journal reaches back. Sound travels 90 km in it. Packets under way for longer are not
+// resumed, and nothing is resumed when the server was down for longer.
 constexpr SimDuration kJournalled = SimDuration::from_milliseconds(60'000);
 
 bool is_input(std::string_view channel) {
@@ -37,7 +37,8 @@ ServerRecovery::ServerRecovery(bus::CrashJournal& journal, Inbox& inbox, const s
                  digest});
   journal_.replay_inputs([this](SimTime at) {
     Step step{at, inbox_.take_inputs()};
-    if (at < *journal_.last_step() - kJournalled) {  // kept for their flows alone: they came to an end
+    // Older steps are replayed only for their message sequences: their packets have ended.
+    if (at < *journal_.last_step() - kJournalled) {
       step.inputs.sends.clear();
       step.inputs.modem_replies.clear();
     }
@@ -59,7 +60,7 @@ std::optional<StepInputs> ServerRecovery::next_step(const bus::Now& now) {
     due_ = repair_ends_;
     if (now.steady < repair_ends_) return std::nullopt;
     journal_.write_inputs(now.sim);
-    // Taken before the medium advances: none of it was late when it was published.
+    // The inputs are taken before the medium advances, because none of them was late when it was published.
     steps_.push_back({std::max(now.sim, *journal_.last_step()), inbox_.take_inputs()});
     took_present_ = true;
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The recovery of a channel server that was killed: the steps that it does again, and the waits on the way.
+// The recovery of a channel server that was killed: the steps that are redone, and the waits on the way.
 //
 // The journal holds the inputs and outputs of the last minute (bus/runtime/crash_journal.h). The steps of
-// that time are done again, from their inputs: decisions depend on contents and instants alone, so they are
-// the same. The last step is the present one: it takes what was published while the server was away, once
-// repair had its time. Two things take wall time: that, and the seabed under the links, which is queried
-// anew.
+// that time are redone from their inputs. Decisions depend on contents and instants alone, so they are the
+// same. The last step is the present one: it takes the messages that were published while the server was
+// down, once they have been repaired. Two things take wall time: this repair, and the seabed under the links,
+// which is queried again.
 #pragma once
 
 #include <cstdint>
@@ -22,24 +22,25 @@ namespace halocline::channel_server {
 
 class ServerRecovery {
  public:
-  // Opens the journal at `path` and takes the replayed inputs out of the inbox. Both must outlive it. Throws
-  // InvalidArgument when the file cannot be written.
+  // Opens the journal at `path` and takes the replayed inputs out of the inbox. Journal and inbox must
+  // outlive this object. Throws InvalidArgument when the file cannot be written.
   ServerRecovery(bus::CrashJournal& journal, Inbox& inbox, const std::string& path, std::uint64_t digest);
 
-  // Whether an earlier incarnation left something.
+  // True when an earlier incarnation left steps in the journal.
   bool has_history() const { return !steps_.empty(); }
-  // False when that belongs to another run.
+  // Begins the recovery; returns false when the recorded steps belong to another run.
   [[nodiscard]] bool begin(const bus::Now& now);
   bool has_begun() const { return begun_; }
 
-  // The instant up to which the medium advances before the next step.
+  // Returns the instant up to which the medium advances before the next step.
   SimTime reached() const { return reached_; }
-  // The inputs of the next step, at reached() then; empty while repair is given its time, and after the last.
+  // Returns the inputs of the next step, and sets reached() to its instant; empty while the repair of missed
+  // messages is given its time, and after the last step.
   [[nodiscard]] std::optional<StepInputs> next_step(const bus::Now& now);
-  // The present step was taken.
+  // True when the present step has been taken.
   bool is_done() const { return took_present_ && steps_.empty(); }
 
-  // Steady time at which the wait for repair ends; never() without one.
+  // Returns the steady time at which the wait for repair ends; never() without a wait.
   SimTime due() const { return due_; }
 
  private:

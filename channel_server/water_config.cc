@@ -64,7 +64,7 @@ void check_tables(bus::ConfigVisitor& v, const ProfileConfig& p) {
   bus::report_refusal(v, "speeds_mps", [&] { speed_table(p); });
 }
 
-// Visits the keys of some sources alone.
+// Visits keys that only some sources use.
 void with_profile(bus::ConfigVisitor& v, const ProfileConfig& p, std::initializer_list<ProfileSource> sources,
                   const std::function<void()>& body) {
   bus::when_one_of(v, "profile", p.source, kProfileSources, sources, body);
@@ -128,7 +128,7 @@ void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
 }
 
 const std::vector<std::string> kPropagationModels{"rays", "straight"};
-const std::vector<std::string> kScattering{"none", "lambert"};  // of the loss and of reverberation
+const std::vector<std::string> kScattering{"none", "lambert"};  // values of scattering_loss and reverberation
 constexpr std::string_view kCustom = "custom", kAnySolver = "auto";
 
 std::vector<std::string> sediments() {
@@ -160,12 +160,13 @@ void visit_boundaries(bus::ConfigVisitor& v, PropagationConfig& p) {
          "rays: what the wind takes from a bounce at the surface");
 }
 
-// Losses of the coherent part alone: a sea that fades scatters what they take away.
+// True for models that state the loss of the coherent part alone. With fading that part is not lost but
+// scattered.
 bool is_coherent_loss(std::string_view surface_model) {
   return surface_model != "flat" && surface_model != "apl-bubbles";
 }
 
-// Visits the keys that the straight path ignores.
+// Visits keys that the straight path ignores.
 void with_rays(bus::ConfigVisitor& v, const PropagationConfig& p, const std::function<void()>& body) {
   bus::when_one_of(v, "model", p.model, kPropagationModels, {PropagationModel::kRays}, body);
 }

@@ -19,16 +19,17 @@
 
 namespace halocline::channel_server {
 
-// The propagation reads the waters and the map of the seabed, which the node keeps up to date.
+// The parts of the water. The propagation reads the waters and the map of the seabed, which the node keeps up
+// to date.
 struct WaterModel {
   std::shared_ptr<EnvironmentTimeline> waters;
   std::shared_ptr<SeabedMap> seabed;
   std::unique_ptr<Propagation> propagation;
-  WaterDescription description;  // for ENVIRONMENT
+  WaterDescription description;  // contents of ENVIRONMENT
 };
-// What water models of a scenario are made of, read from its files once.
+// The sources from which water models of a scenario are made, read once from its files.
 struct WaterSources {
-  EnvironmentTimeline timeline;  // with the scenario's changes
+  EnvironmentTimeline timeline;  // includes the scenario's changes
   MeasuredLinks measured;
 };
 
@@ -36,13 +37,14 @@ WaterModel straight_model(const acoustics::Environment& environment,
                           const acoustics::FadingModel& fading = {});
 WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays, const SeabedRule& rule);
 
-// Adds the scenario's changes to the timeline. Throws InvalidArgument when one cannot be.
+// Adds the scenario's changes to the timeline. Throws InvalidArgument when a change is impossible.
 void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
                       EnvironmentTimeline& timeline);
 
-// As a scenario describes it. Throws InvalidArgument when that is impossible.
+// Reads the water that a scenario describes. Throws InvalidArgument when it is impossible.
 WaterSources read_water(const ChannelServerConfig& config, const bus::Scenario& scenario);
-// The one way from a scenario to its propagation: of the server, of surveys of links, of waveforms.
+// Make the water model of a scenario. Servers, surveys of links and waveforms all use these functions, so
+// their propagation is the same.
 WaterModel make_water_model(const ChannelServerConfig& config, const WaterSources& sources);
 WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario);
 

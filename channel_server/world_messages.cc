@@ -45,7 +45,7 @@ acoustics::SoundSpeedProfile profile_in(const environment_change_t& m, const aco
 }
 
 constexpr double kFormulaStepM = 100, kFormulaDepthM = 5000;
-constexpr std::size_t kMaxLayers = 2000;  // environment_t
+constexpr std::size_t kMaxLayers = 2000;  // bound of environment_t
 
 std::vector<double> depths_to_publish(const acoustics::SoundSpeedProfile& profile) {
   const std::vector<double> rows = profile.row_depths_m();

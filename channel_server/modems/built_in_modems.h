@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files of models/modems as texts, compiled in.
+// The files of models/modems as texts, compiled into the program.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,11 @@
 namespace halocline::channel_server {
 
 struct ModemText {
-  const char* name;  // of the file, without .toml
+  const char* name;  // name of the file without .toml
   const char* toml;
 };
 
-// By name, in alphabetical order.
+// Returns the texts in alphabetical order of their names.
 const std::vector<ModemText>& built_in_modem_texts();
 
 }  // namespace halocline::channel_server

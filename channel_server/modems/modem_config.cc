@@ -18,7 +18,7 @@
 namespace halocline::channel_server {
 namespace {
 
-// A profile other than the modem's starts anew from the profile's numbers.
+// A profile other than the modem's resets all parameters to those of the profile.
 void visit_profile(bus::ConfigVisitor& v, VehicleModem& m) {
   FilePath profile = m.profile;
   v.file("profile", profile, bus::FileNames::kShipped,
@@ -38,7 +38,7 @@ void visit_family(bus::ConfigVisitor& v, acoustics::Modem& a) {
   if (!is_valid_name(a.family)) v.problem("family", "allowed is a name of " + std::string(kNameRule));
 }
 
-// Levels, band and rate.
+// Visits levels, band and bit rate.
 void visit_signal(bus::ConfigVisitor& v, acoustics::Modem& a) {
   v.number("source_level_db", a.source_level.value, {0, 250, "dB re 1 uPa at 1 m", "strength"});
   v.number("cutoff_level_db", a.min_receivable_level.value,
@@ -51,7 +51,7 @@ void visit_signal(bus::ConfigVisitor& v, acoustics::Modem& a) {
                {0, 60, "s", "preamble and header of a packet; generic alone"});
 }
 
-// How a packet is put together and hops: of a profile's file alone.
+// Visits framing and hopping, which only a profile's file may set.
 void visit_framing(bus::ConfigVisitor& v, acoustics::Modem& a) {
   acoustics::FrameLayout& layout = a.layout;
   bus::integer_as(v, "preamble_pieces", a.preamble_pieces,
@@ -72,7 +72,7 @@ void visit_framing(bus::ConfigVisitor& v, acoustics::Modem& a) {
                {0, 60, "s", "own echoes take nothing before the hop pattern returns, at least chip_s"});
 }
 
-// How a packet is received, once it is strong enough.
+// Visits the parameters of reception above the cut-off level.
 void visit_reception(bus::ConfigVisitor& v, acoustics::Modem& a) {
   bus::seconds(v, "preamble_s", a.preamble,
                {0, 60, "s", "first part of the overhead, by which a packet is detected; 0: always detected"});
@@ -91,7 +91,7 @@ void visit_reception(bus::ConfigVisitor& v, acoustics::Modem& a) {
               "how often bits are wrong");
 }
 
-// Of a profile's file alone.
+// Visits the modem's rates, which only a profile's file may set.
 void visit_rates(bus::ConfigVisitor& v, VehicleModem& m, std::vector<FilePath>& rates) {
   bus::integer_as(v, "rate_number", m.rate_number, {0, 255, "", "by which a SEND names this rate"});
   v.files(
@@ -136,7 +136,7 @@ void visit_listening(bus::ConfigVisitor& v, Listening& listening) {
   });
 }
 
-// The values that rules on single keys cannot see.
+// Checks the relations between several values.
 void check_as_a_whole(bus::ConfigVisitor& v, const acoustics::Modem& a) {
   if (a.preamble > a.packet_overhead)
     v.problem("preamble_s", "at most packet_overhead_s, whose first part it is");
@@ -153,7 +153,7 @@ std::string names_for_errors() {
   return names;
 }
 
-// Its rates by the names of their profiles, in `rates`.
+// Reads one modem from a file. The names of the profiles of its other rates go to `rates`.
 VehicleModem read_modem(bus::ConfigFile& file, const FilePath& profile, std::vector<FilePath>& rates) {
   VehicleModem m;
   m.profile = profile;
@@ -173,7 +173,7 @@ VehicleModem read_modem(bus::ConfigFile& file, const FilePath& profile, std::vec
   return m;
 }
 
-// Throws InvalidArgument for a profile that is not built in.
+// Returns the text of a built-in profile. Throws InvalidArgument for an unknown name.
 std::string built_in_text(const std::string& profile) {
   for (const ModemText& text : built_in_modem_texts())
     if (profile == text.name) return text.toml;
@@ -181,7 +181,7 @@ std::string built_in_text(const std::string& profile) {
                         "or a file .toml");
 }
 
-// Built-in modems by name, each made when it is first asked for. Calls may overlap between threads.
+// A cache of built-in modems by name, each made at its first use. Thread-safe.
 class KnownModems {
  public:
   template <class Make>
@@ -196,7 +196,7 @@ class KnownModems {
   std::map<std::string, VehicleModem> modems_;
 };
 
-// A profile by name without the rates that it names.
+// Returns a built-in profile at its own rate only.
 const VehicleModem& built_in_rate(const std::string& profile) {
   static KnownModems known;
   return known.of(profile, [&] {
@@ -206,7 +206,7 @@ const VehicleModem& built_in_rate(const std::string& profile) {
   });
 }
 
-// The same of a name, or of a file.
+// Returns a profile, built in or from a file, at its own rate only.
 VehicleModem one_rate(const FilePath& profile) {
   if (!bus::names_a_file(profile.place(), bus::FileNames::kShipped)) return built_in_rate(profile.place());
   auto file = bus::ConfigFile::load_named(profile);
@@ -214,7 +214,8 @@ VehicleModem one_rate(const FilePath& profile) {
   return read_modem(file, profile, rates);
 }
 
-// The profile in `file`. A rate of its own number is itself.
+// Returns the profile in `file` with all its rates. A named rate with the profile's own number is the profile
+// itself and is skipped.
 VehicleModem with_rates(bus::ConfigFile& file, const FilePath& profile) {
   std::vector<FilePath> names;
   VehicleModem m = read_modem(file, profile, names);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Searches for paths as messages and back, exact to the last bit.
+// Conversion of eigenray searches to messages and back, exact to the last bit.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,13 @@
 
 namespace halocline::channel_server {
 
-// Of a link that is not over a bottom that was given. Empty for what the message cannot hold
-// (lcmtypes/link_search_t.lcm).
+// Returns the message of a search; empty when the message cannot hold it (lcmtypes/link_search_t.lcm). The
+// search must not be over a bottom that was given with the query.
 std::optional<link_search_t> to_message(std::int64_t sea_hash, const PathQuery& query,
                                         const FoundPaths& found);
 
-// The part of a query that is the same for every server: water and seabed are the message's sea.
+// Returns the part of a query that is the same for every server; water and seabed are identified by the
+// message's sea_hash.
 PathQuery to_query(const link_search_t& message);
 FoundPaths to_found(const link_search_t& message);
 

@@ -27,7 +27,7 @@ void append(Number number, std::string& to) {
   to.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
-// Of all that a search reads of them.
+// Returns a hash of everything that a search reads of the water and the environment.
 std::uint64_t hash_of(const acoustics::RayWater& water, const acoustics::Environment& environment) {
   std::string bytes;
   append(environment.noise.wind_mps, bytes);
@@ -166,7 +166,7 @@ void ShardExchange::end_tick(SimTime tick, SimTime steady) {
   for (std::size_t i = 0; i < peers_.size(); ++i) {
     if (static_cast<int>(i) != shard_.index) send_all(i, tick);
   }
-  tick_ = SimTime::from_utime(tick.to_utime());  // as the marks have it
+  tick_ = SimTime::from_utime(tick.to_utime());  // rounded to microseconds as in the marks
   waits_until_ = steady + deadline_;
 }
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Channel servers of one water tell each other, by FOUND_PATHS, the paths that both ends of a link need
-// (path_exchange.h).
+// The exchange of eigenrays between channel servers that share the water, by FOUND_PATHS messages: paths of a
+// link whose two ends are served by different servers (path_exchange.h).
 //
-// Who searches. For link tables the owner of a pair (Shard::owner_of); at a tick it publishes what it has
-// found since the one before, with the mark that this is all, and awaits the marks of others for what they
-// own. For a packet the receiver's server; nobody waits for that. Between ticks nothing is published, so that
-// in lockstep servers share lookahead.
+// Search. For link tables the owner of a pair searches (Shard::owner_of). At a tick it publishes all that it
+// has found since the tick before, with a mark that nothing more follows, and awaits the marks of the other
+// servers for the pairs that they own. For a packet the receiver's server searches, and nobody waits for its
+// result. Nothing is published between ticks, so servers in lockstep share their lookahead.
 //
-// Waiting. Until the marks have come, or the deadline, in steady time, has passed: the other counts as away
-// then, and nobody waits for it until it ends a tick again. What has not come by then is searched for here.
-// In lockstep the marks come within the instant.
+// Waiting. A server waits until the marks have come or the deadline, in steady time, has passed. A server
+// that misses the deadline counts as unavailable, and is not waited for until it ends a tick again. Paths
+// that have not come by then are searched for here. In lockstep the marks come within the instant.
 //
-// Which sea an answer is of is told by a hash of the scenario, the terrain, and of the water as the search
-// reads it; paths of another sea are never found again. Bounded: what was received longest ago is forgotten.
-// Not thread-safe.
+// Identity. A hash of the scenario, the terrain and the water as the search reads it identifies the sea of a
+// result; paths of another sea are never reused. Memory is bounded: the results received longest ago are
+// dropped. Not thread-safe.
 #pragma once
 
 #include <array>
@@ -40,14 +40,15 @@ namespace halocline::channel_server {
 
 class ShardExchange : public PathExchange {
  public:
-  // What is received is kept in two halves, of which the older is dropped when the newer has this many paths:
-  // 40 MB each.
+  // Received results are stored in two halves; when the newer holds this many paths, the older is dropped.
+  // Each takes 40 MB.
   static constexpr std::size_t kMaxPathsOfHalf = 200'000;
-  // Searches that wait for the tick to be published to one server: what is found beyond these is not.
+  // Largest number of messages that wait for the next tick, for each server; results found beyond it are not
+  // published.
   static constexpr std::size_t kMaxWaitingMessages = 1000;  // below 60 kB each
 
-  // `scenario`: a hash of it, the same for all servers that are to believe each other. Subscribes, unless the
-  // server is alone. Bus and publisher must outlive it.
+  // `scenario` is a hash of the scenario; servers use each other's results only if it is the same.
+  // Subscribes, unless the server is alone. Bus and publisher must outlive this object.
   ShardExchange(bus::Bus& bus, bus::NumberedPublisher& publisher, const Shard& shard, SimDuration deadline,
                 std::uint64_t scenario);
 
@@ -59,27 +60,30 @@ class ShardExchange : public PathExchange {
   std::shared_ptr<const FoundPaths> received(const SharedQuery& query) override;
   void found(const SharedQuery& query, const FoundPaths& paths) override;
 
-  // Forgets what was received and awaited over another. Where it `tells`, the other servers learn, by a
-  // FOUND_PATHS without searches that ends no tick, that there is a terrain to ask for: ENVIRONMENT, which
-  // the first of them publishes for all, names it as soon as any of them knows it, as one server alone would.
+  // Sets the terrain, and drops everything received and awaited for another one. With `tells` the other
+  // servers learn that there is a terrain to ask for, by a FOUND_PATHS without searches that ends no tick.
+  // ENVIRONMENT, which the first server publishes for all, thereby names the terrain as soon as any server
+  // knows it, as it would with a single server.
   void set_terrain(std::string_view version, SimTime now, bool tells);
   bool will_tell_of_terrain() const { return !shard_.is_alone() && terrain_ == 0; }
-  // True once after another server has told so.
+  // Returns true once after another server has told of a terrain.
   [[nodiscard]] bool take_news_of_terrain() { return std::exchange(has_news_of_terrain_, false); }
-  // All that this server owns has been searched for; what others own was awaited since the last tick.
+  // Publishes all results since the last tick and their mark, after this server has searched for all pairs
+  // that it owns, and begins to wait for the pairs owned by others.
   void end_tick(SimTime tick, SimTime steady);
-  // Whether something that was awaited may still come.
+  // True while an awaited mark may still come.
   [[nodiscard]] bool must_wait(SimTime steady);
-  // Steady time at which waiting ends; never() when nothing is waited for.
+  // Returns the steady time at which waiting ends; never() when nothing is awaited.
   SimTime due() const;
-  // Another run has begun.
+  // Drops everything, for another run.
   void clear();
 
   std::int64_t searches_received() const { return received_; }
   std::int64_t searches_published() const { return published_; }
 
  private:
-  // Sea; frequency; places; depths and range; diffuse_below_pressure.
+  // Hash of the sea; frequency; ends of the bottom profile; source depth, receiver depth and range;
+  // diffuse_below_pressure.
   using Key = std::tuple<std::int64_t, double, ProfileEnds, std::array<double, 3>, double>;
   struct Half {
     std::map<Key, std::shared_ptr<const FoundPaths>> searches;
@@ -87,8 +91,8 @@ class ShardExchange : public PathExchange {
   };
   struct Peer {
     std::vector<found_paths_t> outbox;
-    std::size_t last_bytes = 0;  // of the last of them
-    SimTime ended;               // the tick of the latest mark
+    std::size_t last_bytes = 0;  // size of the last message
+    SimTime ended;               // tick of the latest mark
     bool has_ended = false, is_awaited = false, is_away = false;
   };
 
@@ -105,7 +109,7 @@ class ShardExchange : public PathExchange {
   Shard shard_;
   SimDuration deadline_;
   std::uint64_t scenario_, terrain_ = 0;
-  std::vector<Peer> peers_;  // by index; this server is among them
+  std::vector<Peer> peers_;  // indexed by server, this one included
   LruCache<std::pair<EnvironmentTimeline::WaterId, double>, std::uint64_t> waters_;
   Half newer_, older_;
   SimTime tick_, waits_until_ = SimTime::never();
