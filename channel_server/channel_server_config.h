@@ -93,7 +93,7 @@ struct PropagationConfig {
   acoustics::RayOptions options{.max_bounces = -1};  // negative: from range over depth
   double min_amplitude_db = -160;
   double max_bounce_loss_db = 30;  // total of all bounces of a path, relative to the strongest path
-  double shadow_loss_db = 120;     // chosen; 0: shadows have no level
+  double shadow_loss_db = 120;     // dB, a chosen value; 0: shadows have no level
   double diffuse_below_noise_db = 5, weak_below_diffuse_db = 6;
   double speed_tolerance_mps = 0.02, reuse_distance_m = 25;
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;

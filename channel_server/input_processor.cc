@@ -73,8 +73,7 @@ void InputProcessor::apply_listens(const StepInputs::ByVehicle<modem_listen_t>& 
   }
 }
 
-// Published messages stay valid, so a change announced for an earlier time takes effect from now
-// on.
+// Published messages stay valid, so a change announced for an earlier time takes effect from now on.
 SimTime InputProcessor::apply_changes(const std::vector<environment_change_t>& changes, SimTime now) {
   SimTime changed_from = SimTime::never();
   for (const environment_change_t& message : changes) {

@@ -15,7 +15,7 @@
 namespace halocline::channel_server {
 namespace {
 
-constexpr double kDepthsCount = 10, kRangeShare = 1.0 / 40;  // the same as the cells of path_search.h
+constexpr double kDepthsCount = 10, kRangeShare = 1.0 / 40;  // equal to those of the cells of path_search.h
 
 double horizontal_m(const Vec3& from, const Vec3& to) {
   return elementary::hypot(to.x() - from.x(), to.y() - from.y());

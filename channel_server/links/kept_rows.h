@@ -35,8 +35,8 @@ namespace halocline::channel_server {
 
 class KeptRows {
  public:
-  static constexpr SimDuration kLongest = SimDuration::from_milliseconds(10'000);  // chosen
-  static constexpr double kGreatestVelocityChange = 0.5;                           // m/s, chosen
+  static constexpr SimDuration kLongest = SimDuration::from_milliseconds(10'000);  // a chosen value
+  static constexpr double kGreatestVelocityChange = 0.5;                           // m/s, a chosen value
   // The identity of water and seabed; rows are reused only while both are the same.
   struct Sea {
     EnvironmentTimeline::WaterId water_id = 0;
