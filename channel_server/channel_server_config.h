@@ -55,6 +55,7 @@ enum class ProfileSource {
   kFile,        // CSV, or netCDF at a position
 };
 
+// The sound-speed profile. Members of other sources than `source` are not used.
 struct ProfileConfig {
   ProfileSource source = ProfileSource::kGlobalMean;
   double isovelocity_mps = 1500;
@@ -69,6 +70,7 @@ struct ProfileConfig {
   acoustics::WaterSample assumed{10, 35};
 };
 
+// The water of [environment].
 struct EnvironmentConfig {
   ProfileConfig profile;
   std::string sound_speed_model = "mackenzie";
@@ -80,6 +82,7 @@ struct EnvironmentConfig {
   double ph = 8.0;
 };
 
+// The model of propagation: eigenrays, or one straight path.
 enum class PropagationModel { kRays, kStraight };
 
 // The bottom, by name or by numbers, and the parameters of the ray search.
@@ -111,9 +114,9 @@ struct ChangeConfig {
   std::optional<double> rain_mm_per_h = {};
 };
 
-// The rules of the server; defaults as in the headers of its parts.
 inline constexpr int kMaxShards = 64;
 
+// The rules of the server; defaults as in the headers of its parts.
 struct ServerRules {
   // Time between two LINKS messages of a vehicle.
   SimDuration link_period = SimDuration::from_milliseconds(1000);
@@ -133,6 +136,7 @@ struct ServerRules {
   int predicted_payload_bytes = 32;  // payload of the packets whose delivery link tables predict
 };
 
+// The whole configuration of the channel server.
 struct ChannelServerConfig {
   struct OfVehicle {
     std::string name;
@@ -151,6 +155,7 @@ struct ChannelServerConfig {
   ServerRules rules;
 };
 
+// Visits every key of the configuration.
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config);
 // Visits [environment], [propagation] and [[environment_change]] (water_config.cc).
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
@@ -177,6 +182,7 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
 // Returns the configured ray model. Throws InvalidArgument when a parameter is out of range.
 RayModel make_rays(const ChannelServerConfig& config);
 
+// Returns the scenario's modem and those of its vehicles.
 ConfiguredModems make_modems(const ChannelServerConfig& config);
 
 // Returns the rules with the values that other sections give: seed, fading, and variation of the noise.

@@ -17,6 +17,7 @@ namespace halocline::channel_server {
 // The source of a replayed link's level.
 enum class ReplayLevel { kModel, kFile };
 
+// The measured channels that replace modelled fading.
 struct ReplayConfig {
   // One [[propagation.replay_pair]].
   struct Pair {

@@ -34,6 +34,7 @@
 
 namespace halocline::channel_server {
 
+// A query for the best of several places for a talker.
 struct BestPlaceQuery {
   std::string client;
   std::int64_t request_id = 0;
@@ -43,6 +44,7 @@ struct BestPlaceQuery {
   std::vector<std::string> listeners;  // names of vehicles
 };
 
+// The score of one place: delivery probability over its listeners, mean and least, and mean SINR.
 struct PlaceScore {
   double mean_delivery = 0, least_delivery = 0;
   double mean_sinr_db = kSilence.value;
@@ -52,6 +54,7 @@ struct PlaceScore {
 // Returns the index of the best place in the water, the first of equals; empty when no place is in the water.
 std::optional<std::size_t> best_of(const std::vector<PlaceScore>& scores);
 
+// The reply to a query: the score of each place, or a refusal.
 struct BestPlaceReply {
   std::string client;
   std::int64_t request_id = 0;

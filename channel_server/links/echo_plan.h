@@ -21,11 +21,13 @@
 
 namespace halocline::channel_server {
 
+// The parameters of the plan.
 struct EchoRule {
   double reuse_distance_m = 5;           // at least 0; with 0 a pair is surveyed again after any motion
   std::size_t surveys_per_table = 2400;  // at least 1
 };
 
+// A survey to be made: a pair of vehicles and their positions.
 struct PlannedSurvey {
   VehiclePair pair;            // the lower id first
   Vec3 low_ned_m, high_ned_m;  // positions of both vehicles

@@ -21,6 +21,7 @@ double horizontal_m(const Vec3& from, const Vec3& to) {
   return elementary::hypot(to.x() - from.x(), to.y() - from.y());
 }
 
+// Returns the distance moved, m, in which depth counts kDepthsCount times.
 double moved_m(const Vec3& then, const Vec3& now) {
   return horizontal_m(then, now) + kDepthsCount * std::abs(now.z() - then.z());
 }
@@ -65,6 +66,8 @@ LinkRow KeptRows::carried(const Kept& kept, const EndPair& now, SimTime tick,
   const Vec3 &from = now.from.position_ned_m, &to = now.to.position_ned_m;
   const double from_mps = sound_speed_at(environment, from), to_mps = sound_speed_at(environment, to);
   const double apart_m = horizontal_m(from, to) - horizontal_m(kept.from_ned_m, kept.to_ned_m);
+  // Change of the delay by Fermat's principle:
+  //   (cos a dr - sin a dz_transmitter) / c_transmitter + sin b dz_receiver / c_receiver
   const auto later_s = [&](const Angles& path) {
     const auto launch = elementary::sin_cos(path.launch_rad);
     return (launch.cosine * apart_m - launch.sine * (from.z() - kept.from_ned_m.z())) / from_mps +

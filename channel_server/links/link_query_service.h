@@ -38,6 +38,7 @@
 
 namespace halocline::channel_server {
 
+// One end of a requested link: a vehicle by name, or a position with a modem.
 struct LinkEndRequest {
   std::string vehicle;                     // empty: position_ned_m is used
   Vec3 position_ned_m = Vec3::Zero();      // world NED, m
@@ -45,6 +46,7 @@ struct LinkEndRequest {
   std::string problem = {};                // not empty: this end of the request could not be read
 };
 
+// A query for the links between pairs of ends.
 struct LinkQuery {
   std::string client;
   std::int64_t request_id = 0;
@@ -53,6 +55,7 @@ struct LinkQuery {
   bool wants_paths = false;  // asks for ray tracks; only allowed with one link
 };
 
+// The answer for one link: its row, or why it has none.
 struct LinkAnswer {
   enum class Status { kAnswered, kUnknownVehicle, kBadInput };
   Status status = Status::kAnswered;
@@ -67,6 +70,7 @@ struct LinkDetails {
   std::vector<acoustics::SpeedRow> water;  // sound speed by depth, down to the seabed or the deeper end
 };
 
+// The reply to a query: an answer for each link, or a refusal of the whole.
 struct LinkReply {
   std::string client;
   std::int64_t request_id = 0;

@@ -36,6 +36,7 @@ enum class Multipath {
 // an echo. kUnknown for straight paths.
 Multipath multipath_of(const Reception& reception, Decibels cutoff);
 
+// The quality of one link, as a link table or the answer to a link query states it.
 struct LinkRow {
   VehicleId transmitter_id = 0;  // 0 for a position that holds no vehicle
   VehicleId receiver_id = 0;     // 0 for a position that holds no vehicle
@@ -56,6 +57,7 @@ struct LinkRow {
   void set(const Reception& reception, const LinkForecast& predicted);
 };
 
+// The links from one transmitter to all receivers within its range.
 struct LinkTable {
   VehicleId vehicle_id = 0;                           // the transmitter of every row
   std::vector<LinkRow> rows;                          // sorted by receiver id

@@ -36,6 +36,7 @@ OnePathForecast::OnePathForecast(const acoustics::FadingModel& fading,
     const double noise = elementary::exp10(-(kLeastDb + i * kStepDb) / 10);
     const acoustics::LinkPrediction one =
         predict_link(fading, paths, {&modem, window}, modem.band(), noise, curves);
+    // For a signal of power 1, 1 / SINR = noise + own_share.
     rows_.push_back({one.acquisition_probability, one.delivery_probability, 1 / one.sinr - noise});
   }
 }
@@ -55,6 +56,7 @@ std::optional<acoustics::LinkPrediction> OnePathForecast::at(const std::vector<a
     const double a = rows_[i].*one, b = rows_[i + 1].*one, c = rows_[i + 2].*one, d = rows_[i + 3].*one;
     return b + t / 2 * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
   };
+  // SINR = 1 / (noise / signal + own_share)
   return acoustics::LinkPrediction{1 / (1 / ratio + between(&Chances::own_share)),
                                    std::clamp(between(&Chances::acquisition), 0.0, 1.0),
                                    std::clamp(between(&Chances::delivery), 0.0, 1.0)};

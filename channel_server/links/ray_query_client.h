@@ -29,12 +29,14 @@
 
 namespace halocline::channel_server {
 
+// The limits of batches.
 struct RayQueryRule {
   std::size_t rays_per_batch = 1024;  // 128..4096; a batch of 1024 is a message of 57 kB
   std::size_t batches_in_flight = 4;  // 1 and up
   SimDuration answer_deadline = SimDuration::from_milliseconds(250);  // above 0
 };
 
+// One message to the terrain service: rays of one kind.
 struct RayQueryBatch {
   std::int64_t request_id = 0;
   RayKind kind = RayKind::kDepths;
@@ -60,7 +62,9 @@ class RayQueryClient {
 
   explicit RayQueryClient(RayQueryRule rule);
 
+  // Submits a survey for link tables.
   SurveyId submit_routine(TerrainSurvey survey);
+  // Submits a survey that queries or packets wait for; while the service is unavailable it fails at once.
   SurveyId submit_urgent(TerrainSurvey survey);
   // Sends the first query of a survey only to learn whether the service answers; it never appears as
   // finished. Does nothing while the service is unavailable.

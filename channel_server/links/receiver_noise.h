@@ -16,6 +16,7 @@
 
 namespace halocline::channel_server {
 
+// The interface to a model of the noise at receivers.
 class ReceiverNoise {
  public:
   virtual ~ReceiverNoise() = default;

@@ -6,6 +6,7 @@
 
 namespace halocline::channel_server {
 
+// One file of models/modems.
 struct ModemText {
   const char* name;  // name of the file without .toml
   const char* toml;

@@ -7,6 +7,8 @@
 
 namespace halocline::channel_server {
 
+// Visits the keys of [vehicle.clock]: offset, s; drift, ppm in the file; random walk, s/sqrt(s); setting by
+// GPS.
 void visit_clock(bus::ConfigVisitor& v, ClockSettings& clock);
 
 }  // namespace halocline::channel_server

@@ -23,6 +23,7 @@
 
 namespace halocline::channel_server {
 
+// Visits the keys of [modem] or [vehicle.modem].
 void visit_modem(bus::ConfigVisitor& v, VehicleModem& modem);
 
 // Gives a vehicle's modem the rates of its profile. Throws InvalidArgument, naming the field, when it differs

@@ -15,6 +15,7 @@
 
 namespace halocline::channel_server {
 
+// A rule: the packets that it concerns, and the share of them that is dropped.
 struct ExtraLoss {
   std::string from = {}, to = {};       // names of sender and receiver; empty: any
   std::optional<PacketKind> kind = {};  // empty: any
@@ -22,6 +23,7 @@ struct ExtraLoss {
   SimTime begin = {};                   // first departure concerned
   SimTime end = SimTime::never();       // departures before this instant are concerned
 
+  // True when the rule concerns a packet at the receiver of that name.
   bool concerns(const Packet& packet, const std::string& receiver) const;
 };
 

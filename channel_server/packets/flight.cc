@@ -150,6 +150,8 @@ bool try_to_solve(Flight& flight, SimTime decided_at, const VehicleRegistry& fle
   ++flight.solutions;
   if (!end) return true;
   const StateHistory& states = *fleet.states_of(flight.receiver_id);
+  // Fixed point of the travel time tau, with the receiver at x(s + tau):
+  //   tau = delay(x0) + p . (x(s + tau) - x0)
   for (int round = 0; round < kMaxRounds; ++round) {
     const auto receiver = states.at(flight.arrival(), decided_at, fleet.rule());
     const Vec3 moved = receiver->position_ned_m - flight.place.position_ned_m;
@@ -161,6 +163,7 @@ bool try_to_solve(Flight& flight, SimTime decided_at, const VehicleRegistry& fle
   return true;
 }
 
+// Each path sounds for duration / its Doppler factor.
 AudiblePacket audible_packet(const Flight& flight) {
   AudiblePacket audible{flight.packet, flight.signal.begin, flight.signal.end, {}};
   audible.paths.reserve(flight.reception.paths.size());

@@ -40,6 +40,8 @@
 
 namespace halocline::channel_server {
 
+// The state of a packet on its way to one receiver: the latest solution for its arrival, and from the arrival
+// on its reception.
 struct Flight {
   // The stage of a flight: kTravelling before its first sound, kSolved when the sound has arrived but the
   // noise of vehicles at the receiver is not known yet, kPreamble until the end of the preamble, kBits until
@@ -79,6 +81,7 @@ struct Flight {
   double timing_error_s = 0;  // error of the measured arrival; 0 unless acquired
   DecisionStatistics statistics;
 
+  // Returns when the first significant path begins to sound.
   SimTime arrival() const { return packet->departure + SimDuration::from_seconds(travel_time_s); }
   // Returns when the earliest path begins to sound.
   SimTime first_sound() const;

@@ -36,6 +36,7 @@ class FlightQueue {
   // Adds a flight whose next event, in its present stage, is at `at`. No other flight may be of the same
   // packet to the same receiver.
   void add(SimTime at, Flight& flight);
+  // Ends a flight that is not in the queue; its memory serves a later one.
   void end(Flight& flight);
   void clear();
   // Calls visit(instant of the next event, flight) for each flight, in no particular order.

@@ -49,6 +49,7 @@ struct ModemEvent {
   SimTime measured_arrival = {};     // only at a detection: the arrival as measured (PacketOutcome)
 };
 
+// An event of the medium and its instant.
 struct MediumEvent {
   SimTime at;  // exactly when it happened
   // The event; a ModemReply only when other shards need it.

@@ -105,6 +105,7 @@ void ModemWatch::judge_carrier(const ReceiverState& heard, std::vector<MediumEve
   if (from > at) return judge_carrier_at(id, from);
   const acoustics::Modem& modem = fleet_.modem(id, at).modem;
   const Decibels noise = sounds_.noise_level(id, modem.band(), at, at) - modem.directivity_index;
+  // Carrier is sensed where the summed power exceeds 10^(threshold / 10) N, N less the directivity index.
   const double threshold = to_power_ratio(noise + listening.carrier_threshold).value;
   const PowerCrossing crossing = heard.next_crossing(at, modem.band(), threshold, !carrier.sensed);
   if (crossing.at > at) return judge_carrier_at(id, crossing.at);

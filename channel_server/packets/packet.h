@@ -97,6 +97,7 @@ enum class SendResult {
   kNoModem,         // the vehicle carries no modem, or its battery is empty
 };
 
+// The answer to a request to transmit: its result, and when and for how long the packet is transmitted.
 struct Receipt {
   std::string vehicle;
   std::int64_t session = 0;

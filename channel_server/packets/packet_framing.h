@@ -28,6 +28,7 @@ namespace halocline::channel_server {
 // Payload bits of a Micromodem's mini-packet (WHOI's command CCMUC).
 inline constexpr std::size_t kMiniPayloadBits = 13;
 
+// A requested packet as the modem sends it, or why the modem cannot send it.
 struct Framing {
   // kNoRate, kNoKind or kTooLarge leave the other members without meaning.
   SendResult problem = SendResult::kAccepted;
@@ -38,6 +39,7 @@ struct Framing {
   acoustics::PacketTiming timing = {};
 };
 
+// Returns the framing of a request by the modem that the vehicle carries.
 Framing framing_of(const VehicleModem& vehicle, const SendRequest& request);
 
 }  // namespace halocline::channel_server

@@ -84,6 +84,7 @@
 
 namespace halocline::channel_server {
 
+// The parameters of a medium.
 struct MediumRule {
   // Largest lateness of a request; at least 0.
   SimDuration max_lateness = SimDuration::from_milliseconds(10'000);

@@ -24,6 +24,7 @@ struct AudiblePath {
   double power = 0;
 };
 
+// A packet at the receiver: the interval of all its paths together, and each path.
 struct AudiblePacket {
   PacketPointer packet;
   SimTime begin, end;                                    // from the first path's begin to the last path's end
@@ -49,6 +50,7 @@ struct Interference {
   std::size_t source = 0;  // index into Interferers::packets
 };
 
+// The packets that disturb another packet, and their paths.
 struct Interferers {
   std::vector<PacketPointer> packets;
   std::vector<Interference> paths;  // in an order that does not depend on the order of arrival
@@ -69,6 +71,7 @@ class ReceiverState {
   // packet comes too late: it overlaps a sound in a common band that had ended by `decided_by`, so that the
   // outcome of that sound is already decided.
   bool open(AudiblePacket packet, SimTime decided_by = SimTime::at_once());
+  // Closes a reception that was opened at `begin`. May drop sounds, as forget(now).
   void close(SimTime begin, SimTime now);
   // Adds a transmission of the receiver's own. Returns true when it comes too late, as for open().
   bool transmit(const PacketInterval& span, SimTime decided_by = SimTime::at_once());

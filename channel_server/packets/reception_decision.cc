@@ -91,6 +91,8 @@ SignalMeans means_of(const ReceivedSignal& signal, SimTime begin, SimTime end) {
   return weight > 0 ? SignalMeans{sums.signal / weight, sums.echoes / weight} : SignalMeans{};
 }
 
+// Returns the ratio of means over [begin, end):
+//   SINR = mean S / (N + mean echoes + mean I + mean bursts)
 PowerRatio mean_sinr(const ReceivedSignal& signal, const std::vector<Interference>& others, SimTime begin,
                      SimTime end) {
   const SignalMeans means = means_of(signal, begin, end);
@@ -158,6 +160,8 @@ struct Decoded {
   std::uint32_t frames_good = 0;  // bit i is set when frame i is right by the draws
 };
 
+// Decodes header and frames by the draws. The probability of at least one right frame is
+//   P = P_header (1 - product over frames of (1 - P_i))
 Decoded decode(const ReceivedSignal& signal, const std::vector<Interference>& others,
                const PacketDraws& draws) {
   const acoustics::PacketFormat& format = signal.packet->format;
@@ -180,6 +184,7 @@ Decoded decode(const ReceivedSignal& signal, const std::vector<Interference>& ot
   return decoded;
 }
 
+// True when the packet is acquired and at least one frame is right, by the draws.
 bool is_received(const ReceivedSignal& signal, const std::vector<Interference>& others,
                  const PacketDraws& draws) {
   return draws.acquisition < acquisition_probability(signal, others) &&
@@ -256,6 +261,7 @@ double timing_error_s(const ReceivedSignal& signal, const Interferers& others, d
   const double energy = (end - signal.begin).seconds() * bandwidth_hz *
                         mean_sinr(signal, others.paths, signal.begin, end).value;
   if (!(energy > 0)) return 0;
+  // sigma = 1 / (2 pi (B / sqrt(12)) sqrt(2 E/N)); B / sqrt(12) is the rms bandwidth of a flat spectrum.
   return standard_normal / (2 * std::numbers::pi * (bandwidth_hz / std::sqrt(12)) * std::sqrt(2 * energy));
 }
 

@@ -68,6 +68,7 @@ struct ReceivedSignal {
 // session.
 DrawAddress draw_address(std::uint64_t seed, std::uint32_t purpose, const Packet& packet, VehicleId receiver);
 
+// The uniform random draws that decide a packet at one receiver: d1, d2 and d(2+i) of the model.
 struct PacketDraws {
   double acquisition = 0, success = 0;    // in (0, 1)
   std::vector<double> later_frames = {};  // in (0, 1), for the second frame and those after it

@@ -12,6 +12,7 @@ namespace halocline::channel_server {
 
 inline constexpr std::size_t kMaxQueuedSends = 16;  // queued packets at one modem
 
+// The result of a request to transmit.
 struct SendDecision {
   SendResult result;
   SimTime start;  // start of the transmission when it is accepted or queued

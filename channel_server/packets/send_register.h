@@ -24,6 +24,7 @@
 
 namespace halocline::channel_server {
 
+// The name by which a repeated request is recognised.
 struct RequestName {
   std::string vehicle;
   std::int64_t session = 0;
@@ -44,6 +45,7 @@ class SendRegister {
 
   // Returns true for a new request, which is known from now on and has no receipt yet.
   [[nodiscard]] bool enter(const SendRequest& request);
+  // Stores the receipt of a request; does nothing when the request is not known any more.
   void decide(const SendRequest& request, const Receipt& receipt);
   // Returns null while the request is undecided, or when it is not known.
   const Receipt* receipt_of(const SendRequest& request) const;
@@ -54,6 +56,7 @@ class SendRegister {
   SimTime free_from(const std::string& vehicle, SimTime start) const;
   // Returns the number of accepted transmissions that have not started at `instant`.
   std::size_t waiting_at(const std::string& vehicle, SimTime instant) const;
+  // Marks the modem as transmitting during [start, start + duration).
   void occupy(const std::string& vehicle, SimTime start, SimDuration duration);
 
   // Declares that no request with a start before `time` is accepted any more.

@@ -25,6 +25,7 @@ Hearing hearing_of(const Flight& flight, SimTime decided_at) {
 
 }  // namespace
 
+// Returns the propeller rate, turns a second, or the speed over ground, m/s, that drives the noise.
 double VehicleSounds::speed_of(const NoiseOf& noise, SimTime at, SimTime decided_at) const {
   if (noise.driver == NoiseDriver::kPropeller)
     return fleet_.equipment().noise.rate_at(noise.id, at, decided_at);
