@@ -196,7 +196,7 @@ modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at) {
   message.stamped = request.stamped ? 1 : 0;
   message.departure_utime = request.stamped ? outcome.departure_stamp.to_utime() : 0;
   message.travel_time_s = request.stamped ? outcome.measured_travel_time_s : 0;
-  // A vehicle that overhears an answer does not know when the ping left.
+  // A vehicle that overhears an answer does not know when the packet that it answers left.
   if (request.destination_id == outcome.receiver_id)
     message.two_way_travel_time_s = outcome.two_way_travel_time_s;
   message.wants_ack = request.wants_ack && request.destination_id == outcome.receiver_id ? 1 : 0;

@@ -136,7 +136,7 @@ class LinkQueryService {
   ResolvedEnd resolve(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   ResolvedEnd resolve_vehicle(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   void answer(const ResolvedEnd& from, const ResolvedEnd& to, NoiseOfLinks& noise, Waiting& waiting);
-  // Returns the link between two ends, into which it points.
+  // Returns the link between two ends. It points to their modems, so both ends must outlive it.
   static EndPair link_of(const ResolvedEnd& from, const ResolvedEnd& to);
   // Sets budget, paths and forecast of the answer, or the problem of a position inside the seabed.
   void set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at, NoiseOfLinks& noise,

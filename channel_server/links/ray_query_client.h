@@ -29,7 +29,7 @@
 
 namespace halocline::channel_server {
 
-// The limits of batches.
+// The limits of batches: rays in one batch, batches without an answer, and the time for an answer.
 struct RayQueryRule {
   std::size_t rays_per_batch = 1024;  // 128..4096; a batch of 1024 is a message of 57 kB
   std::size_t batches_in_flight = 4;  // 1 and up
