@@ -43,9 +43,9 @@ double gain_s(const VehicleClocks& clocks, VehicleId id, SimTime from, SimTime t
 // elapsed time less the packet's duration and the turnaround, which both ends know, s.
 double two_way_travel_time_s(const Flight& answer, const VehicleClocks& clocks) {
   const Packet& asked = *answer.packet->answers;
-  // With the departure s_a of the answer and its travel time t_a, the departure s and duration T of the
-  // packet that it answers, the turnaround R and the gain g of the clock between s and the answer's arrival:
   //   two-way time = (s_a - s - T - R) + t_a + g
+  // with the departure s_a of the answer and its travel time t_a, the departure s and duration T of the
+  // packet that it answers, the turnaround R, and the gain g of the clock between s and the answer's arrival.
   const SimDuration waited =
       answer.packet->departure - asked.departure - asked.timing.duration - kReplyTurnaround;
   return waited.seconds() + answer.travel_time_s +
