@@ -23,7 +23,7 @@ acoustics::Environment changed(acoustics::Environment environment, const Environ
   return environment;
 }
 
-constexpr EnvironmentTimeline::WaterId kIdsOfAStep = 1LL << 32;  // more than there are of other changes
+constexpr EnvironmentTimeline::WaterId kIdsOfAStep = 1LL << 32;  // more than the ids of all other changes
 
 constexpr SimTime kAlways = SimTime::from_nanoseconds(std::numeric_limits<std::int64_t>::min());
 
@@ -105,7 +105,7 @@ void EnvironmentTimeline::forget_before(SimTime time) {
     const acoustics::WaterField& field = water.second.field;
     return field.time_s + field.period_s < time.seconds();
   });
-  constexpr std::size_t kForgottenTogether = kAnnouncedKept / 10;  // for each time all others are moved
+  constexpr std::size_t kForgottenTogether = kAnnouncedKept / 10;  // each removal moves all other spans
   if (changes_kept() < kAnnouncedKept + kForgottenTogether) return;
   auto surplus = changes_kept() - kAnnouncedKept;
   std::vector<Span> kept;

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The water of a run, which may change: which environment holds at which instant.
+// Environment of a run over time: which environment holds at which instant.
 //
-// A run starts with one environment; changes follow, from the scenario and from whoever announces them. Each
-// sets some of wind, shipping, sea surface and sound-speed profile from an instant on, and leaves the rest.
-// One that is announced late (its instant lies before what has been published) holds from the instant at
-// which it was received: what is published stays true. Changes of one instant apply in the order of their
-// sessions and sequence numbers, so what holds is a function of what was received and when, not of the order
-// in one turn.
+// A run starts with one environment. Changes follow, from the scenario and from clients that announce them.
+// Each change sets some of wind, shipping, sea surface and sound-speed profile from an instant on and leaves
+// the rest. A change announced late (its instant lies before what has been published) holds from the instant
+// at which it was received, because what is published stays valid. Changes of one instant apply in the order
+// of their sessions and sequence numbers. So the environment is a function of what was received and when, not
+// of the order of reception within one step.
 //
-// Where the environment has a field of temperature and salinity that changes with time, sound has the water
-// of the middle of the span of WaterField::period_s that an instant lies in: so many links and packets share
-// their searches, and delays jump by what half a span changes. Spans begin at multiples of the period. A
-// profile that is announced ends the field.
+// Where the environment has a field of temperature and salinity that changes with time, sound uses the field
+// at the middle of the span of WaterField::period_s that contains the instant. So many links and packets
+// share their searches, and delays jump at the end of a span by what the field changes in it. Spans begin at
+// multiples of the period. A sound-speed profile that is announced replaces the field.
 //
-// A value in memory; not thread-safe, also where it is only asked: it keeps the environments that a field
+// A value in memory. Not thread-safe, not even its const functions: they cache the environments that a field
+// yields.
 // makes.
 #pragma once
 
@@ -32,7 +33,7 @@
 
 namespace halocline::channel_server {
 
-// What is set, and to what; empty: as before.
+// Values to set; an empty one stays as it is.
 struct EnvironmentChange {
   std::optional<double> wind_mps, shipping, sea_surface_z_m;  // ranges as in acoustics/sea/environment.h
   std::optional<acoustics::SoundSpeedProfile> profile;
@@ -50,31 +51,34 @@ class EnvironmentTimeline {
     std::int64_t session = 0, sequence = 0;
     auto operator<=>(const Origin&) const = default;
   };
-  // Different for each environment of a run.
+  // Number that differs for each environment of a run.
   using WaterId = std::int64_t;
 
   // Throws InvalidArgument when the environment is out of range.
   explicit EnvironmentTimeline(acoustics::Environment initial);
 
-  // A change of the scenario: survives clear(). Throws InvalidArgument when it leads out of range.
+  // Adds a change of the scenario, which survives clear(). Throws InvalidArgument when a value leaves its
+  // range.
   void schedule(SimTime from, const EnvironmentChange& change);
-  // One announced by `origin` to hold from `announced_from`, received at `received_at`. Empty when taken (a
-  // repetition is); else why not.
+  // Adds a change announced by `origin` to hold from `announced_from`, received at `received_at`. Returns an
+  // empty string when it is accepted (a repetition is), else the reason why not.
   [[nodiscard]] std::string announce(SimTime announced_from, SimTime received_at, Origin origin,
                                      const EnvironmentChange& change);
 
-  // At an instant; a change holds at its very instant. References are valid until the next change is added.
+  // Environment at an instant; a change holds at its own instant already. References are valid until the next
+  // change is added.
   const acoustics::Environment& at(SimTime instant) const;
   WaterId water_at(SimTime instant) const;
-  // The first change, but of a field, after `instant`; never() when none is known.
+  // Returns the instant of the first change after `instant`, except those of a field; never() when none is
+  // known.
   SimTime next_change_after(SimTime instant) const;
 
-  // Forgets changes that were announced and superseded before `time`, but for the latest kAnnouncedKept, of
-  // which repetitions may still arrive. No instant before `time` is evaluated any more.
+  // Forgets announced changes that were superseded before `time`, except the latest kAnnouncedKept, which may
+  // still be repeated. No instant before `time` may be evaluated afterwards.
   void forget_before(SimTime time);
   std::size_t changes_kept() const { return spans_.size() - 1; }
 
-  // Another run: forgets what was announced, keeps the schedule.
+  // Begins another run: forgets announced changes, keeps those of the scenario.
   void clear();
 
  private:
@@ -90,13 +94,14 @@ class EnvironmentTimeline {
     WaterId id = 0;
   };
   const Span& span_at(SimTime instant) const;
-  // Of a field's spans, from 0; 0 where it does not change.
+  // Number of the field's span that contains the instant, counted from time 0; 0 where the field does not
+  // change.
   static std::int64_t step_of(const acoustics::Environment& environment, SimTime instant);
   void insert(const Order& order, const EnvironmentChange& change);
 
-  std::vector<Span> spans_;  // by order; the first is the initial environment
+  std::vector<Span> spans_;  // ordered; the first is the initial environment
   WaterId last_id_ = 0;
-  // Environments with the field as it is at other times, by their water.
+  // Environments with the field of other spans.
   mutable std::map<WaterId, acoustics::Environment> field_waters_;
 };
 

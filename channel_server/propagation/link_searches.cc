@@ -17,26 +17,26 @@ namespace {
 
 constexpr std::size_t kMaxFound = 4096, kMaxSharedFound = 32'768;  // searches, 7 kB each
 constexpr std::size_t kMaxRayWaters = 256;                         // 20 kB each
-constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;      // there has to be bottom below it
+constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;      // the bottom lies below it
 
 double depth_of(const LinkEnd& end, const acoustics::Environment& environment) {
   return std::clamp(depth_below_surface_m(end.position_ned_m, environment.sea_surface_z_m), 0.0,
                     kDeepestEndM);
 }
 
-// Both ways between two ends want the same at one frequency: the first of them, by id.
+// Returns one link for each id: the two directions between a pair have the same query at one frequency.
 std::vector<std::pair<SearchBudget::LinkId, const EndPair*>> one_way_of_each(
     const std::vector<EndPair>& links) {
   std::vector<std::pair<SearchBudget::LinkId, const EndPair*>> ways;
   for (const EndPair& link : links) ways.emplace_back(SearchBudget::id_of(link), &link);
-  std::sort(ways.begin(), ways.end());  // of one id by place
+  std::sort(ways.begin(), ways.end());  // links of one id by address
   const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
   ways.erase(std::unique(ways.begin(), ways.end(), same), ways.end());
   return ways;
 }
 
-// Where the gradient of sound speed jumps, to the last bit: as a profile and a mooring of one scenario state
-// it.
+// True when the depth equals, to the last bit, a depth at which the gradient of sound speed jumps. Bits agree
+// when the profile and the depth of a mooring are stated in one scenario.
 bool is_knot(const acoustics::RayWater& water, double depth_m) {
   return depth_m > 0 && std::binary_search(water.depths_m().begin(), water.depths_m().end(), depth_m);
 }
@@ -110,13 +110,14 @@ LinkSearches::Task LinkSearches::over(SimTime at, const LinkEnd& from, const Lin
 LinkSearches::Task LinkSearches::shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   Task task = task_of(at, from, to, from.id > to.id);
   task.of_table = true;
-  // The phase of a path turns within centimetres.
+  // The phase of a path changes within centimetres.
   if (model_.reuse_distance_m <= 0 || model_.coherent) return task;
   task.shared = true;
   if (auto shared = middle_of_cell(task.link, model_.reuse_distance_m)) {
     shared->source_depth_m = std::min(shared->source_depth_m, kDeepestEndM);
     shared->receiver_depth_m = std::min(shared->receiver_depth_m, kDeepestEndM);
-    // At a knot of the water a ray has the tube of neither layer beside: an end there is not moved.
+    // The ray tube at a knot of the profile differs from those of both layers beside it: an end there is not
+    // moved.
     if (is_knot(*task.water, task.link.source_depth_m)) shared->source_depth_m = task.link.source_depth_m;
     if (is_knot(*task.water, task.link.receiver_depth_m))
       shared->receiver_depth_m = task.link.receiver_depth_m;
@@ -135,7 +136,7 @@ LinkSearches::Task LinkSearches::granted_task(SimTime at, Task task) {
   if (!budget_) return task;
   SearchBudget::Granted* granted = budget_->find(SearchBudget::id_of(task.ends));
   task.waits = granted == nullptr;
-  // What was granted and not searched for cannot be once its sea has passed.
+  // A query that was scheduled but not searched cannot be searched any more once its sea has changed.
   if (task.waits || (!granted->paths && !is_of_one_sea(granted->query, task.query))) return task;
   task.granted = granted;
   task.query = granted->query;
@@ -170,7 +171,7 @@ bool LinkSearches::is_ready(const Task& task) {
   return known(task) || seabed_->is_surveyed({north, east, 0}, {last_north, last_east, 0});
 }
 
-// Every link is looked at, so that all that is missing is requested together.
+// Every link is examined, so that all missing tiles are requested together.
 bool LinkSearches::are_ready_for_table(SimTime at, const std::vector<EndPair>& links) {
   bool ready = true;
   for (const auto& [id, link] : one_way_of_each(links))
@@ -178,7 +179,7 @@ bool LinkSearches::are_ready_for_table(SimTime at, const std::vector<EndPair>& l
   return ready;
 }
 
-// What a budget has granted is kept for as long as it is used; the cache forgets.
+// The results of scheduled queries are kept for as long as they are used, although the cache may drop them.
 LinkSearches::Paths LinkSearches::known(const Task& task) {
   if (task.granted != nullptr && task.granted->paths) return task.granted->paths;
   if (const Paths* paths = cache_of(task).find(task.query.key())) return *paths;
@@ -187,7 +188,7 @@ LinkSearches::Paths LinkSearches::known(const Task& task) {
   return received ? cache_of(task).insert(task.query.key(), std::move(received)) : nullptr;
 }
 
-// Of modems of two kinds each way has a query of its own.
+// Between modems of two kinds, each direction has a query of its own.
 bool LinkSearches::is_shared(const Task& task) const {
   const auto& [from, to] = task.ends;
   return exchange_ != nullptr && task.of_table && exchange_->is_shared(from.id, to.id) &&
@@ -209,19 +210,19 @@ LinkSearches::Paths LinkSearches::find(const Task& task) {
   return paths;
 }
 
-// What is kept is read and written in turn; searches are shared out.
+// Caches are read and written sequentially; searches are distributed.
 std::vector<LinkSearches::Paths> LinkSearches::find_all(const std::vector<Task>& tasks,
                                                         const ForEach& for_each) {
-  std::vector<Paths> of_queries;  // null where the bottom is not known
-  std::unordered_map<PathQuery::Key, std::size_t, PathQuery::KeyHash> place_of;  // of each query, among these
+  std::vector<Paths> of_queries;  // null where the bottom is unknown
+  std::unordered_map<PathQuery::Key, std::size_t, PathQuery::KeyHash> place_of;  // in `of_queries`
   struct Search {
     const Task* task;
     std::size_t place;
   };
   std::vector<Search> searches;
-  std::vector<std::vector<Search>> lines;  // the same, by line
+  std::vector<std::vector<Search>> lines;  // the searches, by line
   std::map<decltype(PathQuery().line()), std::size_t> line_of;
-  std::vector<std::size_t> places;  // of each task
+  std::vector<std::size_t> places;  // index of each task in `of_queries`
   for (const Task& task : tasks) {
     places.push_back(of_queries.size());
     if (task.waits) continue;

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The searches that links need: which query of path_search.h is a link's, what has been found for it, and
-// what is searched now.
+// Searches for the eigenrays of links: which query (path_search.h) belongs to a link, what has been found for
+// it, and what must be searched now.
 //
-// A link is searched from the end where the bottom profile starts (the lower id) to the other. For itself,
-// the query is that of its very ends. For a table, with a distance of reuse, both ends go to the nearest
-// points of a horizontal lattice for the bottom, and the query is that of the middle of the cell that the
-// link lies in (middle_of_cell), but for an end exactly at a knot of the water, which keeps its depth; not
-// for coherent levels. With a budget
-// of searches a tick (search_budget.h) it is the query that the link was last granted. For a packet it is as
-// for a table with RayModel::reuse_for_packets, but a link that waits for its first turn, or was granted its
-// query in other water or over another seabed, is searched at once; else as for itself.
+// A link is searched from the end where its bottom profile starts (the lower id) to the other end.
 //
-// What is found is kept for kKept after its last use, and searched again when it was forgotten: answers are
-// functions of environment, terrain and query alone, and of the ticks so far where there is a budget. Of
-// several servers one searches for two vehicles (path_exchange.h). Not thread-safe.
+// - Reception of one link: the query of its exact ends.
+// - Link table: with a reuse distance, both ends are rounded to a horizontal lattice for the bottom profile,
+//   and the query is that of the middle of the link's cell (middle_of_cell). An end exactly at a knot of the
+//   sound-speed profile keeps its depth. Coherent levels are not reused. With a limited number of searches a
+//   tick (search_budget.h), it is the query of the link that was scheduled last.
+// - Packet: the query of the link's exact ends or, with RayModel::reuse_for_packets, that of a link table. In
+//   the second case a link that has not been scheduled yet, or was scheduled in other water or over another
+//   seabed, is searched at once.
+//
+// Results are kept for kKept after their last use and searched again after that. Answers are functions of
+// environment, terrain and query alone, and of the ticks so far where searches are limited. Of several
+// channel servers, one searches for the link of two vehicles (path_exchange.h). Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -43,23 +45,23 @@ namespace halocline::channel_server {
 class LinkSearches {
  public:
   using Paths = std::shared_ptr<const FoundPaths>;
-  // Simulation time, twice that at most: vehicles that lie still or pass a cell again soon find it, and what
-  // is kept is that of four minutes, however long the run.
+  // Simulation time for which an unused result is kept, and at most twice that. Vehicles that lie still or
+  // soon pass a cell again reuse it, and memory is bounded by four minutes of results however long the run.
   static constexpr SimDuration kKept = SimDuration::from_milliseconds(120'000);
-  // A link, ready to be searched without touching what is kept.
+  // Link that is ready to be searched without access to the caches.
   struct Task {
     EndPair ends;
     const acoustics::Environment* environment;
     std::shared_ptr<const acoustics::RayWater> water;
     std::shared_ptr<const acoustics::LinkKernel> kernel;
     PathQuery query;
-    acoustics::RayLink link;  // where the ends are; the query's own unless its paths are extrapolated
+    acoustics::RayLink link;  // geometry of the ends; differs from the query's when paths are extrapolated
     bool reversed = false;    // the transmitter is the profile's last end
-    bool shared = false;      // the query serves other links, too
-    bool of_table = false;    // a query of link tables, which the server of the other end makes as well
-    SearchBudget::Granted* granted = nullptr;  // null without a budget, and before the link's first turn
-    bool waits = false;                        // for that turn
-    SimDuration age = {};                      // since the query was the link's own
+    bool shared = false;      // the query serves other links too
+    bool of_table = false;    // query of link tables, which the server of the other end makes too
+    SearchBudget::Granted* granted = nullptr;  // null without a limit, and before the link is scheduled first
+    bool waits = false;                        // the link has not been scheduled yet
+    SimDuration age = {};                      // since the scheduled query was the link's own
   };
 
   // Throws InvalidArgument when the model is out of range. `straight` must outlive the searches.
@@ -69,38 +71,38 @@ class LinkSearches {
   Task for_itself(SimTime at, const LinkEnd& from, const LinkEnd& to) {
     return task_of(at, from, to, from.id > to.id);
   }
-  // Over a bottom that is given, from the one end to the other.
+  // Returns a task for the link itself over a given bottom that runs from the transmitter to the receiver.
   Task over(SimTime at, const LinkEnd& from, const LinkEnd& to,
             const std::shared_ptr<const SeabedProfile>& seabed);
   Task for_table(SimTime at, const LinkEnd& from, const LinkEnd& to);
   Task for_packet(SimTime at, const LinkEnd& from, const LinkEnd& to);
 
-  // From now on; it must outlive the searches.
+  // Exchanges results with other servers from now on; `exchange` must outlive the searches.
   void share_through(PathExchange& exchange) { exchange_ = &exchange; }
 
   bool has_budget() const { return budget_.has_value(); }
-  // As Propagation::begin_tick.
+  // See Propagation::begin_tick.
   void begin_tick(SimTime at, const std::vector<EndPair>& all);
 
-  // Whether find() has what it needs. What it has not is requested.
+  // True when find() has the seabed that it needs. What is missing is requested.
   bool is_ready(const Task& task);
-  // The same of the queries that links of a table may be granted at the next tick.
+  // See is_ready(), here for the queries that links of a table may be scheduled with at the next tick.
   bool are_ready_for_table(SimTime at, const std::vector<EndPair>& links);
 
-  // Null where the bottom is not known.
+  // Returns the paths of a task, searched for if necessary; null where the bottom is unknown.
   Paths find(const Task& task);
-  // Over a bottom that is given, with other tasks of one line if there is one; nothing is kept.
+  // Searches over a given bottom, with other tasks of one line if `line` is not null; the result is not kept.
   Paths find(const Task& task, SharedLine* line) const {
     if (line == nullptr)
       return search_paths(model_, *task.water, *task.environment, task.query, *task.query.given);
     return line->line.search(model_, *task.water, *task.environment, task.query, *task.query.given,
                              line->rays.get());
   }
-  // Of each task, in their order; those that wait find nothing.
+  // Returns the paths of each task, in their order; null for tasks that are not scheduled yet.
   std::vector<Paths> find_all(const std::vector<Task>& tasks, const ForEach& for_each);
 
-  // Of the links of a table, those that this server and another share: what it owns is searched for, what the
-  // other owns awaited.
+  // Handles the links of a table that this server shares with another: searches for those it owns and awaits
+  // the results of those that the other owns.
   void find_shared(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each);
 
   std::shared_ptr<const SeabedProfile> seabed_of(const PathQuery& query) const;
@@ -113,21 +115,21 @@ class LinkSearches {
   Task task_of(SimTime at, const LinkEnd& from, const LinkEnd& to, bool reversed);
   void forget_unused(SimTime at);
   Task shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to);
-  // The task of a table where its own query is `now`.
+  // Returns the task of a table whose link has the query of `now` at this instant.
   Task granted_task(SimTime at, Task now);
   Cache& cache_of(const Task& task) { return task.shared ? shared_ : own_; }
-  // Null where nothing is known yet.
+  // Returns the paths that are cached or received; null when there are none yet.
   Paths known(const Task& task);
-  // What tasks of one line share.
+  // Data that tasks along one line share.
   struct Line {
     std::optional<std::shared_ptr<const SeabedProfile>> seabed = std::nullopt;  // empty: not looked up yet
     PathLine searches = {};
   };
-  // Null where the bottom is not known. Calls may overlap between threads, each of which has lines of its
-  // own.
+  // Searches for the paths of a task; null where the bottom is unknown. Calls may overlap between threads,
+  // each with lines of its own.
   Paths search(const Task& task, Line& line) const;
   void keep(const Task& task, const Paths& paths);
-  // The same paths serve the server of the other end.
+  // True when the server of the other end uses the same paths.
   bool is_shared(const Task& task) const;
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
@@ -139,7 +141,7 @@ class LinkSearches {
   Cache own_, shared_;
   SimTime next_forgetting_ = SimTime() + kKept;
   std::optional<SearchBudget> budget_;
-  PathExchange* exchange_ = nullptr;  // of a server that is alone
+  PathExchange* exchange_ = nullptr;  // null: the only server
   std::int64_t searches_ = 0;
 };
 

@@ -5,7 +5,7 @@
 
 namespace halocline::channel_server {
 
-// Both lists are by delay, so the tracks are found one behind the other.
+// The two lists are sorted by delay, so one pass finds all tracks.
 void weigh(const std::vector<acoustics::SoundPath>& paths, const acoustics::Modem& receiver,
            LinkTracks& tracks) {
   if (paths.empty()) return;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Propagation in which measured channels take the place of modelled paths, for all links or for some.
+// Propagation model that replaces modelled paths by measured channels, for all links or for some.
 //
-// A reception of such a link is that of the model with other paths: those of
-// acoustics/fading/measured_fading.h for the transmitter's band, the first of which arrives when the model's
-// first significant path does. The level is the model's, or the record's, whose h is then the pressure at the
-// receiver over that at 1 m from the source. A link stays as modelled to or from a position (id 0), where the
-// model has no path, and for a band that the record does not hold.
+// The reception of such a link is that of the model with other paths: those of
+// acoustics/fading/measured_fading.h for the transmitter's band, shifted so that the first arrives with the
+// model's first significant path. The level is the model's or, on request, that of the record: then its
+// impulse response h is the pressure at the receiver over that at 1 m from the source. A link stays as
+// modelled when an end is a position (id 0), when the model has no path, and when the record does not cover
+// the band.
 #pragma once
 
 #include <map>
@@ -40,20 +41,20 @@ namespace halocline::channel_server {
 struct MeasuredLinks {
   using Record = std::shared_ptr<const acoustics::ChannelRecord>;
 
-  Record all = {};  // of links without one of their own; null: modelled
-  // From, to; also of the way back unless that has its own.
+  Record all = {};  // record of links without one of their own; null: modelled
+  // Records by transmitter and receiver; also used for the reverse direction unless that has its own.
   std::map<std::pair<VehicleId, VehicleId>, Record> pairs = {};
-  bool level_of_record = false;  // else the model's
+  bool level_of_record = false;  // otherwise the model's level
 
-  // Null: the link is modelled.
+  // Returns the record of a link; null: the link is modelled.
   Record of(VehicleId from, VehicleId to) const;
 };
 
 class MeasuredPropagation : public Propagation {
  public:
-  static constexpr std::size_t kMaxChannels = 64;  // kept, of different records and bands
+  static constexpr std::size_t kMaxChannels = 64;  // kept, one for each record and band
 
-  // `waters` are those of `model`.
+  // `waters` must be those of `model`.
   MeasuredPropagation(std::unique_ptr<Propagation> model, std::shared_ptr<const EnvironmentTimeline> waters,
                       MeasuredLinks links);
 
@@ -90,7 +91,7 @@ class MeasuredPropagation : public Propagation {
                           const std::vector<acoustics::BottomPoint>& points) override {
     return model_->echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
   }
-  // A record's level holds at every range.
+  // A record's level holds at every range, so levels have no bound by range.
   std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
                                                  double deepest_end_m) const override {
     return links_.level_of_record ? std::nullopt : model_->least_loss(at, frequency_hz, deepest_end_m);
@@ -107,7 +108,7 @@ class MeasuredPropagation : public Propagation {
                  acoustics::Capacity capacity, Reception& reception);
 
   std::unique_ptr<Propagation> model_;
-  StraightPropagation straight_;  // whose budgets are those of a stated loss
+  StraightPropagation straight_;  // computes the budget of a given loss
   MeasuredLinks links_;
   LruCache<std::tuple<const acoustics::ChannelRecord*, double, double>,
            std::shared_ptr<const acoustics::MeasuredChannel>>

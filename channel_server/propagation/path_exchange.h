@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What several channel servers of one water tell each other about the paths of sound that they searched for.
+// Exchange of search results between the channel servers of one sea.
 //
-// A search is a function of its query and the sea (path_search.h), so it does not matter who makes it, and an
-// answer that does not come is computed. The searches of link tables, and those that packets share with them,
-// are told to the server of the link's other end.
+// A search is a function of its query and the sea (path_search.h), so any server may make it, and a result
+// that does not arrive is computed locally. The searches of link tables, and those that packets share with
+// them, are sent to the server of the link's other end.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@
 
 namespace halocline::channel_server {
 
-// A query of the link between two vehicles that are served by this server and another, and the sea of its
-// answer.
+// Query of a link between two vehicles, one of this server and one of another, and the sea in which it is
+// searched.
 struct SharedQuery {
   VehicleId from = 0, to = 0;
   const PathQuery& query;
@@ -28,15 +28,15 @@ class PathExchange {
  public:
   virtual ~PathExchange() = default;
 
-  // Whether the one of them is served by this server, the other by another.
+  // True when one of the vehicles belongs to this server and the other to another server.
   virtual bool is_shared(VehicleId a, VehicleId b) const = 0;
-  // Whether this server searches for the link tables of both.
+  // True when this server searches for the link tables of both ends.
   virtual bool is_owner(VehicleId a, VehicleId b) const = 0;
-  // The paths between them, of a table, are to come from the owner.
+  // Notes that a link table needs the paths between the vehicles from the server that searches for them.
   virtual void await(VehicleId a, VehicleId b) = 0;
-  // Null where none came.
+  // Returns the received paths of a query; null when none have arrived.
   virtual std::shared_ptr<const FoundPaths> received(const SharedQuery& query) = 0;
-  // To be told to the other.
+  // Sends the paths of a query to the other end's server.
   virtual void found(const SharedQuery& query, const FoundPaths& paths) = 0;
 };
 

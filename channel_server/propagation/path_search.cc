@@ -17,7 +17,7 @@ namespace halocline::channel_server {
 namespace {
 
 constexpr double kMinCellsOfALink = 20;
-constexpr double kEvenM = 0.5;  // differences of depth of a bottom that mixes no rays
+constexpr double kEvenM = 0.5;  // a bottom at least this uneven permits energy alone, m
 constexpr int kMaxHalvings = 6;
 constexpr double kRounding = 1e-6;   // m
 constexpr double kDepthShare = 0.1;  // height of a cell over its length
@@ -53,7 +53,7 @@ std::shared_ptr<const FoundPaths> found_paths(const RayModel& model, const PathS
 std::uint64_t PathQuery::hash_of_places() const {
   std::array<double, 7> all{
       places[0], places[1], places[2], places[3], link.source_depth_m, link.receiver_depth_m, link.range_m};
-  for (double& one : all) one += 0.0;  // of -0, too
+  for (double& one : all) one += 0.0;  // -0 becomes 0: both hash alike
   return xxh3(std::bit_cast<std::array<std::uint8_t, sizeof all>>(all));
 }
 
@@ -91,7 +91,7 @@ Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment&
   return Decibels{gain_db};
 }
 
-// Each count takes its low bits.
+// Each count is truncated to its low bits: 14 for bounces and turns, 7 for the branch.
 std::uint64_t number_of(const acoustics::PathIdentity& identity) {
   std::uint64_t number = identity.launched_up ? 1 : 0;
   for (const int count :

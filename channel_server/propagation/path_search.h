@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The search of one link's paths: what it depends on, and what it finds.
+// Search for the eigenrays of one link: its inputs and its results.
 //
-// Free function on values: calls may overlap between threads.
+// These are free functions on values: calls may overlap between threads.
 #pragma once
 
 #include <array>
@@ -30,62 +30,63 @@
 
 namespace halocline::channel_server {
 
-// How sound goes along rays.
+// Parameters of propagation along rays.
 struct RayModel {
   acoustics::FluidBottom bottom;
   acoustics::SurfaceModel surface = acoustics::SurfaceModel::kAplBubbles;
-  acoustics::RayOptions options;               // its frequency is not used: the transmitter's is
-  bool bounces_follow_range = false;           // bounces_for() a link instead of options.max_bounces
-  std::optional<acoustics::RaySolver> solver;  // used where it can do the link; empty: the simplest that can
+  acoustics::RayOptions options;               // the frequency is ignored: the transmitter's is used
+  bool bounces_follow_range = false;           // bounces_for() each link instead of options.max_bounces
+  std::optional<acoustics::RaySolver> solver;  // used if it can solve the link; empty: the simplest that can
   std::optional<Decibels>
-      shadow_loss;        // transmission loss where no ray gets, or too little of it; empty: silence
+      shadow_loss;        // transmission loss where no ray arrives, or too little energy; empty: silence
   bool coherent = false;  // received level: sum of phasors at the centre frequency
   acoustics::FadingModel fading;
   acoustics::Reverberation reverberation;
-  double speed_tolerance_mps = 0;  // knots of the water are thinned to that, 0..1
+  double speed_tolerance_mps = 0;  // tolerance for thinning the sound-speed profile, 0..1
   double reuse_distance_m =
-      0;  // of middle_of_cell(), 0..1000; 0: every link of a table is searched for itself
-  bool reuse_for_packets = false;  // packets share the searches of tables
-  // Over a rough bottom paths this much weaker than the noise over the transmitter's band, less the
-  // receiver's directivity, come as energy alone (RayOptions::diffuse_below_pressure), -100..100. Not where
-  // options.diffuse_below_db is 0.
+      0;  // cell length of middle_of_cell(), 0..1000; 0: every link of a table is searched by itself
+  bool reuse_for_packets = false;  // packets share the searches of link tables
+  // Over a rough bottom, paths that are weaker by this than the noise over the transmitter's band, less the
+  // receiver's directivity, contribute only their energy (RayOptions::diffuse_below_pressure), -100..100.
+  // Ignored where options.diffuse_below_db is 0.
   Decibels diffuse_below_noise{5};
-  // The whole of a link of more than 10 depths that is this much weaker still comes as energy, -100..100:
-  // below 0, one whose paths together are stronger (acoustics/link/mixed_link.h).
+  // A link longer than 10 water depths whose paths together are weaker by this than that limit is computed by
+  // its energy alone, -100..100 (acoustics/link/mixed_link.h). A value below 0 includes links whose paths
+  // together exceed the limit.
   Decibels weak_below_diffuse{6};
-  // Of the water wherever sound goes, as far as it is known, m: for the range that sound reaches.
-  // 0..kDeepestWater, rising.
+  // Range of the depth of the water wherever sound travels, as far as it is known, m; it bounds the reach of
+  // sound. 0..kDeepestWater, rising.
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
-  int max_searches_per_tick = 0;         // of link tables, by search_budget.h; 0: as many as they need
-  double profile_reuse_distance_m = 25;  // with it: between points of the lattice of ends, 0.1..1000
+  int max_searches_per_tick = 0;         // limit for link tables (search_budget.h); 0: unlimited
+  double profile_reuse_distance_m = 25;  // then, lattice of the ends of bottom profiles, 0.1..1000
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
 void validate(const RayModel& model);
 
-// Horizontal places of the ends of a bottom profile: north and east of the first, of the last, m.
+// Horizontal positions of the ends of a bottom profile: north and east of the first end, then of the last, m.
 using ProfileEnds = std::array<double, 4>;
 
-// The link runs from the profile's first end.
+// Query of one search. The link runs from the first end of the profile to the last.
 struct PathQuery {
-  // Begins with a hash of the places.
+  // Key of a query; it begins with a hash of the positions.
   using Key = std::tuple<std::uint64_t, EnvironmentTimeline::WaterId, double, ProfileEnds, std::int64_t,
                          const SeabedProfile*, double, double, double, double>;
 
   EnvironmentTimeline::WaterId water_id = 0;
   double frequency_hz = 0;
-  ProfileEnds places = {};  // of the bottom, unless it is given, and of the water, where it has a field
+  ProfileEnds places = {};  // ends of the bottom, unless given, and of a field's section
   std::int64_t seabed_version = 0;
   std::shared_ptr<const SeabedProfile> given = {};
   acoustics::RayLink link = {};
-  double diffuse_below_pressure = 0;  // of acoustics::RayOptions
+  double diffuse_below_pressure = 0;  // see acoustics::RayOptions
 
-  // Equal for queries of one line and one sea, whatever the depths of the ends.
+  // Returns a value that is equal for queries along one line in one sea, whatever the depths of the ends.
   auto line() const {
     return std::tuple(water_id, frequency_hz, places, seabed_version, given.get(), link.range_m,
                       diffuse_below_pressure);
   }
-  // Equal for queries of the same answer.
+  // Returns a value that is equal for queries with the same answer.
   Key key() const {
     return {hash_of_places(),    water_id,
             frequency_hz,        places,
@@ -107,23 +108,23 @@ inline bool is_of_one_sea(const PathQuery& a, const PathQuery& b) {
 }
 
 struct FoundPaths {
-  std::shared_ptr<const SeabedProfile> given;  // whose address is in the key
+  std::shared_ptr<const SeabedProfile> given;  // whose address is part of the key
   acoustics::Arrivals arrivals;
-  double mean_depth_m = 0;      // between the ends
+  double mean_depth_m = 0;      // mean depth of the water between the ends
   bool blocked = false;         // the bottom cuts the straight line
-  bool beyond_terrain = false;  // as SeabedProfile's
+  bool beyond_terrain = false;  // see SeabedProfile
 };
 
-// The water along the query's link: `water`, or where the environment has a field, that between the query's
-// places down to the depth (acoustics/link/field_section.h).
+// Returns the water along the query's link: `water` or, where the environment has a field, the section of the
+// field between the query's positions down to `deepest_m` (acoustics/link/field_section.h).
 acoustics::LinkWater water_along(const RayModel& model, const acoustics::RayWater& water,
                                  const acoustics::Environment& environment, const PathQuery& query,
                                  double deepest_m);
-// Sound speeds at the ends of the query's link, likewise.
+// Returns the sound speeds at the ends of the query's link, from `water` or the field, m/s.
 acoustics::EndSpeeds end_speeds(const acoustics::RayWater& water, const acoustics::Environment& environment,
                                 const PathQuery& query);
 
-// The sea of a query, and the mean depth of the water along its link.
+// Sea that a query is searched in, and the mean depth of the water along its link, m.
 struct PathSea {
   acoustics::RaySea sea;
   double mean_depth_m;
@@ -132,78 +133,82 @@ PathSea path_sea(const RayModel& model, const acoustics::RayWater& water,
                  const acoustics::Environment& environment, const PathQuery& query,
                  const SeabedProfile& seabed);
 
-// Over the bottom that is given, in the water of the query at its instant.
+// Searches for the query's eigenrays over the given bottom, in the query's water.
 std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
                                                const acoustics::Environment& environment,
                                                const PathQuery& query, const SeabedProfile& seabed);
 
-// The searches of links that differ in the depths of their ends alone, whose sea is made once. Not shared
+// Searches for links that differ only in the depths of their ends: their sea is built once. Not to be shared
 // between threads.
 class PathLine {
  public:
-  // As search_paths(), which answers itself where an end lies below the bottom. With shared rays links differ
-  // in what those say (acoustics::SharedRays), the first call has the greatest range, and the mean depth is
-  // that of its link.
+  // Searches like search_paths(), which is used where an end lies below the bottom. With `shared` rays, links
+  // may differ as those rays allow (acoustics::SharedRays); the first call must have the greatest range, and
+  // the mean depth is that of its link.
   std::shared_ptr<const FoundPaths> search(const RayModel& model, const acoustics::RayWater& water,
                                            const acoustics::Environment& environment, const PathQuery& query,
                                            const SeabedProfile& seabed,
                                            acoustics::SharedRays* shared = nullptr);
 
  private:
-  std::unique_ptr<const PathSea> sea_;  // of the first call
+  std::unique_ptr<const PathSea> sea_;  // built by the first call
 };
 struct SharedLine {
-  // Of receivers at several depths of one place (acoustics/rays/column_rays.h).
+  // For receivers at several depths of one position (acoustics/rays/column_rays.h).
   static SharedLine of_depths();
-  // Of receivers along one bearing (acoustics/rays/bearings/bearing_rays.h), of which the furthest is asked
-  // for first.
+  // For receivers along one bearing (acoustics/rays/bearings/bearing_rays.h); the furthest must be searched
+  // first.
   static SharedLine of_bearing(std::vector<double> rising_ranges_m);
 
   PathLine line;
-  std::unique_ptr<acoustics::SharedRays> rays;  // refers to the sea of the line
+  std::unique_ptr<acoustics::SharedRays> rays;  // refers to the sea of `line`
 };
 
-// The same of a link so weak and over so uneven a bottom that its energy is enough
-// (acoustics/link/mixed_link.h); null for others.
+// Returns the energy alone, without single paths, of a link that is weak enough and over an uneven enough
+// bottom (acoustics/link/mixed_link.h); null for other links.
 std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,
                                              const acoustics::Environment& environment,
                                              const PathQuery& query, const SeabedPlaces& seabed);
 
-// Whether that may be found, before its bottom is looked at.
+// False when weak_paths() would be null whatever the bottom, so that the bottom need not be looked up.
 bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query);
 
-// Bounces that a link's paths may have: 0.6 of range over mean depth (above 0), 60 at least and 10 000 at
-// most. A path that drops by the depth D from one bounce to the next meets the boundaries r tan(angle) / D
-// times over the range r, so these are all up to 31 degrees, the critical angle of medium sand; steeper ones
-// lose several dB at each bounce.
+// Returns the greatest number of bounces of a link's paths: 0.6 of range over mean depth (above 0), from 60
+// to 10 000. A path that descends by the depth D between two bounces meets the boundaries
+//
+//   r tan(angle) / D
+//
+// times over the range r. So paths of up to 31 degrees are included, the critical angle of medium sand;
+// steeper ones lose several dB at each bounce.
 int bounces_for(double range_m, double depth_m);
 
-// Of the bottom between the ends of a link, m.
+// Returns the mean depth of the bottom between the ends of a link, from 16 points, m.
 double mean_depth_m(const acoustics::BottomProfile& bottom, double range_m);
 
-// What the level of a link may have beside the sum of its paths' powers in even water
-// (acoustics/link/least_loss.h), our choices: 10 dB where phasors are added, 3 dB where only those whose
-// fading keeps together are; 10 dB for the tail of reverberation; 6 dB where the straight path, which serves
-// without a bottom, spreads less than by 1.5 * 10 log r.
+// Returns by how much the level of a link may exceed the sum of its paths' powers in water without focusing
+// (acoustics/link/least_loss.h). The values are our choices: 10 dB where phasors are added, 3 dB where only
+// paths whose fading is coherent add as phasors; plus 10 dB for the tail of reverberation; plus 6 dB where
+// the straight path, which is used without a bottom, spreads by less than 1.5 * 10 log r.
 Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment& environment);
 
-// The solver that is wanted where it can do the link, else the simplest that can; empty: the simplest.
+// Returns the wanted solver where it can solve the link, else the simplest that can; empty: the simplest.
 std::optional<acoustics::RaySolver> usable_solver(std::optional<acoustics::RaySolver> wanted,
                                                   const acoustics::RaySea& sea,
                                                   const acoustics::RayLink& link);
 
-// Of a path as it was found, from the link's lower end: the same for both directions.
+// Packs the identity of a path into one number. The identity is that from the link's end of lower id, so both
+// directions have the same number.
 std::uint64_t number_of(const acoustics::PathIdentity& identity);
 
-// Between which points the paths of a link of a table are searched, so that one search serves links that
-// differ little; empty: this very one, as it is too short for cells of `distance_m` (above 0).
+// Returns the link that is searched in place of `link` of a table, so that one search serves similar links;
+// empty: `link` itself is searched because it is too short for cells of `distance_m` (above 0).
 //
-// Range and both depths are each replaced by the middle of their cell: cells are `distance_m` long in
-// range and a tenth of that in depth (fronts of sound that travels nearly level bend most across depth), and
-// half as large as often as it takes for a link to be at least 20 cells long. Below 20 / 64 of `distance_m`
-// nothing is replaced. So the searched link is a function of the link alone, whatever was searched before,
-// and lies within 2.5 % of the range in range and 0.25 % of it in depth.
-// acoustics/rays/extrapolate_arrivals.h takes the paths from there to the link.
+// The range and both depths are replaced by the middles of their cells. Cells are `distance_m` long in range
+// and a tenth of that in depth, because the wavefronts of nearly horizontal sound curve most across depth.
+// Cells are halved until the link is at least 20 cells long; links shorter than 20 / 64 of `distance_m` are
+// not replaced. So the searched link is a function of the link alone, whatever was searched before. It lies
+// within 2.5 % of the range in range and 0.25 % of the range in depth. acoustics/rays/extrapolate_arrivals.h
+// extrapolates its paths to the link.
 std::optional<acoustics::RayLink> middle_of_cell(const acoustics::RayLink& link, double distance_m);
 
 }  // namespace halocline::channel_server

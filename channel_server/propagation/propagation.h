@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Propagation of sound from one point to another: the interface between the packet medium and the link tables
-// and the models of the water.
+// Interface of the propagation models: how sound travels from one point to another. The packet medium and the
+// link tables ask it; models of the water implement it.
 //
-// Every result holds for an instant `at`, that of departure: it decides which water and which known bottom
-// count, both of which may change during a run. An implementation may keep what it has computed; its results
-// depend on the arguments and on what was known for that instant, never on the order of the calls.
+// Every result holds for the instant of departure, `at`. That instant selects the environment and the known
+// bathymetry, both of which may change during a run. An implementation may cache what it has computed. Its
+// results depend on the arguments and on what was known for that instant, never on the order of the calls.
 //
-// Decibels are dB re 1 uPa in the transmitter's band. Angles are from the horizontal, positive down, of the
-// direction in which the sound travels: a launch angle as it leaves, an arrival angle as it comes in.
+// Levels are in dB re 1 uPa over the transmitter's band. Angles are measured from the horizontal, positive
+// down, along the direction of travel of the sound: the launch angle at the transmitter, the arrival angle at
+// the receiver.
 #pragma once
 
 #include <algorithm>
@@ -44,92 +45,96 @@ namespace halocline::channel_server {
 
 class PathExchange;
 
-// A level that stands for none at all where a number has to be finite: 300 dB below 1 uPa, far below the
-// thermal noise of any band (-15 dB re 1 uPa^2/Hz at 1 kHz).
+// Finite level that represents silence: 300 dB below 1 uPa, far below the thermal noise of any band (-15 dB
+// re 1 uPa^2/Hz at 1 kHz).
 inline constexpr Decibels kSilence{-300};
-// The level of a power, or the decibels of a ratio; kSilence at least.
+// Returns 10 log10(`power`), dB: the level of a power, or a ratio in decibels. The result is at least
+// kSilence.
 inline Decibels level_of(double power) {
   return power > 0 ? std::max(to_decibels(PowerRatio{power}), kSilence) : kSilence;
 }
 
-// Paths more than this below the strongest one do not announce a packet: a receiver finds the preamble by
-// correlation and takes for its start the first peak above a threshold relative to the greatest, and a
-// preamble compressed to one peak has sidelobes of its own up to -13 dB (a linear sweep without shading). 20
+// Paths weaker than the strongest one by more than this do not announce a packet. A receiver finds the
+// preamble by correlation and takes the first peak above a threshold relative to the greatest as its start. A
+// preamble compressed to one peak has sidelobes of up to -13 dB itself (a linear sweep without shading); 20
 // dB stays clear of these.
 inline constexpr Decibels kSignificantBelowStrongest{20};
 
 // One end of a link.
 struct LinkEnd {
-  VehicleId id = 0;                         // 0: a position
+  VehicleId id = 0;                         // 0: a position without a vehicle
   Vec3 position_ned_m = Vec3::Zero();       // world NED, m
   Vec3 velocity_ned_mps = Vec3::Zero();     // world NED, over ground, m/s
-  const acoustics::Modem* modem = nullptr;  // never null in a call; outlives it
-  Decibels above_ambient = {};  // of a receiver: by how much its noise exceeds that of the environment
+  const acoustics::Modem* modem = nullptr;  // never null in a call; must outlive the end
+  Decibels above_ambient = {};              // receivers only: noise above that of the environment
 };
 
 using acoustics::SoundPath;
 
-// A link, one way.
+// A link in one direction.
 struct EndPair {
   LinkEnd from, to;
 };
 
 enum class PathState {
   kOpen,      // there is at least one path
-  kShadow,    // no ray at all: the water bends every one away from the receiver
-  kBlocked,   // no ray at all, and the terrain stands in the straight line
-  kTooWeak,   // rays arrive, but their bounces leave less of them than counts
-  kTooSteep,  // rays arrive, but only launched more steeply than is searched
+  kShadow,    // no ray arrives: refraction bends all of them away from the receiver
+  kBlocked,   // no ray arrives, and the terrain cuts the straight line between the ends
+  kTooWeak,   // rays arrive, but losses at their bounces leave them below the limit of the search
+  kTooSteep,  // rays arrive, but only at launch angles steeper than the limit of the search
 };
 
 enum class PropagationUsed {
   kStraight,               // one straight path
   kRays,                   // rays in the water above the known bottom
-  kStraightWithoutBottom,  // rays were wanted, the bottom is not known: one straight path
-  kStraightNotSearched,    // of tables alone: rays were wanted, no search has been granted yet: one straight
-                           // path
-  kRaysBeyondTerrain,      // as kRays, but over the last known depth where the terrain ends or has no data
+  kStraightWithoutBottom,  // rays were requested, but the bottom is unknown: one straight path
+  kStraightNotSearched,    // link tables only: rays were requested, but no search is scheduled yet: one
+                           // straight path
+  kRaysBeyondTerrain,      // kRays, but over the last known depth where the terrain ends or has no data
 };
 inline bool is_along_rays(PropagationUsed used) {
   return used == PropagationUsed::kRays || used == PropagationUsed::kRaysBeyondTerrain;
 }
 
-// What arrives over one link. In the budget, `delay_s` is that of the strongest path in the receiver's guard
-// window, `received_level` is the mean power of all paths together (acoustics/fading/link_fading.h; without
-// fading, the sum of their powers), and the rest follows from these. Without a path the delay is that of the
-// straight line, both levels are kSilence or a floor that the implementation states, and nothing is
-// receivable.
+// Sound that one link delivers. In the budget, `delay_s` is the delay of the strongest path in the receiver's
+// guard window, and `received_level` is the mean power of all paths together (acoustics/fading/link_fading.h;
+// without fading, the sum of their powers); the other fields follow from these. Without a path, the delay is
+// that of the straight line, both levels are kSilence or a floor that the implementation states, and nothing
+// is receivable.
 struct Reception {
   acoustics::LinkBudget budget;
   PathState state = PathState::kOpen;
   PropagationUsed used = PropagationUsed::kStraight;
   double delay_spread_s = 0;  // from the first significant path to the last
-  // Part of the received level: that of the paths that are diffuse; kSilence of none.
+  // Level of the diffuse paths, a part of the received level; kSilence without any.
   Decibels diffuse_level = kSilence;
-  std::vector<SoundPath> paths;  // by delay; empty unless the state is kOpen
-  // Of tables: since when the paths are not those of a search for the link as it was, but extrapolated from
-  // it; 0 where they are. Only with a budget of searches.
+  std::vector<SoundPath> paths;  // sorted by delay; empty unless the state is kOpen
+  // Time since the paths were those of a search for this link; since then they are extrapolated to its
+  // present geometry. 0 when they are not extrapolated. Above 0 only in link tables with a limited number of
+  // searches a tick.
   SimDuration paths_age = {};
-  // The paths are its taps, and fade as it does; null: they fade by the model.
+  // Measured channel whose taps are the paths and whose fading they have; null: they fade by the model.
   std::shared_ptr<const acoustics::MeasuredChannel> measured = {};
 };
 
-// What is known of links so weak that only their energy is computed: all whose energy lies this far below the
-// noise over the transmitter's band, less the receiver's directivity.
+// Bound on links that are so weak that only their energy is computed: all links whose level lies
+// `below_noise` below the noise over the transmitter's band, less the receiver's directivity.
 struct WeakLinks {
   acoustics::LeastMixedLoss loss;
   Decibels below_noise;
 };
 
-// Index of the first path within kSignificantBelowStrongest of the strongest; `paths` by delay, not empty.
+// Returns the index of the first path within kSignificantBelowStrongest of the strongest. `paths` are by
+// rising delay and not empty.
 std::size_t first_significant(const std::vector<SoundPath>& paths);
-// Of paths by delay: from the first significant to the last significant; 0 of one path or none.
+// Returns the delay from the first significant path to the last significant one, s; 0 for one path or none.
+// `paths` are by rising delay.
 double delay_spread_s(const std::vector<SoundPath>& paths);
-// Sum of the powers; kSilence of none.
+// Returns the level of the sum of the powers; kSilence without a path.
 Decibels total_level(const std::vector<SoundPath>& paths);
-// But those that are diffuse.
+// Returns the number of paths that are not diffuse.
 std::size_t number_of_paths(const std::vector<SoundPath>& paths);
-// The level of these.
+// Returns the level of the diffuse paths; kSilence without any.
 Decibels diffuse_level(const std::vector<SoundPath>& paths);
 
 class Propagation {
@@ -138,65 +143,69 @@ class Propagation {
 
   // Throws InvalidArgument when a modem is out of range.
   virtual Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) = 0;
-  // The same where nobody reads the capacity, as packets do not: it may be 0.
+  // Returns reception() for callers such as packets that do not read the capacity: it may be 0.
   virtual Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) {
     return reception(at, from, to);
   }
-  // reception_without_capacity() of each link of one packet for which it is ready, shared out by `for_each`;
-  // empty for others.
+  // Returns reception_without_capacity() of each link of one packet that is ready, and an empty element for
+  // each other link. The work is distributed by `for_each`.
   virtual std::vector<std::optional<Reception>> packet_receptions(SimTime at,
                                                                   const std::vector<EndPair>& links,
                                                                   const ForEach& for_each);
-  // Whether begin_tick() is to be called before receptions(), once for each tick, with all links between all
-  // vehicles whoever asks for them: an implementation that has time for some searches only plans which.
+  // True when begin_tick() must be called once for each tick before receptions(), with all links between all
+  // vehicles, also those that nobody requests: an implementation with a limited number of searches a tick
+  // schedules them there.
   virtual bool plans_ticks() const { return false; }
   virtual void begin_tick(SimTime /*at*/, const std::vector<EndPair>& /*all*/) {}
-  // Whether this server and others tell each other what they search for, through `exchange`, from now on; it
-  // must outlive the propagation. Then prepare_tables() is to be called with the links of a tick before
-  // receptions() may be, at once where it awaits nothing: it searches for what others wait for. It changes no
-  // result.
+  // Lets this server and others exchange the results of their searches through `exchange` from now on;
+  // returns false when the model has no searches. `exchange` must outlive the propagation. With an exchange,
+  // prepare_tables() must be called with the links of a tick before receptions() may be, and without delay
+  // when it awaits nothing: it searches for what other servers wait for. The exchange changes no result.
   virtual bool share_searches(PathExchange& /*exchange*/) { return false; }
   virtual void prepare_tables(SimTime /*at*/, const std::vector<EndPair>& /*links*/,
                               const ForEach& /*for_each*/) {}
-  // For many links that leave at one instant, shared out by `for_each`: as reception() one by one, or nearly
-  // where an implementation lets links near each other share a search; the same whatever the sharing out.
+  // Returns the receptions of many links that depart at one instant; the work is distributed by `for_each`.
+  // Each equals reception() of that link, or nearly so where an implementation lets neighbouring links share
+  // a search. The results do not depend on the distribution.
   virtual std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                             const ForEach& for_each);
-  // Whether all is known that reception() needs, or receptions(). What is not is requested here, and becomes
-  // known or turns out to be unavailable: to be called again then.
+  // True when everything that reception() (or receptions()) needs is known. What is missing is requested here
+  // and later becomes known or turns out to be unavailable; call again then.
   virtual bool is_ready(SimTime /*at*/, const LinkEnd& /*from*/, const LinkEnd& /*to*/) { return true; }
-  // The same of reception_without_capacity().
+  // See is_ready(); here for reception_without_capacity().
   virtual bool is_ready_for_packet(SimTime at, const LinkEnd& from, const LinkEnd& to) {
     return is_ready(at, from, to);
   }
   virtual bool are_ready(SimTime /*at*/, const std::vector<EndPair>& /*links*/) { return true; }
-  // Whether answers depend on the bottom along the link: then reception() uses what is known of it, and
-  // reception_over() the one that is given, from the one end to the other (null: unknown). The latter is not
-  // to be called otherwise.
+  // True when results depend on the bottom along the link. Then reception() uses the known seabed and
+  // reception_over() the given one, from one end to the other (null: unknown). reception_over() must not be
+  // called otherwise.
   virtual bool uses_bottom() const { return false; }
-  // How far a place lies inside the seabed, m; 0 or less in the water, and where the seabed is not known.
+  // Returns how far a place lies inside the seabed, m; 0 or less in the water and where the seabed is
+  // unknown.
   virtual double depth_inside_seabed_m(const Vec3& /*place_ned_m*/) const { return 0; }
   virtual Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                    const std::shared_ptr<const SeabedProfile>& seabed);
-  // The link in full, as reception() computes it; here along the straight line.
+  // Returns the link in full detail, with the paths that reception() computes; here along the straight line.
   virtual LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to);
-  // Whether an echo off one of these points of the bottom reaches the receiver above its cut-off.
+  // True when an echo off one of these points of the bottom reaches the receiver above its cut-off level.
   virtual bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
                                   const acoustics::Modem& receiver, const Vec3& from_ned_m,
                                   const Vec3& to_ned_m,
                                   const std::vector<acoustics::BottomPoint>& points) = 0;
-  // The least loss of every link at a frequency between ends no deeper than `deepest_end_m`
-  // (acoustics/link/least_loss.h); empty: levels have no bound by range.
+  // Returns a lower bound of the loss of every link at a frequency between ends no deeper than
+  // `deepest_end_m` (acoustics/link/least_loss.h); empty: levels have no bound by range.
   virtual std::optional<acoustics::LeastLoss> least_loss(SimTime /*at*/, double /*frequency_hz*/,
                                                          double /*deepest_end_m*/) const {
     return std::nullopt;
   }
-  // Empty where weak links are computed as others, or the depth of the water is not known.
+  // Returns the bound on links whose energy alone is computed; empty where weak links are computed like all
+  // others, or where the depth of the water is unknown.
   virtual std::optional<WeakLinks> weak_links(SimTime /*at*/, double /*frequency_hz*/,
                                               double /*deepest_end_m*/) const {
     return std::nullopt;
   }
-  // The water at `at`; valid until the next change.
+  // Returns the environment at `at`; the reference is valid until the next change of it.
   virtual const acoustics::Environment& environment(SimTime at) const = 0;
 };
 

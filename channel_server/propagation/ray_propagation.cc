@@ -75,7 +75,7 @@ std::vector<std::optional<Reception>> RayPropagation::packet_receptions(SimTime 
                                                                         const std::vector<EndPair>& links,
                                                                         const ForEach& for_each) {
   std::vector<Task> tasks;
-  std::vector<std::size_t> places;  // of these, among the links
+  std::vector<std::size_t> places;  // index of each task's link in `links`
   for (std::size_t i = 0; i < links.size(); ++i) {
     Task task = searches_.for_packet(at, links[i].from, links[i].to);
     if (!searches_.is_ready(task)) continue;
@@ -173,7 +173,7 @@ Reception RayPropagation::answer(const Task& task, const FoundPaths& found,
 
 PathState RayPropagation::state_without_path(const FoundPaths& found) {
   using acoustics::PathLack;
-  if (!found.arrivals.silent()) return PathState::kTooWeak;  // absorbed beyond what a double holds
+  if (!found.arrivals.silent()) return PathState::kTooWeak;  // absorbed beyond the range of a double
   if (found.arrivals.lack == PathLack::kTooWeak) return PathState::kTooWeak;
   if (found.arrivals.lack == PathLack::kTooSteep) return PathState::kTooSteep;
   return found.blocked ? PathState::kBlocked : PathState::kShadow;
@@ -243,7 +243,8 @@ void RayPropagation::set_open(const Task& task, const acoustics::Arrivals& arriv
   const Vec3 &from = task.ends.from.position_ned_m, &to = task.ends.to.position_ned_m;
   const Decibels level = received_level(task, arrivals, reception.paths);
   const SoundPath& first = reception.paths[first_significant(reception.paths)];
-  // As many arrivals as paths unless one was absorbed altogether: found again by its delay.
+  // There are as many arrivals as paths unless one was absorbed altogether, so the arrival is found by its
+  // delay.
   const auto arrival = std::find_if(arrivals.paths.begin(), arrivals.paths.end(),
                                     [&](const auto& one) { return one.delay_s == first.delay_s; });
   acoustics::LinkBudget& budget = reception.budget;

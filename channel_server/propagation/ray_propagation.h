@@ -1,28 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sound along rays, over the bottom that is known between the ends of a link.
+// Propagation along rays over the known bottom between the ends of a link.
 //
-// Model: acoustics/rays/eigenray.h gives the paths; each has the level
-//   source level - spreading - bounces - absorption - beams (the sender's at the launch angle; the receiver's
-//   looking back along the arriving ray, so at minus the arrival angle),
-// and the link the sum of their powers (or, if wished, of their phasors for the ends exactly where they are).
-// In the budget: delay, mean sound speed (range over delay) and absorption are those of the first significant
-// path; transmission loss = source level - received level; noise, signal-to-noise ratio and what is
-// receivable follow; capacity takes that loss at the centre of the band, and elsewhere in the band as much
-// more or less as water between the two depths absorbs more or less over the length of the first significant
-// path (LinkKernel::budget_of_path). Doppler of each path is that of acoustics/link/ray_doppler.h. Where
-// there is no path: too weak or too steep when rays arrive beyond the limits of the search, blocked when none
-// does and the bottom cuts the straight line between the ends, in a shadow otherwise; the level is kSilence
-// or, in a shadow and where rays are too weak, that of the stated floor, the delay that of the straight line,
-// and nothing is receivable. Where the bottom is not known (no terrain there, or no answer of who knows it):
-// the straight path.
+// Model. acoustics/rays/eigenray.h finds the paths. The level of each path is, in dB,
 //
-// Paths are searched from the lower id to the higher; the other direction is the same paths backwards, so the
-// two are reciprocal to the last bit but for what the receiver's noise makes diffuse
-// (RayModel::diffuse_below_noise). reception() searches every link for itself. receptions(), for tables, may
-// let links share searches, whose paths are extrapolated to each (link_searches.h,
-// acoustics/rays/extrapolate_arrivals.h); so may packets. With a budget of searches a tick a link may keep
-// the paths of an earlier tick, extrapolated likewise: Reception::paths_age. Ends above the surface are taken
-// at it. Left out: motion of the bottom's slope across the link (acoustics/rays/eigenray.h).
+//   source level - spreading - losses at bounces - absorption - loss of both beams
+//
+// with the transmitter's beam at the launch angle and the receiver's looking back along the arriving ray, so
+// at minus the arrival angle. The level of the link is the sum of the paths' powers or, on request, the sum
+// of their phasors at the exact ends.
+//
+// In the budget, delay, mean sound speed (range over delay) and absorption are those of the first significant
+// path. Transmission loss = source level - received level; noise, signal-to-noise ratio and whether the link
+// is receivable follow. Capacity takes that loss at the centre of the band. Elsewhere in the band the loss
+// differs by as much as absorption does, in water between the two depths, over the length of the first
+// significant path (LinkKernel::budget_of_path). Doppler of each path: acoustics/link/ray_doppler.h.
+//
+// Without a path the state is
+//
+//   too weak, too steep  rays arrive beyond the limits of the search
+//   blocked              no ray arrives, and the bottom cuts the straight line between the ends
+//   shadow               no ray arrives otherwise
+//
+// Then the level is kSilence or, in a shadow and where rays are too weak, the configured floor; the delay is
+// that of the straight line, and nothing is receivable. Where the bottom is unknown (no terrain there, or no
+// answer from the bathymetry service), the straight path is used.
+//
+// Paths are searched from the lower id to the higher. The reverse direction has the same paths backwards, so
+// the two are reciprocal to the last bit, except for what the receiver's noise makes diffuse
+// (RayModel::diffuse_below_noise).
+//
+// reception() searches every link by itself. receptions(), for tables, may let links share searches, whose
+// paths are extrapolated to each link (link_searches.h, acoustics/rays/extrapolate_arrivals.h); so may
+// packets. With a limited number of searches a tick, a link may keep the paths of an earlier tick,
+// extrapolated in the same way: Reception::paths_age.
+//
+// Ends above the surface are placed on it. Left out: the slope of the bottom across the link
+// (acoustics/rays/eigenray.h).
 #pragma once
 
 #include <cstdint>
@@ -98,11 +111,12 @@ class RayPropagation : public Propagation {
   }
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed) override;
-  // The same without a capacity, of links from one end that share rays; null: of one by itself.
+  // Returns reception_over() without a capacity, for links from one end that share rays through `line`; null:
+  // the link by itself.
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed, SharedLine* line);
-  // The paths behind reception() along rays, one for each of its own but those of reverberation, in their
-  // order. Amplitudes are without the beams of the modems.
+  // Returns the eigenrays behind reception(), one for each of its paths except those of reverberation, in
+  // their order. Amplitudes exclude the beams of the modems.
   acoustics::Arrivals arrivals(SimTime at, const LinkEnd& from, const LinkEnd& to);
   LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
@@ -115,19 +129,19 @@ class RayPropagation : public Propagation {
   std::optional<WeakLinks> weak_links(SimTime at, double frequency_hz, double deepest_end_m) const override;
   const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }
 
-  std::int64_t searches() const { return searches_.searches(); }  // of paths, since the start
+  std::int64_t searches() const { return searches_.searches(); }  // for eigenrays, since the start
 
  private:
   using Task = LinkSearches::Task;
 
   std::vector<Task> table_tasks(SimTime at, const std::vector<EndPair>& links);
-  // Straight where the bottom is not known.
+  // Returns the reception along rays, or along the straight path where the bottom is unknown.
   Reception along_rays(SimTime at, const Task& task, acoustics::Capacity capacity);
   Reception straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,
                              acoustics::Capacity capacity = acoustics::Capacity::kComputed);
   Reception answer(const Task& task, const FoundPaths& found, acoustics::Capacity capacity) const;
   static PathState state_without_path(const FoundPaths& found);
-  // What was found, at the ends of the task where it was not found there.
+  // Returns the arrivals extrapolated to the ends of the task; empty when they were found at these ends.
   std::optional<acoustics::Arrivals> arrivals_at(const Task& task, const FoundPaths& found) const;
   std::vector<SoundPath> sound_paths(const Task& task, const acoustics::Arrivals& arrivals) const;
   Decibels received_level(const Task& task, const acoustics::Arrivals& arrivals,

@@ -28,15 +28,19 @@ std::vector<RayPoint> seabed_between(const acoustics::BottomProfile& bottom, dou
   return acoustics::simplified(points, LinkTracks::kMaxSeabed);
 }
 
-// The same seen from the other end.
+// Returns the points as seen from the other end.
 std::vector<RayPoint> mirrored(std::vector<RayPoint> points, double range_m) {
   std::reverse(points.begin(), points.end());
   for (RayPoint& point : points) point.range_m = range_m - point.range_m;
   return points;
 }
 
-// Of the arrival's amplitude, its parts but the reflections are spreading; what the terms named leave of the
-// loss is the bottom's, reflected and scattered.
+// Splits the loss of a path into its terms, dB:
+//
+//   spreading = -20 log10(amplitude) - reflection loss at the surface - reflection loss at the bottom
+//   bottom    = source level - received level - spreading - absorption - surface - beams
+//
+// The amplitude includes reflection losses. The bottom's term is the remainder: reflected and scattered loss.
 PathTrack track_of(const FoundPath& found, const acoustics::Modem& transmitter,
                    const acoustics::Modem& receiver) {
   const auto& [arrival, path, kept_at_surface] = found;
@@ -65,7 +69,7 @@ LinkTracks tracks_of(const acoustics::ProfiledSea& sea, const acoustics::RayLink
   tracks.paths_left_out = keep_strongest(found);
   for (const FoundPath& one : found) {
     tracks.paths.push_back(track_of(one, transmitter, receiver));
-    if (one.arrival.diffuse) continue;  // has many ways
+    if (one.arrival.diffuse) continue;  // has no single polyline
     tracks.paths.back().points =
         from_transmitter(polyline(sea, searched, one.arrival, points_for(found.size())));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tracks of a link from the paths that a search over its seabed found.
+// Builds the tracks of a link from the paths that a search over its seabed found.
 #pragma once
 
 #include <vector>
@@ -14,15 +14,15 @@
 
 namespace halocline::channel_server {
 
-// A path that a search found, and as the receiver gets it.
+// Path as a search found it, and as the receiver gets it.
 struct FoundPath {
   acoustics::Arrival arrival;
   acoustics::SoundPath path;
-  Decibels kept_at_surface;  // of received_path.h
+  Decibels kept_at_surface;  // see received_path.h
 };
 
-// `found` by delay, over the link `searched`; `reversed`: from the receiver to the transmitter. Without
-// weights.
+// Returns the tracks without guard weights. `found` is by rising delay over the link `searched`; `reversed`:
+// it was searched from the receiver to the transmitter.
 LinkTracks tracks_of(const acoustics::ProfiledSea& sea, const acoustics::RayLink& searched, bool reversed,
                      std::vector<FoundPath> found, const acoustics::Modem& transmitter,
                      const acoustics::Modem& receiver);

@@ -21,7 +21,7 @@ namespace halocline::channel_server {
 namespace {
 
 constexpr std::size_t kMaxRanges = 4096, kMaxModems = 256;
-// Depths are rounded up to these times a power of two, m: the reach of a crowd does not change whenever one
+// Depths are rounded up to this times a power of two, m, so that the reach does not change whenever a vehicle
 // dives.
 constexpr double kDepthUnit = 25;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
@@ -36,7 +36,8 @@ double least_noise_density(const acoustics::Band& band, const acoustics::NoiseSo
   return acoustics::least_noise_power_density(std::max(band.low_hz, 1.0), band.high_hz, sources).value;
 }
 
-// The mean ratio below which a preamble is as good as never acquired, dB; -infinity of none.
+// Returns the mean signal-to-noise ratio below which a preamble is acquired less often than once in
+// `acquired_once_in` packets, dB; -infinity without a preamble.
 double unnoticed_sinr_db(const acoustics::Modem& modem, const ReachRule& rule) {
   if (modem.preamble == SimDuration()) return kNever;
   const auto acquired = [&](double sinr) { return acoustics::acquisition_probability(modem, {sinr}); };
@@ -49,7 +50,7 @@ bool may_receive(const acoustics::Modem& sender, const acoustics::Modem& receive
   return same_family(sender, receiver) && acoustics::band_share(sender.band(), receiver.band()) > 0;
 }
 
-// Over the sender's band.
+// Returns the noise over the sender's band, less the receiver's directivity index.
 Decibels noise_at(const acoustics::Modem& sender, const acoustics::Modem& receiver, PowerRatio density) {
   return to_decibels({density.value * sender.bandwidth_hz}) - receiver.directivity_index;
 }
@@ -80,7 +81,9 @@ Decibels least_level_that_matters(const ReachRule& rule, const acoustics::Modem&
   return least_level(rule, sender, receiver, noise_density, unnoticed_sinr_db(sender, rule));
 }
 
-// It is met no later than after range / (c - v), and no nearer than range - v range / (c - v).
+// A vehicle of speed v meets sound of speed c after range / (c - v) at the latest, no nearer than
+//
+//   range - v range / (c - v) = range (1 - v / (c - v))
 bool stays_beyond(double reach_m, double range_m, double speed_mps) {
   constexpr double kSpeedingUpMps = 5, kSlowestSoundMps = 1400;
   const double speed = std::min(speed_mps + kSpeedingUpMps, kSlowestSoundMps / 2);
@@ -131,7 +134,7 @@ ReachModel::Crowd ReachModel::crowd_of(SimTime at, const VehicleRegistry& regist
     const auto is_known = [&](const acoustics::Modem* known) { return known == &modem || *known == modem; };
     if (std::none_of(crowd.modems.begin(), crowd.modems.end(), is_known)) crowd.modems.push_back(&modem);
   };
-  // As its own modem it receives every rate of its family.
+  // The vehicle's own modem receives every rate of its family.
   const auto add = [&](const VehicleModem& carried) {
     add_one(carried.modem);
     for (const ModemRate& rate : carried.rates.all()) {

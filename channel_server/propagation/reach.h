@@ -1,29 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a sender reaches: the range beyond which its sound matters to nobody. What is further apart is left
-// out before anything of its link is surveyed, searched or computed.
+// Reach of a sender: the range beyond which its sound affects nobody. Links beyond it are dropped before
+// anything of them is looked up, searched or computed.
 //
-// Of each receiver's modem, two levels count. The sound is of no consequence where it is surely below both:
-// - what disturbs: its power within any band is `below_noise` (30 dB) below the noise there; so much takes
-//   0.004 dB off a ratio, and 0.04 dB where large-scale fading raises it by three standard deviations of 3
-//   dB:
-//     least noise density over the sender's band * its bandwidth - directivity index - below_noise
-// - what a receiver of the same family and with a common band notices: the greater of its cut-off level, and
-//   the level at which the preamble is acquired once in `acquired_once_in` (100 000) packets over all fading
-//   (acoustics/fading/fading_bounds.h). A packet without a preamble is always acquired: then the cut-off
-//   alone counts. One that is not acquired is neither received nor followed.
-// The sender's reach is the range at which source level + both beams at their best - least loss
-// (acoustics/link/least_loss.h) falls below the lower of them; of all modems in use (its own is among them)
-// the greatest. Where links are so weak there that only their energy is computed (Propagation::weak_links),
-// the least loss is that of their energy.
+// Two levels count for each receiving modem. Sound has no effect where it is certainly below both.
 //
-// Noise: the least of the waters known to hold within kLongestFlight from then on. Modems: those carried
-// then, or announced to be carried within that time. Left out: changes of water and modems that are announced
-// after the departure.
+// - Interference level: the sound's power within any band is `below_noise` (30 dB) below the noise there.
+//   Such interference takes 0.004 dB off a signal-to-noise ratio, and 0.04 dB where large-scale fading raises
+//   it by three standard deviations of 3 dB. The level is
+//       least noise density over the sender's band * its bandwidth - directivity index - below_noise
+// - Detection level, for a receiver of the same family with a common band: the greater of its cut-off level
+//   and the level at which the preamble is acquired once in `acquired_once_in` (100 000) packets over all
+//   fading (acoustics/fading/fading_bounds.h). A packet without a preamble is always acquired: then the
+//   cut-off level alone counts. A packet that is not acquired is neither received nor tracked.
+// The reach is the range at which
 //
-// The range of reception, within which links have rows in tables, is less: beyond it nobody receives a packet
-// in a thousand. There source level + both beams at their best - least loss is less above the noise of the
-// instant, the least over the band, than the least ratio that the sender's packets need
-// (links/link_predictor.h). The cut-off does not count: a row shows it.
+//   source level + both beams at their best - least loss
+//
+// falls below the lower of the two levels (acoustics/link/least_loss.h), the greatest such range of all
+// modems in use, the sender's own included. Where links at that range are so weak that only their energy is
+// computed (Propagation::weak_links), the least loss is that of their energy.
+//
+// The noise is the least of the environments known to hold within kLongestFlight after the departure. The
+// modems are those carried at the departure or announced to be carried within that time. Left out: changes of
+// environment and modems that are announced after the departure.
+//
+// The reception range, within which links have rows in link tables, is shorter: beyond it at most one packet
+// in a thousand is received. There, source level + both beams at their best - least loss exceeds the noise at
+// the instant (the least over the band) by less than the least signal-to-noise ratio that the sender's
+// packets need (links/link_predictor.h). The cut-off level is ignored here: table rows state it.
 #pragma once
 
 #include <array>
@@ -45,57 +49,58 @@
 namespace halocline::channel_server {
 
 struct ReachRule {
-  bool by_level = true;           // false: everybody reaches everybody
+  bool by_level = true;           // false: every sender reaches every receiver
   Decibels below_noise{30};       // 0..200
-  double acquired_once_in = 1e5;  // packets, 10..1e5: what is acquired less often is not noticed
+  double acquired_once_in = 1e5;  // packets, 10..1e5: a rarer acquisition has no effect
   acoustics::FadingModel fading = {};
-  double noise_spread_db = 0;  // standard deviation of the noise; three of them count as quieter
-  double table_range_m = 0;    // the range of reception is no more than that; 0: by level alone
+  double noise_spread_db = 0;  // standard deviation of the noise; the noise counts as three of them quieter
+  double table_range_m = 0;    // upper bound of the reception range; 0: by level alone
 };
 
-// Sound that left before is not under way any more: it has gone 180 km.
+// Sound that departed earlier is no longer under way: it has travelled 180 km.
 inline constexpr SimDuration kLongestFlight = SimDuration::from_milliseconds(120'000);
 
-// The level below which `receiver` does not notice sound of `sender`, nor is disturbed by it;
-// `noise_density`, uPa^2/Hz, is the least over the sender's band. dB re 1 uPa over that band.
+// Returns the level below which `receiver` neither detects sound of `sender` nor is disturbed by it, dB re 1
+// uPa over the sender's band. `noise_density`, uPa^2/Hz, is the least over that band.
 Decibels least_level_that_matters(const ReachRule& rule, const acoustics::Modem& sender,
                                   const acoustics::Modem& receiver, PowerRatio noise_density);
 
-// Whether a receiver `range_m` away when sound departs, at that speed over ground, is still further than
-// `reach_m` away when the sound comes there: it may speed up by 5 m/s (our choice), and sound is no slower
-// than 1400 m/s on average.
+// True when a receiver `range_m` away at the departure of sound is still further than `reach_m` away when the
+// sound arrives. `speed_mps` is its speed over ground at the departure; it may speed up by 5 m/s (our
+// choice), and sound travels at 1400 m/s at least on average.
 bool stays_beyond(double reach_m, double range_m, double speed_mps);
 
-// Not thread-safe.
+// Computes reaches and reception ranges; caches them by water and modems. Not thread-safe.
 class ReachModel {
  public:
-  // `propagation` of these waters; it must outlive the model.
+  // `propagation` must use these waters and outlive the model.
   ReachModel(std::shared_ptr<const EnvironmentTimeline> waters, const Propagation& propagation,
              const ReachRule& rule);
 
-  // Of sound that leaves `sender` at `at`, with `vehicles` about, placed then; m, 0..kGreatestBoundedRange.
-  // That greatest range, which contains everybody, without a rule and where the propagation states no bound.
+  // Returns the reach of sound that leaves `sender` at `at`, m, 0..kGreatestBoundedRange; `vehicles` are all
+  // vehicles where they are at that time. kGreatestBoundedRange, which includes everybody, when reaches are
+  // not limited by level and where the propagation states no bound.
   double reach_m(SimTime at, const acoustics::Modem& sender, const VehicleRegistry& registry,
                  const std::vector<PlacedVehicle>& vehicles);
-  // Whether sound of this power where the noise has that one, over the same band, may disturb.
+  // True when sound of this power may disturb where the noise over the same band has that power.
   bool disturbs(double power, double noise) const {
     return !rule_.by_level || power >= noise * to_power_ratio(-rule_.below_noise).value;
   }
-  // The mean ratio, dB, below which no packet of this modem is received.
+  // Mean signal-to-noise ratio, dB, below which no packet of a modem is received.
   using LeastRatio = std::function<double(const acoustics::Modem&)>;
-  // The ranges of reception of each of them, in their order; m, as reach_m().
+  // Returns the reception range of each vehicle, in their order, m; range as reach_m().
   std::vector<double> reception_ranges_m(SimTime at, const VehicleRegistry& registry,
                                          const std::vector<PlacedVehicle>& vehicles,
                                          const LeastRatio& least_sinr_db);
 
  private:
-  // The modems in use and how deep they are.
+  // Modems in use and the greatest depth of their vehicles.
   struct Crowd {
-    std::vector<const acoustics::Modem*> modems;  // all different
+    std::vector<const acoustics::Modem*> modems;  // without duplicates
     double deepest_m = 0;
   };
   using ModemKey = std::tuple<std::array<double, 7>, std::vector<double>, std::string>;
-  // The water; what the level is compared with; how deep; sender and receiver.
+  // Water; level that is compared; greatest depth; sender; receiver.
   using Key = std::tuple<EnvironmentTimeline::WaterId, double, double, ModemKey, ModemKey>;
 
   static ModemKey key_of(const acoustics::Modem& modem);
@@ -104,7 +109,7 @@ class ReachModel {
   double reach_m(SimTime at, const acoustics::Modem& sender, const Crowd& crowd);
   double reception_range_m(SimTime at, const acoustics::Modem& sender, const Crowd& crowd,
                            double least_sinr_db);
-  // Beyond it levels are below `least`.
+  // Returns the range beyond which levels are below `least`.
   double range_m(SimTime at, const acoustics::Modem& sender, const acoustics::Modem& receiver, Decibels least,
                  double deepest_m);
 

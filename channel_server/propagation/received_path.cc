@@ -34,7 +34,7 @@ std::optional<SoundPath> received_path(const RoughBoundaries& boundaries,
   const auto& [from, to] = ends;
   const acoustics::Arrival path = reversed ? backwards(arrival) : arrival;
   const double pressure = weighted_pressure(path, {from.modem->beam, to.modem->beam});
-  if (!(pressure > 0)) return std::nullopt;  // absorbed beyond what a double holds
+  if (!(pressure > 0)) return std::nullopt;  // absorbed beyond the range of a double
   const double frequency_hz = from.modem->centre_frequency_hz;
   const double kept = kept_share_of(boundaries, environment, frequency_hz, path, path.bottom_sine_squares);
   if (!(kept > 0)) return std::nullopt;
@@ -58,13 +58,13 @@ std::optional<SoundPath> received_path(const RoughBoundaries& boundaries,
   sound.fading = path_fading(boundaries.fading, environment.noise.wind_mps, frequency_hz,
                              path.surface_sine_squares, path.bottom_sine_squares, kept);
   sound.diffuse = path.diffuse;
-  // Many paths of any phase add to complex Gaussian noise.
+  // Many paths of random phase add to complex Gaussian noise.
   if (path.diffuse && boundaries.fading.enabled)
     sound.fading = {.coherent = 0, .scattered = 1, .doppler_spread_hz = sound.fading.doppler_spread_hz};
   return sound;
 }
 
-// Over a bottom that does not scatter what is kept is the surface's share.
+// Over a bottom that does not scatter, the remaining share is the surface's.
 Decibels kept_at_surface(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
                          double frequency_hz, const acoustics::Arrival& arrival) {
   return to_decibels(PowerRatio{kept_share_of(boundaries, environment, frequency_hz, arrival, 0)});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One path that rays found, as the receiver gets it: with both beams, with what rough boundaries leave of it
-// and how they make it fade, and with the Doppler of both ends.
+// One path found by rays as the receiver gets it: with both beams, the scattering loss and the fading due to
+// rough boundaries, and the Doppler shift due to both ends.
 #pragma once
 
 #include <optional>
@@ -14,21 +14,22 @@
 
 namespace halocline::channel_server {
 
-// What fading and scattering depend on besides the water.
+// Parameters of fading and scattering besides the water.
 struct RoughBoundaries {
   acoustics::FadingModel fading;
-  double trapped_share;  // of acoustics/fading/scattering_loss.h
+  double trapped_share;  // see acoustics/fading/scattering_loss.h
 };
 
-// The same path, followed from its other end.
+// Returns the same path followed from its other end.
 acoustics::Arrival backwards(acoustics::Arrival path);
 
-// `reversed`: the arrival was found from the receiver to the transmitter. Empty where nothing is left of it.
+// Returns the path as received; empty when no energy is left. `reversed`: the arrival was found from the
+// receiver to the transmitter.
 std::optional<SoundPath> received_path(const RoughBoundaries& boundaries,
                                        const acoustics::Environment& environment, const EndPair& ends,
                                        const acoustics::Arrival& arrival, bool reversed);
 
-// Of the level of that path, what the surface's scattering leaves, 0 dB or less.
+// Returns the share of the path's power that scattering at the surface leaves in it, dB, 0 or less.
 Decibels kept_at_surface(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
                          double frequency_hz, const acoustics::Arrival& arrival);
 

@@ -18,11 +18,11 @@ namespace {
 constexpr std::int64_t kSide = TileSurvey::kPoints;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// Floor of the quotient: tiles of points, and blocks of tiles.
+// Returns the floor of the quotient: the tile of a point, or the block of a tile.
 std::int64_t tile_of(std::int64_t point) { return point >= 0 ? point / kSide : (point - kSide + 1) / kSide; }
 
 constexpr int kReachBefore = 2, kReach = kSplineReach;
-constexpr int kHere = kReachBefore, kNext = kReachBefore + 1;  // points 0 and 1 among these
+constexpr int kHere = kReachBefore, kNext = kReachBefore + 1;  // indices of points 0 and 1 among these
 
 }  // namespace
 
@@ -46,12 +46,12 @@ void TileSurvey::take(std::span<const RayAnswer> answers) {
   }
 }
 
-// Reads the lattice along a line; the tile of the last point is most often that of the next.
+// Reader of the lattice along a line; it keeps the last tile because the next point is most often in it.
 class SeabedMap::Reader {
  public:
   explicit Reader(const SeabedMap& map) : map_(map) {}
 
-  // Null when it was not answered; one that failed is there.
+  // Returns the tile of a point; null when it was not answered. A tile whose query failed is returned.
   const Tile* tile_at(std::int64_t north, std::int64_t east) {
     const TileIndex index{tile_of(north), tile_of(east)};
     if (known_ && index == index_) return tile_;
@@ -68,9 +68,9 @@ class SeabedMap::Reader {
     const double i = std::floor(north), j = std::floor(east);
     return seabed_in_cell(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j), north - i, east - j);
   }
-  // Whether the cell of the last sample has a corner whose depth is held from elsewhere.
+  // True when the cell of the last sample has a corner whose depth continues that of another place.
   bool is_held() const { return cell_held_; }
-  // Along the line, in the cell of the last sample.
+  // Adds the slopes along the line between the points of the last sample's cell.
   void add_slopes(const Line& line, SlopeSums& slopes) const {
     for (std::size_t i = 0; i + 1 < kReach; ++i) {
       for (std::size_t j = 0; j + 1 < kReach; ++j) {
@@ -86,14 +86,14 @@ class SeabedMap::Reader {
   }
 
  private:
-  // The depths that weigh in a cell; two samples in a row most often share one.
+  // Reads the depths that contribute in a cell; two consecutive samples most often share one.
   void read_cell(std::int64_t n, std::int64_t e) {
     if (read_ && n == cell_north_ && e == cell_east_) return;
     read_ = true;
     cell_north_ = n;
     cell_east_ = e;
     cell_held_ = false;
-    // They lie in two tiles each way at most.
+    // The points lie in two tiles at most in each direction.
     static_assert(kReach <= kSide);
     const std::int64_t north = n - kReachBefore, east = e - kReachBefore;
     const int i_next = std::min(static_cast<int>(kSide * (tile_of(north) + 1) - north), kReach),
@@ -103,7 +103,8 @@ class SeabedMap::Reader {
     read_part(north, east, i_next, kReach, 0, j_next);
     read_part(north, east, i_next, kReach, j_next, kReach);
   }
-  // Of the cell whose first depth is that of the point (n, e), those that lie in one tile.
+  // Reads the points of one tile: rows first_i..end_i-1 and columns first_j..end_j-1 of the cell whose first
+  // point is (n, e).
   void read_part(std::int64_t n, std::int64_t e, int first_i, int end_i, int first_j, int end_j) {
     if (first_i == end_i || first_j == end_j) return;
     const Tile* tile = tile_at(n + first_i, e + first_j);
@@ -121,12 +122,12 @@ class SeabedMap::Reader {
       if (is_here && (tile.held >> (origin + i * kSide + j) & 1) != 0) cell_held_ = true;
     }
   }
-  // At `u` of the way north and `v` of the way east of point (n, e).
+  // Returns z of the seabed at the fractions `u` north and `v` east of point (n, e).
   double seabed_in_cell(std::int64_t n, std::int64_t e, double u, double v) {
     read_cell(n, e);
     const auto wn = spline_weights(u), we = spline_weights(v);
     const double z0 = cell_[kHere][kHere];
-    // Of differences, so that level ground stays level to the last bit.
+    // Weights are applied to differences, so a level seabed stays level to the last bit.
     double z = z0;
     for (int i = 0; i < kReach; ++i) {
       double row = 0;
@@ -215,7 +216,7 @@ std::size_t SeabedMap::EndsHash::operator()(const Ends& ends) const {
   return static_cast<std::size_t>(xxh3(bytes));
 }
 
-// Where many tiles are kept all lines note which of them are in use.
+// When many tiles are kept, every line is looked up, to mark its tiles as in use.
 bool SeabedMap::is_surveyed(const Vec3& from, const Vec3& to) {
   if (tiles_.size() > kMaxTiles / 2) return look_up_tiles(line_between(from, to));
   const Ends ends{from.x(), from.y(), to.x(), to.y()};
@@ -244,7 +245,8 @@ bool SeabedMap::look_up_tiles(const Line& line) {
     surveyed = false;
     if (!queried_.contains(index)) requested_.insert(index);
   };
-  // Every fourth sample, with as many points more to each side as lie between them.
+  // Every fourth sample is visited, with as many more lattice points on each side as lie between visited
+  // samples.
   constexpr int kStride = 4;
   const auto beside = static_cast<std::int64_t>(std::ceil(kStride / 2 * line.spacing_m / rule_.spacing_m));
   constexpr TileIndex kNone{std::numeric_limits<std::int64_t>::min(), 0};

@@ -12,9 +12,12 @@
 namespace halocline::channel_server {
 namespace {
 
-// Lowers the two points beside `range_m` until the bottom there is `depth_m` deep. With the weights w of
-// linear interpolation the points go down by d w / (w0^2 + w1^2), d being what is missing: continuous in the
-// range.
+// Lowers the two points beside `range_m` until the bottom there is `depth_m` deep. With the weights w0, w1 of
+// linear interpolation and the missing depth d, each point i moves down by
+//
+//   d w_i / (w0^2 + w1^2)
+//
+// which is continuous in the range.
 void lower_to(std::vector<acoustics::ProfiledDepth>& points, double range_m, double depth_m) {
   const auto after =
       std::find_if(points.begin() + 1, points.end() - 1, [&](const auto& p) { return p.range_m > range_m; });

@@ -11,7 +11,7 @@
 namespace halocline::channel_server {
 namespace {
 
-constexpr double kNeverSearched = 2000, kOtherSea = 1000;  // dB of urgency: more than any level has
+constexpr double kNeverSearched = 2000, kOtherSea = 1000;  // dB of urgency: more than any level
 constexpr double kUsualChange = 25, kLeastChange = 1e-3;   // m
 constexpr double kDepthsCount = 10;
 
@@ -51,7 +51,7 @@ void SearchBudget::begin_tick(SimTime tick, std::vector<Wanted> links) {
     std::size_t link;
   };
   std::vector<Need> needs;
-  std::vector<Granted*> kept;  // of each link; null: none yet
+  std::vector<Granted*> kept;  // for each link; null: never scheduled
   for (std::size_t i = 0; i < links.size(); ++i) {
     kept.push_back(find(links[i].id));
     if (kept[i] != nullptr && kept[i]->query.key() == links[i].query.key())

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which links of the tables are searched for paths at a tick, where there are more than the server may take
-// time for.
+// Scheduler of eigenray searches for link tables: picks the links to search at a tick when more are due than
+// the time of the server allows.
 //
-// Rule. A link needs a search when the query of its paths (path_search.h) is another than the one it was last
-// granted. Of those that need one as many are granted at a tick as the budget has, by urgency
-//   U = L + 20 log10(d / 25 m),
-// L the received level over the receiver's least one along a straight line without absorption, dB, d how far
-// the ends have moved since the link was granted a search (depths count ten times; path_search.h): the most
-// audible and most changed first. A link without any search comes before all others, one in other water or
-// over another seabed before those that only moved; equals by id. The rest keeps the paths of its last
-// search, extrapolated to where the ends are.
+// Rule. A link is due when the query of its paths (path_search.h) differs from the one that was scheduled for
+// it last. At each tick, as many of the links that are due are scheduled as the limit allows, in order of
+// urgency
 //
-// What is granted is a function of the links of all ticks since the start of the run, of all vehicles,
-// whichever shard serves them: threads, shards and processes agree. A server that was started again grants
-// anew. Not thread-safe.
+//   U = L + 20 log10(d / 25 m)
+//
+// where L is the received level above the receiver's least receivable level, along a straight line without
+// absorption, dB, and d is how far the ends have moved since the link was scheduled last (depths count ten
+// times; path_search.h). So the loudest and most changed links come first. Links that were never scheduled
+// precede all others; links in other water or over another seabed precede those that only moved; equal
+// urgencies are ordered by id. All other links keep the paths of their last search, extrapolated to the
+// present ends.
+//
+// The schedule is a function of the links of all ticks since the start of the run, of all vehicles, whichever
+// shard serves them: threads, shards and processes agree. A server that was restarted schedules afresh. Not
+// thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +34,8 @@ namespace halocline::channel_server {
 
 class SearchBudget {
  public:
-  using LinkId = std::tuple<VehicleId, VehicleId, double>;  // lower, higher, Hz
-  // Both ways of a pair have the same paths at one frequency.
+  using LinkId = std::tuple<VehicleId, VehicleId, double>;  // lower id, higher id, Hz
+  // Returns the id of a link; both directions of a pair have the same paths at one frequency.
   static LinkId id_of(const EndPair& ends);
   struct Wanted {
     LinkId id;
@@ -42,23 +46,24 @@ class SearchBudget {
     PathQuery query;
     SimTime current_at;  // the latest tick at which this was the link's query
     std::shared_ptr<const FoundPaths>
-        paths;  // once they are searched for; null before, and where the bottom is unknown
+        paths;  // set after the search; null before, and where the bottom is unknown
   };
 
-  // 1 or more a tick.
+  // `searches` is the limit a tick, 1 or more.
   explicit SearchBudget(int searches) : searches_(static_cast<std::size_t>(searches)) {}
 
-  // All links of all vehicles at a tick; of two of one id the first. Others are forgotten. A tick before the
-  // last one begins another run.
+  // Schedules searches among all links of all vehicles at a tick; of two links of one id, the first counts.
+  // Links that are not listed are forgotten. A tick before the last one begins another run.
   void begin_tick(SimTime tick, std::vector<Wanted> links);
-  // Null for a link that has not had its turn. Valid until the next begin_tick.
+  // Returns the scheduled query of a link; null for one that was never scheduled. Valid until the next
+  // begin_tick.
   Granted* find(const LinkId& id);
 
  private:
   std::size_t searches_;
   SimTime tick_;
-  std::vector<LinkId> ids_;       // rising
-  std::vector<Granted> granted_;  // to each
+  std::vector<LinkId> ids_;       // sorted
+  std::vector<Granted> granted_;  // for each id
 };
 
 }  // namespace halocline::channel_server

@@ -29,8 +29,8 @@ SoundPath straight_path(const acoustics::Environment& water, const acoustics::Li
   return path;
 }
 
-// The budget of a straight path through a field: delay and absorption are those along the line, levels change
-// by what that absorbs more than the profile.
+// Sets the budget of a straight path through a field: delay and absorption are those along the line, and
+// levels change by the difference in absorption from the profile.
 void take_field(const acoustics::LinkKernel& kernel, const acoustics::Environment& water, const EndPair& ends,
                 acoustics::Capacity capacity, acoustics::LinkBudget& budget) {
   const auto& [from, to] = ends;
@@ -68,7 +68,7 @@ Reception StraightPropagation::along_line(const acoustics::LinkKernel& kernel,
   return reception;
 }
 
-// The cache of kernels is read in turn; links are shared out.
+// Kernels are looked up sequentially because of their cache; links are distributed.
 std::vector<Reception> StraightPropagation::receptions(SimTime at, const std::vector<EndPair>& links,
                                                        const ForEach& for_each) {
   std::vector<std::shared_ptr<const acoustics::LinkKernel>> kernels;
@@ -112,7 +112,7 @@ StraightPropagation::ModemKey StraightPropagation::key_of(const acoustics::Modem
   return {numbers, std::move(beam), modem.family};
 }
 
-// Whether key_of() gives them the same.
+// True when key_of() is equal for both.
 bool StraightPropagation::are_alike(const acoustics::Modem& a, const acoustics::Modem& b) {
   return a.source_level == b.source_level && a.min_receivable_level == b.min_receivable_level &&
          a.centre_frequency_hz == b.centre_frequency_hz && a.bandwidth_hz == b.bandwidth_hz &&

@@ -25,12 +25,12 @@
 
 namespace halocline::channel_server {
 
-// The straight path of acoustics/link/link_kernel.h, in the water of the instant, weighed by both beams.
-// Through a field delay and absorption are those along the line (acoustics/link/line_means.h); echoes off the
-// bottom and the capacity's change over the band are those of the profile at the world's origin.
+// Straight path of acoustics/link/link_kernel.h in the water of the instant, weighted by both beams. Through
+// a field, delay and absorption are those along the line (acoustics/link/line_means.h); echoes off the bottom
+// and the variation of the capacity over the band are those of the profile at the world's origin.
 //
-// A LinkKernel takes a millisecond to make and a fraction of a microsecond to evaluate, so one is kept for
-// each pair of different modems, `max_kernels` at most.
+// Constructing a LinkKernel takes a millisecond and evaluating it a fraction of a microsecond, so one is kept
+// for each pair of different modems, `max_kernels` at most.
 class StraightPropagation : public Propagation {
  public:
   static constexpr std::size_t kMaxKernels = 1024;
@@ -40,7 +40,7 @@ class StraightPropagation : public Propagation {
                                const acoustics::FadingModel& fading = {},
                                std::size_t max_kernels = kMaxKernels);
 
-  // One path, straight; never in a shadow, never blocked. Doppler by acoustics/link/ray_doppler.h.
+  // Returns one straight path, never in a shadow and never blocked. Doppler: acoustics/link/ray_doppler.h.
   Reception along_line(SimTime at, const EndPair& ends, acoustics::Capacity capacity) {
     const auto& [from, to] = ends;
     return along_line(*kernel_of(at, *from.modem, *to.modem), waters_->at(at), ends, capacity);
@@ -53,7 +53,7 @@ class StraightPropagation : public Propagation {
   }
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
-  // The same link where the terrain is known to stand in the line: no path, silence.
+  // Returns the link where the terrain is known to cut the line: no path, silence.
   Reception blocked(SimTime at, const LinkEnd& from, const LinkEnd& to);
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
                           const Vec3& from_ned_m, const Vec3& to_ned_m,
@@ -70,7 +70,7 @@ class StraightPropagation : public Propagation {
   std::size_t kernels_kept() const { return kernels_.size(); }
 
  private:
-  // Numbers of a budget, beam, family.
+  // Numbers that a budget depends on, beam, family.
   using ModemKey = std::tuple<std::array<double, 5>, std::vector<double>, std::string>;
   using PairKey = std::tuple<EnvironmentTimeline::WaterId, ModemKey, ModemKey>;
   static ModemKey key_of(const acoustics::Modem& modem);
@@ -81,7 +81,7 @@ class StraightPropagation : public Propagation {
   std::shared_ptr<const EnvironmentTimeline> waters_;
   acoustics::FadingModel fading_;
   LruCache<PairKey, std::shared_ptr<const acoustics::LinkKernel>> kernels_;
-  // What was asked for last, which is what most links ask for.
+  // Most recent kernel, which most calls use again.
   EnvironmentTimeline::WaterId last_water_ = 0;
   std::shared_ptr<const acoustics::LinkKernel> last_;
 };
