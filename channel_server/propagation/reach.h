@@ -12,6 +12,7 @@
 //   and the level at which the preamble is acquired once in `acquired_once_in` (100 000) packets over all
 //   fading (acoustics/fading/fading_bounds.h). A packet without a preamble is always acquired: then the
 //   cut-off level alone counts. A packet that is not acquired is neither received nor tracked.
+//
 // The reach is the range at which
 //
 //   source level + both beams at their best - least loss

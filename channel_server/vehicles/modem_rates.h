@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rates of a modem: the other waveforms that it also sends and receives, each by its number.
+// Rates of a modem: the other waveforms that it also sends and receives, each with its number.
 //
-// A rate is a profile of its own (models/modems). Of one family with the vehicle's modem it differs in bit
-// rate, overhead, preamble, framing and code alone: the vehicle's numbers hold for all else, and it is
-// received as the modem's own rate is. A rate of another family has its own band and reception; source level,
-// least receivable level, directivity and beam are the vehicle's.
+// A rate is a modem profile of its own (models/modems). A rate of the same family as the vehicle's modem
+// differs only in bit rate, overhead, preamble, framing and code: the vehicle's values hold for everything
+// else, and it is received like the modem's own rate. A rate of another family has its own band and
+// reception; source level, least receivable level, directivity and beam are the vehicle's.
 #pragma once
 
 #include <algorithm>
@@ -20,13 +20,13 @@
 namespace halocline::channel_server {
 
 struct ModemRate {
-  std::int32_t number = 0;             // 0..255; of a Micromodem that of its packet type
-  std::int32_t max_payload_bytes = 0;  // of one packet
+  std::int32_t number = 0;             // 0..255; for a Micromodem, its packet type
+  std::int32_t max_payload_bytes = 0;  // largest payload of one packet
   acoustics::Modem modem;
   bool operator==(const ModemRate&) const = default;
 };
 
-// A value; copies share what they hold.
+// Immutable set of rates; copies share the storage.
 class RateSet {
  public:
   RateSet() = default;
@@ -36,7 +36,7 @@ class RateSet {
   std::span<const ModemRate> all() const {
     return rates_ == nullptr ? std::span<const ModemRate>() : std::span<const ModemRate>(*rates_);
   }
-  // The first for which `fits(rate)`; null without one.
+  // Returns the first rate for which `fits(rate)` is true; null without one.
   template <class Predicate>
   const ModemRate* find(const Predicate& fits) const {
     const auto found = std::find_if(all().begin(), all().end(), fits);
@@ -47,10 +47,10 @@ class RateSet {
   }
 
  private:
-  std::shared_ptr<const std::vector<ModemRate>> rates_;  // null: none
+  std::shared_ptr<const std::vector<ModemRate>> rates_;  // null: no rates
 };
 
-// The rates of a profile whose own modem is `profile`, in a vehicle whose modem is `own`.
+// Returns the rates of a profile whose own modem is `profile`, as a vehicle whose modem is `own` has them.
 RateSet rates_in_vehicle(const RateSet& rates, const acoustics::Modem& profile, const acoustics::Modem& own);
 
 }  // namespace halocline::channel_server

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A value over time, told in pieces: each holds from an instant on, until the next.
+// Piecewise constant value over time: each piece holds from an instant until the next piece.
 //
-// It is a function of what was told, whatever the order: at every instant what was told for the latest
-// instant before holds. So a repetition of what holds is kept, for something else may yet be told for an
-// instant before it. Bounded: beyond `most` the earliest repetition makes room, and where there is none the
-// earliest of all. Not thread-safe.
+// The value is a function of the pieces set, whatever their order: at every instant, the piece set for the
+// latest instant not after it holds. A piece that repeats the value before it is kept, because another piece
+// may still be set between the two. Storage is bounded: beyond `most` pieces the earliest repetition is
+// dropped, and without repetitions the earliest piece. Not thread-safe.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class Schedule {
   // `before` holds before the first piece.
   explicit Schedule(Value before, std::size_t most = 64) : before_(std::move(before)), most_(most) {}
 
-  // `value` holds from `from` on.
+  // Sets `value` from `from` on.
   void set(SimTime from, const Value& value) {
     pieces_.insert_or_assign(from, value);
     if (pieces_.size() > most_) make_room();
@@ -32,7 +32,8 @@ class Schedule {
     const auto later = pieces_.upper_bound(instant);
     return later == pieces_.begin() ? before_ : std::prev(later)->second;
   }
-  // Calls visit(value, first instant within the interval) for each that holds at some instant of [from, to].
+  // Calls visit(value, first instant within the interval) for each value that holds at some instant of [from,
+  // to].
   template <class Visit>
   void visit_during(SimTime from, SimTime to, Visit&& visit) const {
     const Value* last = &at(from);
@@ -43,7 +44,7 @@ class Schedule {
       visit(*last, next->first);
     }
   }
-  // Drops what no instant from `time` on needs.
+  // Drops pieces that no instant from `time` on needs.
   void forget_before(SimTime time) {
     while (pieces_.size() > 1 && std::next(pieces_.begin())->first < time) pieces_.erase(pieces_.begin());
   }

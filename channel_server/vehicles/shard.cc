@@ -8,7 +8,7 @@
 namespace halocline::channel_server {
 namespace {
 
-// In an area of this side vehicles hear most others, and no cut across it saves links.
+// Side of an area in which vehicles hear most others, so that no division of it saves links, m.
 constexpr double kSmallAreaM = 3000;
 
 double side_m(std::span<const StartPlace> vehicles, int axis) {
@@ -26,7 +26,7 @@ void take_turns(std::span<StartPlace> vehicles, int first, int count, ServersByV
   for (const StartPlace& vehicle : vehicles) servers[vehicle.id] = first + turn++ % count;
 }
 
-// Among the servers from `first` on.
+// Assigns the vehicles to `count` servers from `first` on.
 void share_out(std::span<StartPlace> vehicles, int first, int count, ServersByVehicle& servers) {
   if (vehicles.empty()) return;
   if (count == 1) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which part of the work one of several channel servers does: they split the vehicles, all receive all, and
-// the union of what they publish is what one would.
+// Sharding: which part of the work each of several channel servers does. The servers divide the vehicles
+// among themselves, all receive every message, and the union of what they publish equals what one server
+// would publish.
 #pragma once
 
 #include <algorithm>
@@ -14,29 +15,30 @@
 
 namespace halocline::channel_server {
 
-// The index of the server of each vehicle of the scenario.
+// Index of the server of each vehicle of the scenario.
 using ServersByVehicle = std::unordered_map<VehicleId, int>;
 
-// A server with index i of n serves the vehicles that `servers` gives it, and of others those whose id mod n
-// is i: what arrives at them, the receipts of what they send, the link tables that start at them.
+// One channel server of several. Server i of n serves the vehicles that `servers` assigns to it and, of all
+// other vehicles, those with id mod n = i. It computes the arrivals at its vehicles, the receipts of the
+// packets they send, and the link tables that start at them.
 struct Shard {
   int index = 0;  // 0 to count - 1
   int count = 1;
-  std::shared_ptr<const ServersByVehicle> servers = nullptr;  // null: of no vehicle; the same for all shards
+  std::shared_ptr<const ServersByVehicle> servers = nullptr;  // null: no assignment; the same for all shards
 
   bool serves(VehicleId id) const { return of(id) == index; }
   bool is_alone() const { return count == 1; }
-  // The index of who serves it.
+  // Returns the index of the server of a vehicle.
   int of(VehicleId id) const {
     if (!servers) return id % count;
     const auto found = servers->find(id);
     return found == servers->end() ? id % count : found->second;
   }
-  // Which server searches for the paths between two vehicles: that of the one or of the other, by a bit of a
-  // hash of both ids.
+  // Returns the index of the server that searches for the paths between two vehicles: the server of either,
+  // chosen by one bit of a hash of both ids.
   int owner_of(VehicleId a, VehicleId b) const {
     const auto [low, high] = std::minmax(a, b);
-    // A step like those of SplitMix64 (Steele and others 2014).
+    // Mixing steps like those of SplitMix64 (Steele and others 2014).
     std::uint64_t hash = (static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high)) + 1;
     hash = (hash ^ (hash >> 30)) * 0xBF58476D1CE4E5B9u;
     hash = (hash ^ (hash >> 27)) * 0x94D049BB133111EBu;
@@ -49,11 +51,12 @@ struct StartPlace {
   Vec3 start_ned_m;
 };
 
-// Shares vehicles out among `count` servers by where they start, so that few links run from those of one to
-// those of another: the vehicles are cut in two across their longer side, north or east, and the parts again.
-// In an area of 3 km, where most hear each other, the servers take the vehicles in turns of their ids
-// instead, so that each has as many in the middle, which hear most. Each server has as many vehicles as any
-// other but for one. They stay with their servers wherever they go.
+// Assigns vehicles to `count` servers by their start positions, so that few links run between vehicles of
+// different servers. The vehicles are divided in two across the longer side of their area, north or east, and
+// each part again. Within an area of 3 km, where most vehicles hear each other, vehicles are assigned in turn
+// by their ids instead, so that each server has equally many in the middle, which hear most others. The
+// numbers of vehicles of any two servers differ by one at most. Vehicles stay with their servers wherever
+// they go.
 std::shared_ptr<const ServersByVehicle> servers_by_place(std::vector<StartPlace> vehicles, int count);
 
 }  // namespace halocline::channel_server

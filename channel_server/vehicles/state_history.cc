@@ -34,7 +34,7 @@ bool StateHistory::insert(const StampedState& state) {
   return true;
 }
 
-// Nearly always one of the latest.
+// Returns the first state after `time`, which is nearly always one of the latest.
 StateHistory::Place StateHistory::first_after(SimTime time) const {
   constexpr int kLatest = 4;
   Place after = states_.end();

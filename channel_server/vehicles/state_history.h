@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a vehicle is at an instant, from the states it has published: a pure function of their contents.
+// Position of a vehicle at an instant, from the states it has published: a pure function of their contents.
 //
-// Rule. The position at instant t, as decided at instant d, knows the states with time <= d - state_lag, and
-// no other:
-//   - with a known state at or before t and one after it, the two no more than `state_timeout` apart: on the
-//     straight line between the two (linear interpolation);
-//   - else the latest known state at or before t, carried on by its velocity;
-//   - without a known state at or before t: nowhere.
-// The velocity is interpolated, or carried on unchanged, in the same cases.
-// The lag is longer than a message takes on the bus, so the answer does not depend on which datagram was
-// quicker, and it never uses what was not yet known at d (causal). A packet's arrival decided later than it
-// happened therefore profits from states received meanwhile; one decided ahead extrapolates.
+// Rule. The position at instant t, as decided at instant d, uses only the states known then: those with
+// time <= d - state_lag.
 //
-// Error of the extrapolation over a time h at acceleration a: a h^2 / 2 (1 mm at 1 m/s^2 over 50 ms).
-// Left out: orientation, which matters to nothing that is omnidirectional.
+// - With a known state at or before t and one after it, no more than `state_timeout` apart: linear
+//   interpolation between the two.
+// - Otherwise: the latest known state at or before t, extrapolated with its velocity.
+// - Without a known state at or before t: no position.
+//
+// The velocity is interpolated, or kept constant, in the same cases. The lag is longer than the delay of a
+// message on the bus, so the result does not depend on which datagram was faster, and it never uses what was
+// unknown at d (causal). A packet's arrival that is decided after it happened therefore benefits from states
+// received meanwhile; one that is decided ahead extrapolates.
+//
+// Error of the extrapolation over a time h at acceleration a:
+//
+//   a h^2 / 2   (1 mm at 1 m/s^2 over 50 ms)
+//
+// Left out: orientation, which does not affect omnidirectional transducers.
 #pragma once
 
 #include <cstddef>
@@ -27,42 +32,43 @@
 namespace halocline::channel_server {
 
 struct StampedState {
-  SimTime time;                          // at which it holds
+  SimTime time;                          // instant at which the state holds
   Vec3 position_ned_m = Vec3::Zero();    // world NED, m
   Vec3 velocity_ned_mps = Vec3::Zero();  // over ground, world NED, m/s
 };
 
 struct PositionRule {
-  SimDuration state_lag = SimDuration::from_milliseconds(50);        // 0 and up
-  SimDuration state_timeout = SimDuration::from_milliseconds(5000);  // above 0; older states place nobody
-  // That are not of the scenario and are followed, 0 and up.
+  SimDuration state_lag = SimDuration::from_milliseconds(50);        // 0 or more
+  SimDuration state_timeout = SimDuration::from_milliseconds(5000);  // above 0; older states give no position
+  // Greatest number of vehicles that are tracked without being in the scenario, 0 or more.
   int max_unlisted_vehicles = UnlistedVehicles::kMaxFollowed;
 };
 
 struct Placement {
   Vec3 position_ned_m = Vec3::Zero();
   Vec3 velocity_ned_mps = Vec3::Zero();
-  SimDuration age;  // from the latest known state at or before the instant, to the instant
+  SimDuration age;  // time from the latest known state at or before the instant to the instant
 };
 
-// The recent states of one vehicle, by time. Not thread-safe.
+// Recent states of one vehicle, ordered by time. Not thread-safe.
 class StateHistory {
  public:
-  // More than any horizon needs at a kilohertz; the oldest make room.
+  // More than any lookahead needs at 1 kHz; beyond it the oldest states are dropped.
   static constexpr std::size_t kMaxStates = 16'384;
 
-  // In any order. False, and nothing changed, when a state of that time is held already.
+  // Inserts a state, in any order. Returns false and changes nothing when there already is a state of that
+  // time.
   bool insert(const StampedState& state);
 
-  // See the rule above; does not judge the age.
+  // Returns the placement by the rule above, whatever the age of the state.
   std::optional<Placement> at(SimTime instant, SimTime decided_at, const PositionRule& rule) const;
 
-  // Drops what no instant at or after `time` can need: all states but the last before it.
+  // Drops the states that no instant at or after `time` can need: all but the last one before it.
   void forget_before(SimTime time);
 
   bool empty() const { return size() == 0; }
   std::size_t size() const { return states_.size() - forgotten_; }
-  // Of the latest state; only while not empty.
+  // Time of the latest state; only while not empty.
   SimTime latest() const { return states_.back().time; }
 
  private:
@@ -72,7 +78,7 @@ class StateHistory {
   void forget_first(std::size_t count);
 
   std::vector<StampedState> states_;  // ascending by time, each time once
-  std::size_t forgotten_ = 0;         // of them, the first; fewer than the rest, so that each is moved once
+  std::size_t forgotten_ = 0;         // dropped states at the front; fewer than the rest
 };
 
 }  // namespace halocline::channel_server

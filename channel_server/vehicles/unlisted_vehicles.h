@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which vehicles that are not of the scenario (unlisted) are followed.
+// Admission of vehicles that are not in the scenario (unlisted vehicles).
 //
-// Rule. kMaxAtOnce of them are followed from their first state on. While so many are followed, another is
-// followed from its second state on: one of the same id and of another time, the two no more than the
-// time-out apart. Beyond `max_followed` nobody is.
+// Rule. Up to kMaxAtOnce of them are tracked from their first state on. Beyond that, another one is tracked
+// from its second state on: one with the same id and another time, the two no more than the time-out apart.
+// Beyond `max_followed` no more are admitted.
 //
-// Link tables grow with the square of the vehicles, and so do the searches for their paths: thousands of
-// vehicles in one place take gigabytes and stop a run in real time. One datagram for each of thousands of
-// names is no fleet, so those that publish steadily find places. Many vehicles of another program belong in
-// the scenario (`model = "external"`), where each has its place.
+// Link tables, and the searches for their paths, grow with the square of the number of vehicles: thousands of
+// vehicles in one place take gigabytes and stop a run in real time. A single datagram for each of thousands
+// of names is not a fleet, so vehicles that publish steadily are preferred. A large fleet of another program
+// belongs in the scenario (`model = "external"`), which admits each of its vehicles.
 //
-// Bounded: of kMaxCandidates names the first state is remembered, the longest unused make room. Not
-// thread-safe.
+// Storage is bounded: the first states of kMaxCandidates names are remembered; beyond that the least recently
+// used is dropped. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -27,19 +27,19 @@ namespace halocline::channel_server {
 class UnlistedVehicles {
  public:
   static constexpr std::size_t kMaxAtOnce = 64;     // our choice
-  static constexpr std::size_t kMaxFollowed = 256;  // by default; our choice, for real time in a core
+  static constexpr std::size_t kMaxFollowed = 256;  // the default; our choice, for real time on one core
   static constexpr std::size_t kMaxCandidates = 16'384;
 
-  // `timeout`: of states, above 0. `max_followed`: 0 and up.
+  // `timeout` is that of states, above 0. `max_followed` is 0 or more.
   explicit UnlistedVehicles(SimDuration timeout, std::size_t max_followed = kMaxFollowed)
       : timeout_(timeout), max_followed_(max_followed) {}
 
-  // A state that holds at `time`, of one that is not followed. Empty when it is followed from now on; else
-  // why not.
+  // Decides on a vehicle that is not tracked, from a state that holds at `time`. Returns an empty string when
+  // the vehicle is tracked from now on, else the reason why not.
   [[nodiscard]] std::string admit(std::string_view name, VehicleId id, SimTime time);
-  // One of those followed is followed no more.
+  // Notes that one tracked vehicle is not tracked any more.
   void leave();
-  // Nobody is followed, and nobody known.
+  // Forgets all tracked vehicles and candidates.
   void clear();
 
   std::size_t followed() const { return followed_; }
@@ -47,9 +47,9 @@ class UnlistedVehicles {
  private:
   struct Candidate {
     VehicleId id = 0;
-    SimTime time;  // of its first state
+    SimTime time;  // time of its first state
   };
-  // Whether its second state has come; remembers a first one.
+  // True when this is the candidate's second state; otherwise remembers it as the first.
   bool is_steady(std::string_view name, const Candidate& now);
 
   SimDuration timeout_;

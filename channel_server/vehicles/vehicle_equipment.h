@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What vehicles carry besides their modems, as the scenario gives it, and what has become of it.
+// Equipment of vehicles besides their modems, as the scenario defines it, and its state during a run.
 #pragma once
 
 #include <set>
@@ -16,15 +16,15 @@ struct VehicleEquipment {
   VehicleClocks clocks = {};
   VehiclePower power = {};
   VehicleNoise noise = {};
-  std::set<VehicleId> transponders = {};  // that answer pings to all
+  std::set<VehicleId> transponders = {};  // vehicles that answer pings addressed to all
 
-  // Drops what no instant at or after `time` needs.
+  // Drops data that no instant at or after `time` needs.
   void forget_before(SimTime time) {
     clocks.forget_before(time);
     power.forget_before(time);
     noise.forget_before(time);
   }
-  // Another run: all is as the scenario gives it.
+  // Begins another run: everything is as the scenario defines it.
   void clear() {
     clocks.clear();
     power.clear();

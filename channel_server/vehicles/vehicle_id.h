@@ -7,7 +7,8 @@
 
 namespace halocline::channel_server {
 
-// Positive of a vehicle; 0 is broadcast as a destination (core/names.h) and a bare position as a link's end.
+// Positive for a vehicle. 0 is broadcast as a destination (core/names.h) and a bare position as the end of a
+// link.
 using VehicleId = std::int32_t;
 
 // Two vehicles, the lower id first.

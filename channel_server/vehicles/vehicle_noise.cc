@@ -41,7 +41,7 @@ void VehicleNoise::forget_before(SimTime time) {
 
 void VehicleNoise::clear() { rates_.clear(); }
 
-// 10^((60 log10 r) / 10) = r^6.
+// The factor on power is 10^((60 log10 r) / 10) = r^6 with r = speed / reference.
 double noise_power_at_1m(const NoiseOf& noise, double speed, double low_hz, double high_hz) {
   const double ratio = noise.driver == NoiseDriver::kNone ? 1 : std::abs(speed) / noise.reference;
   const double cube = ratio * ratio * ratio;

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The noise that vehicles make, and how loud each is at an instant.
+// Noise radiated by vehicles, and its level at an instant.
 //
-// Model: a spectrum at 1 m at a reference speed, and 60 log10(v / v_ref) dB more at another (Urick 1983,
-// chapter 11: broadband noise of propellers and flow grows with the fifth to sixth power of speed). v is the
-// fastest turn rate of its propeller and thrusters, or its speed over ground, or nothing: a ship at her
-// speed, a jammer. Standing still is silence. At the own hydrophone it is own_loss below that at 1 m.
+// Model. The spectrum at 1 m is given at a reference speed v_ref; at another speed v the level changes by
 //
-// Turn rates are those of SENSORS. The one that holds at t, as decided at d, is the latest with an instant at
-// or before both t and d - lag, the lag of states (state_history.h); before the first it is 0. So it does not
-// depend on which message was quicker. Speeds are those of the states. Not thread-safe.
+//   60 log10(v / v_ref) dB
+//
+// because broadband noise of propellers and flow grows with the fifth to sixth power of speed (Urick 1983,
+// chapter 11). v is the greatest turn rate of propeller and thrusters, or the speed over ground, or the level
+// is constant: a ship at her speed, a jammer. A vehicle that stands still is silent. At the vehicle's own
+// hydrophone the level is own_loss below that at 1 m.
+//
+// Turn rates come from SENSORS messages. The rate at t, as decided at d, is the latest with an instant at or
+// before both t and d - lag, with the lag of states (state_history.h); before the first it is 0. So it does
+// not depend on which message was faster. Speeds come from the states. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -27,34 +31,34 @@ namespace halocline::channel_server {
 
 enum class NoiseDriver {
   kPropeller,  // turn rate of propeller and thrusters
-  kSpeed,      // over ground
-  kNone,       // always the same
+  kSpeed,      // speed over ground
+  kNone,       // constant level
 };
 
-// The noise of one vehicle, by its name and id.
+// Noise of one vehicle, which is given by its name and id.
 struct NoiseOf {
   std::string vehicle;
   VehicleId id = 0;
-  // At the reference, dB re 1 uPa^2/Hz. Our choice for a small vehicle: 20 dB less a decade, as machinery and
-  // cavitation have above 1 kHz (Urick 1983, chapter 10).
+  // Spectrum at the reference speed, dB re 1 uPa^2/Hz. Our choice for a small vehicle: it falls by 20 dB a
+  // decade, as machinery and cavitation noise does above 1 kHz (Urick 1983, chapter 10).
   acoustics::NoiseSpectrum at_1m{{1e3, 1e5}, {100, 60}};
   NoiseDriver driver = NoiseDriver::kPropeller;
-  double reference = 25;  // turns a second (1500 rpm, our choice), or m/s; above 0
+  double reference = 25;  // turns per second (1500 rpm, our choice), or m/s; above 0
   Decibels own_loss{20};  // from 1 m to its own hydrophone, 0..200
 };
 
 class VehicleNoise {
  public:
-  static constexpr std::size_t kMaxRates = 16'384;  // of one vehicle; the oldest make room
+  static constexpr std::size_t kMaxRates = 16'384;  // limit for one vehicle; beyond it the oldest are dropped
 
-  VehicleNoise() = default;  // nobody makes any
+  VehicleNoise() = default;  // no vehicle radiates noise
   VehicleNoise(std::vector<NoiseOf> sources, SimDuration lag);
 
-  // By id.
+  // Noise sources by vehicle id.
   const std::map<VehicleId, NoiseOf>& sources() const { return sources_; }
   bool needs_rates() const;
-  // The turn rate of its fastest propeller at `at`, turns a second; of a vehicle that makes no noise of no
-  // effect.
+  // Adds the turn rate of the vehicle's fastest propeller at `at`, turns per second. No effect for a vehicle
+  // that radiates no noise.
   void add_rate(std::string_view vehicle, SimTime at, double turns_per_s);
   double rate_at(VehicleId id, SimTime at, SimTime decided_at) const;
 
@@ -67,7 +71,8 @@ class VehicleNoise {
   SimDuration lag_;
 };
 
-// Power over the band at 1 m, uPa^2, where what drives it is `speed`; 0 of a vehicle that stands still.
+// Returns the power over the band at 1 m, uPa^2, when the driver has the value `speed`; 0 for a vehicle that
+// stands still.
 double noise_power_at_1m(const NoiseOf& noise, double speed, double low_hz, double high_hz);
 
 }  // namespace halocline::channel_server

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The batteries of vehicles as their modems see them: what packets take from them, and from when on they are
-// empty.
+// Batteries of vehicles as their modems see them: the energy that packets consume, and the instants at which
+// batteries are empty.
 //
-// A vehicle whose BATTERY says empty at u has no modem from u + lag on, the lag of states (state_history.h):
-// longer than a message takes, so that every server takes it off the air at the same instant. One whose
-// battery says otherwise later has it again likewise. A function of the contents of the messages and of the
-// instant, in whatever order they came. A vehicle without a battery always has power. Not thread-safe.
+// A vehicle whose BATTERY message reports an empty battery at u has no modem from u + lag on, with the lag of
+// states (state_history.h): it is longer than the delay of a message, so every server removes the modem at
+// the same instant. A later report of a battery that is not empty restores it in the same way. The result is
+// a function of the contents of the messages and of the instant, whatever their order. A vehicle without a
+// battery always has power. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -21,29 +22,30 @@
 
 namespace halocline::channel_server {
 
-// The battery of one vehicle, by its name and id.
+// Battery of one vehicle, which is given by its name and id.
 struct PowerOf {
   std::string vehicle;
   VehicleId id = 0;
   double transmit_efficiency = 0.5;  // acoustic over electric power, 0.001 to 1
-  double receiving_w = 0;            // while a packet is followed, 0 and up
+  double receiving_w = 0;            // electric power while a packet is tracked, 0 or more
 };
 
 class VehiclePower {
  public:
-  static constexpr std::size_t kMaxReports = 4096;  // of one vehicle; the oldest make room
+  static constexpr std::size_t kMaxReports = 4096;  // limit for one vehicle; beyond it the oldest are dropped
 
-  VehiclePower() = default;  // nobody has a battery
+  VehiclePower() = default;  // no vehicle has a battery
   VehiclePower(std::vector<PowerOf> batteries, SimDuration lag);
 
   bool has_batteries() const { return !batteries_.empty(); }
-  // Null without a battery.
+  // Returns the battery of a vehicle; null without one.
   const PowerOf* battery_of(VehicleId id) const;
 
-  // That a transmission of `modem` takes; 0 without a battery.
+  // Returns the energy that a transmission of `modem` takes, J; 0 without a battery.
   double transmit_energy_j(VehicleId id, const acoustics::Modem& modem, SimDuration duration) const;
 
-  // The vehicle reports at `at` whether its battery is empty; of one without a battery of no effect.
+  // Adds the vehicle's report, at `at`, on whether its battery is empty. No effect for a vehicle without a
+  // battery.
   void add_report(std::string_view vehicle, SimTime at, bool is_empty);
   bool has_power(VehicleId id, SimTime at) const;
 

@@ -56,8 +56,8 @@ std::string VehicleRegistry::find_place_for(std::string_view name, VehicleId id,
   return unlisted_.admit(name, id, time);
 }
 
-// Where the vehicle is among all, or belongs. Ids that follow one another, as those of most fleets, need no
-// search.
+// Returns the index of the vehicle, or that at which it would be inserted, by binary search. Consecutive ids,
+// as in most fleets, need no search.
 std::size_t VehicleRegistry::searched_place_of(VehicleId id) const {
   const auto place =
       std::lower_bound(vehicles_.begin(), vehicles_.end(), id,
@@ -158,8 +158,8 @@ const Listening& VehicleRegistry::listening(VehicleId id, SimTime instant) const
   return vehicle != nullptr ? vehicle->announced.listening.at(instant) : modems_.standard.listening;
 }
 
-// Sleep begins with an announcement, so one of the first instants of those that hold meanwhile is one of
-// sleep.
+// Sleep begins with an announcement, so a modem that sleeps within the interval sleeps at the first instant
+// of one of the visited modes.
 bool VehicleRegistry::sleeps_during(VehicleId id, SimTime from, SimTime to) const {
   const Vehicle* vehicle = find(id);
   if (vehicle == nullptr) return false;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicles of a run: their names, ids, states, modems and equipment, and which of them are present at an
-// instant.
+// Registry of the vehicles of a run: their names, ids, states, modems and equipment, and which of them are
+// present at an instant.
 //
 // A vehicle is present at instant t when its position at t, decided at t, is known from a state no older than
-// the time-out (state_history.h). One id belongs to one name: the first that claims it keeps it until that
-// vehicle is forgotten. All answers are functions of the messages received and of the instants given,
+// the time-out (state_history.h). One id belongs to one name: the first name that claims it keeps it until
+// that vehicle is forgotten. All results are functions of the messages received and of the given instants,
 // whatever the order of the messages.
 //
-// Bounded: those of reserve() always have their places, others as unlisted_vehicles.h says. The modem of a
-// vehicle without a state is forgotten when no state follows in time, and when kMaxAnnounced others were
-// announced after it, so names made up without end keep nobody's modem out.
+// Storage is bounded. Vehicles of reserve() are always admitted; for others see unlisted_vehicles.h. The
+// modem of a vehicle without a state is forgotten when no state follows in time, or when kMaxAnnounced others
+// were announced after it, so an endless sequence of invented names keeps no vehicle's modem out.
 //
 // Not thread-safe.
 #pragma once
@@ -35,10 +35,10 @@
 
 namespace halocline::channel_server {
 
-// The modems that the scenario gives.
+// Modems that the scenario defines.
 struct ConfiguredModems {
   VehicleModem standard;
-  std::map<std::string, VehicleModem, std::less<>> of_vehicle;  // by name, where not the standard one
+  std::map<std::string, VehicleModem, std::less<>> of_vehicle;  // others have the standard one
 
   const VehicleModem& of(std::string_view vehicle) const;
 };
@@ -49,19 +49,21 @@ class VehicleRegistry {
 
   VehicleRegistry(PositionRule rule, ConfiguredModems modems, VehicleEquipment equipment = {});
 
-  // A vehicle of the scenario: nobody else gets its name, its id or its place, not even in another run.
+  // Reserves the name and the id of a vehicle of the scenario: no other vehicle gets them, and it is always
+  // admitted, in later runs too.
   void reserve(std::string_view name, VehicleId id);
-  // Empty when taken (a repetition is); else why not.
+  // Adds a state. Returns an empty string when it is accepted (a repetition is), else the reason why not.
   [[nodiscard]] std::string add_state(std::string_view name, VehicleId id, const StampedState& state);
-  // The vehicle carries `modem` from `from` on. A modem may be announced before the vehicle's first state.
+  // Sets the modem that the vehicle carries from `from` on. It may be announced before the vehicle's first
+  // state.
   void announce_modem(std::string_view name, SimTime from, const VehicleModem& modem, SimTime received_at);
-  // Its modem listens like this from `from` on; likewise.
+  // Sets the listening mode of its modem from `from` on; it may be announced before the first state too.
   void announce_listening(std::string_view name, SimTime from, const Listening& listening,
                           SimTime received_at);
 
-  // Ascending ids of all present at `instant`.
+  // Returns the ascending ids of all vehicles present at `instant`.
   std::vector<VehicleId> present(SimTime instant) const;
-  // Calls visit(id, placement, modem) for each of them, in that order.
+  // Calls visit(id, placement, modem) for each vehicle present at `instant`, by ascending id.
   template <class Visit>
   void visit_present(SimTime instant, Visit&& visit) const {
     for (const auto& vehicle : vehicles_) {
@@ -69,33 +71,34 @@ class VehicleRegistry {
       if (is_present(place)) visit(vehicle->id, *place, vehicle->announced.modems.at(instant));
     }
   }
-  // Where the vehicle is at `instant` as decided at `decided_at`; empty when unknown or its state is too old.
+  // Returns the placement of the vehicle at `instant` as decided at `decided_at`; empty when it is unknown or
+  // its state is too old.
   std::optional<Placement> placement(VehicleId id, SimTime instant, SimTime decided_at) const;
-  // The same, however old the state: for an instant to come.
+  // Returns the placement however old the state is: for an instant in the future.
   std::optional<Placement> prediction(VehicleId id, SimTime instant, SimTime decided_at) const;
-  // Whether a prediction is a placement as well: known, and of a state that is not too old.
+  // True when a prediction is a placement too: it is known, from a state that is not too old.
   bool is_present(const std::optional<Placement>& predicted) const {
     return predicted && predicted->age <= rule_.state_timeout;
   }
 
-  // Null of a vehicle that is unknown; valid until the registry is changed.
+  // Returns the states of a vehicle, null when it is unknown; valid until the registry is changed.
   const StateHistory* states_of(VehicleId id) const {
     const Vehicle* vehicle = find(id);
     return vehicle != nullptr ? &vehicle->states : nullptr;
   }
 
   std::optional<VehicleId> id_of(std::string_view name) const;
-  // Of a vehicle that is not forgotten; empty text otherwise.
+  // Returns the name of a vehicle that is not forgotten; an empty string for others.
   std::string name_of(VehicleId id) const;
-  // The standard one for an unknown id.
+  // Returns the modem that the vehicle carries; the standard one for an unknown id.
   const VehicleModem& modem(VehicleId id, SimTime instant) const;
   const VehicleModem& modem(std::string_view name, SimTime instant) const;
-  // How its modem listens; as configured by default for an unknown id.
+  // Returns the listening mode of its modem; that of the standard modem for an unknown id.
   const Listening& listening(VehicleId id, SimTime instant) const;
-  // Whether its modem sleeps at some instant of [from, to].
+  // True when its modem sleeps at some instant of [from, to].
   bool sleeps_during(VehicleId id, SimTime from, SimTime to) const;
-  // Calls visit(modem) for each that the vehicle carries at some instant of [from, to], as far as announced;
-  // never for an unknown id.
+  // Calls visit(modem) for each modem that the vehicle carries at some instant of [from, to], as far as
+  // announced; no call for an unknown id.
   template <class Visit>
   void visit_modems(VehicleId id, SimTime from, SimTime to, Visit&& visit) const {
     if (const Vehicle* vehicle = find(id))
@@ -106,10 +109,10 @@ class VehicleRegistry {
   const VehicleEquipment& equipment() const { return equipment_; }
   VehicleEquipment& equipment() { return equipment_; }
 
-  // Forgets vehicles without a state since `time`, modems of vehicles without any state received before it,
-  // and states and modems that no later instant needs.
+  // Forgets vehicles without a state since `time`, modems of vehicles without any state that were received
+  // before `time`, and states and modems that no later instant needs.
   void forget_before(SimTime time);
-  // Another run: forgets everybody, keeps rules and configured modems.
+  // Begins another run: forgets all vehicles, keeps rules and configured modems.
   void clear();
 
   const PositionRule& rule() const { return rule_; }
@@ -131,11 +134,12 @@ class VehicleRegistry {
   struct Announced {
     Schedules schedules;
     SimTime received_at;
-    std::uint64_t turn = 0;  // of the latest announcement, among all
+    std::uint64_t turn = 0;  // sequence number of the latest announcement, over all vehicles
   };
-  // Empty when it has a place from now on; else why the vehicle, which has none yet, does not get one.
+  // Admits a new vehicle: returns an empty string when it is tracked from now on, else the reason why not.
   std::string find_place_for(std::string_view name, VehicleId id, SimTime time);
-  // Where the vehicle is among vehicles_, or would be. Ids mostly rise by one.
+  // Returns the index of the vehicle in vehicles_, or that at which it would be inserted. The guess is exact
+  // while ids rise by one.
   std::size_t place_of(VehicleId id) const {
     const std::size_t guess =
         vehicles_.empty() ? 0
@@ -149,7 +153,8 @@ class VehicleRegistry {
   }
   Vehicle& add_vehicle(std::string_view name, VehicleId id);
   Schedules configured(std::string_view name) const;
-  // Of a vehicle with or without a state; what is announced now was received at `received_at`.
+  // Returns the schedules of a vehicle with or without a state; the current announcement was received at
+  // `received_at`.
   Schedules& schedules_of(std::string_view name, SimTime received_at);
   void forget_announced(std::map<std::string, Announced, std::less<>>::iterator announced);
 
@@ -158,24 +163,24 @@ class VehicleRegistry {
   VehicleEquipment equipment_;
   std::map<std::string, VehicleId, std::less<>> reserved_;
   std::set<VehicleId> reserved_ids_;
-  UnlistedVehicles unlisted_;                       // vehicles without a reserved place
-  std::vector<std::unique_ptr<Vehicle>> vehicles_;  // by id
+  UnlistedVehicles unlisted_;                       // vehicles that are not reserved
+  std::vector<std::unique_ptr<Vehicle>> vehicles_;  // sorted by id
   std::map<std::string, VehicleId, std::less<>> ids_;
   std::map<std::string, Announced, std::less<>> announced_;
   std::map<std::uint64_t, std::string> announced_by_turn_;
   std::uint64_t turns_ = 0;
 };
 
-// A vehicle with its place and modem at one instant.
+// Vehicle with its placement and modem at one instant.
 struct PlacedVehicle {
   VehicleId id = 0;
   Placement placement;
   const VehicleModem* modem = nullptr;  // valid until the registry is changed
 };
 
-// All present at `instant` that carry a modem, by id.
+// Returns all vehicles present at `instant` that carry a modem, by ascending id.
 std::vector<PlacedVehicle> place_all(const VehicleRegistry& fleet, SimTime instant);
-// The same into `placed`, whatever it held.
+// Writes these vehicles into `placed`, replacing its contents.
 void place_all(const VehicleRegistry& fleet, SimTime instant, std::vector<PlacedVehicle>& placed);
 
 }  // namespace halocline::channel_server
