@@ -17,7 +17,7 @@
 namespace halocline::ocean {
 namespace {
 
-constexpr std::size_t kMostPlaces = 1'000'000;  // of an axis
+constexpr std::size_t kMostPlaces = 1'000'000;  // limit for an axis
 constexpr double kTurnDeg = 360, kPole = 90, kBeyondPole = 90.5;
 
 bool is_height(std::string_view name) { return name.starts_with("height") || name.starts_with("altitude"); }
@@ -43,7 +43,7 @@ bool is_one_of(const std::string& name, const std::array<std::string_view, N>& n
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Of names that the units do not contradict.
+// Returns the kind by the variable's name, unless its units contradict it.
 AxisKind kind_by_name(const std::string& name, const std::string& units) {
   constexpr std::array<std::string_view, 4> kTimes{"time", "ocean_time", "time_counter", "t"};
   constexpr std::array<std::string_view, 5> kDepths{"depth", "lev", "level", "z", "deptht"};
@@ -63,7 +63,8 @@ AxisKind kind_by_name(const std::string& name, const std::string& units) {
                         "such first, by the depths of its formula_terms (cdo intlevel3d, xroms)");
 }
 
-// Metres down. Without a word about the direction, levels of which none is above 0 are heights.
+// Converts vertical levels to metres, positive down. If no attribute states the direction, levels that are
+// all 0 or below are heights.
 void make_depths(const NetcdfFile& file, double latitude_deg, Axis& axis) {
   const std::string units = file.text(axis.name, "units"),
                     positive = lower_case(file.text(axis.name, "positive")),
@@ -90,14 +91,14 @@ void make_degrees(const NetcdfFile& file, Axis& axis) {
   for (double& value : axis.values) value = degrees(value);
 }
 
-// Some grids write their outermost rows half a cell beyond the pole.
+// Clamps latitudes to the poles: some grids place their outermost rows half a cell beyond the pole.
 void cut_at_poles(Axis& latitudes) {
   for (double& value : latitudes.values) {
     if (std::abs(value) <= kBeyondPole) value = std::clamp(value, -kPole, kPole);
   }
 }
 
-// One jump back by a turn, as from 179 to -180, is undone.
+// Removes one jump of a full turn, as from 179 to -180.
 void unwrap(Axis& longitudes) {
   std::vector<double>& values = longitudes.values;
   const auto jump = std::adjacent_find(values.begin(), values.end(),
@@ -199,7 +200,7 @@ Axis read_axis(const NetcdfFile& file, const std::string& name, AxisKind kind, d
 void move_seam(Axis& longitudes, double longitude_deg) {
   std::vector<double>& values = longitudes.values;
   if (values.size() < 2) return;
-  constexpr double kClosed = 1e-3;  // of a step: rounding of axes
+  constexpr double kClosed = 1e-3;  // share of a step, for the rounding of axes
   const double count = static_cast<double>(values.size()),
                step = (values.back() - values.front()) / (count - 1);
   if (std::abs(values.back() - values.front() - kTurnDeg) <= kClosed * step) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One axis of a CF netCDF file: which kind it is, and its values. The conventions are those of
-// ocean/cf_grid.h.
+// One axis of a CF netCDF file: its kind and its values. The conventions are those of ocean/cf_grid.h.
 #pragma once
 
 #include <cstddef>
@@ -15,34 +14,35 @@ namespace halocline::ocean {
 enum class AxisKind { kTime, kDepth, kLatitude, kLongitude, kOther };
 
 struct Axis {
-  std::string name = {};                 // of its variable; empty: none, one value
-  std::string dimension = {};            // empty: none
-  std::vector<double> values = {};       // rising: in the file's unit (time), m down, degrees
-  std::vector<std::size_t> places = {};  // of each value along the dimension
+  std::string name = {};            // name of its variable; empty: no variable, one value
+  std::string dimension = {};       // name of its dimension; empty: no dimension
+  std::vector<double> values = {};  // rising; time in the file's unit, depth in m down, angles in degrees
+  std::vector<std::size_t> places = {};  // index of each value along the dimension
 };
 
-// The factor of the variable's units; throws InvalidArgument that names them and those allowed.
+// Returns the conversion of the variable's units. Throws InvalidArgument that names them and those allowed.
 UnitFactor unit_of(const NetcdfFile& file, const std::string& variable, Quantity quantity);
 
-// Where `variable` is on a dimension: the variable that holds its places, by name or by the attribute
-// `coordinates`; empty: none.
+// Returns the name of the coordinate variable of a dimension of `variable`: the variable of the dimension's
+// name, or one that the attribute `coordinates` names; empty: there is none.
 std::string coordinate_of(const NetcdfFile& file, const std::string& variable, const std::string& dimension);
 
-// The words of the attribute `coordinates` that are variables.
+// Returns the words of the attribute `coordinates` that are variables.
 std::vector<std::string> auxiliary_coordinates(const NetcdfFile& file, const std::string& variable);
 
-// Throws InvalidArgument for levels that follow the terrain.
+// Returns the kind of an axis. Throws InvalidArgument for terrain-following levels.
 AxisKind kind_of(const NetcdfFile& file, const std::string& axis);
 
-// Its values: `kind` is no kOther; `latitude_deg` is where pressures become depths. Throws InvalidArgument
-// where there are none, one is missing, or they neither rise nor fall.
+// Reads an axis whose `kind` is not kOther; `latitude_deg` is used to convert pressures into depths. Throws
+// InvalidArgument when there are no values, when one is missing, and when they are not monotonic.
 Axis read_axis(const NetcdfFile& file, const std::string& name, AxisKind kind, double latitude_deg);
 
-// The seam of longitudes that go round the earth is moved to the place opposite of `longitude_deg`.
+// Moves the seam of longitudes that span the whole earth to the meridian opposite of `longitude_deg`.
 void move_seam(Axis& longitudes, double longitude_deg);
 
-// Where the places of the variable are in two dimensions: "its latitudes run from ... to ..., its longitudes
-// from ..."; else empty.
+// Describes a variable whose positions are given by two-dimensional latitudes and longitudes (a curvilinear
+// grid), for error messages: "its places are in two dimensions (...)" with their ranges; empty for other
+// variables.
 std::string curvilinear_places(const NetcdfFile& file, const std::string& variable);
 
 }  // namespace halocline::ocean

@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 5> kKindNames{"time", "depth", "latitude"
 
 std::size_t index_of(AxisKind kind) { return static_cast<std::size_t>(kind); }
 
-// Places of an axis along its dimension: from the least to the greatest.
+// Returns the first index of an axis along its dimension, and the number of indices up to its last.
 std::pair<std::size_t, std::size_t> span_of(const Axis& axis) {
   const auto [least, greatest] = std::minmax_element(axis.places.begin(), axis.places.end());
   return {*least, *greatest - *least + 1};
@@ -38,8 +38,8 @@ CfGrid::CfGrid(const NetcdfFile& file, const std::string& variable, double latit
   move_seam(axis(AxisKind::kLongitude), longitude_deg);
 }
 
-// Of two axes of a kind, one of a single value says nothing about where values are, as the time of a
-// forecast's start.
+// Adds an axis. A second axis of one kind is accepted if one of the two has a single value, such as the start
+// time of a forecast: it does not locate the values and is dropped.
 void CfGrid::add(AxisKind kind, Axis found) {
   Axis& known = axis(kind);
   if (!known.name.empty() && known.values.size() > 1 && found.values.size() > 1)
@@ -100,7 +100,8 @@ bool CfGrid::is_as(const CfGrid& other) const {
                      [&](AxisKind kind) { return at(kind).values == other.at(kind).values; });
 }
 
-// The kind of each dimension of a variable, in its order; kOther: one without meaning, of a single value.
+// Returns the kind of each dimension of a variable, in its order; kOther: a dimension without a kind, of
+// length 1.
 std::vector<AxisKind> CfGrid::kinds_in(const std::string& variable) const {
   std::vector<AxisKind> kinds;
   for (const std::string& dimension : file_.dimensions_of(variable)) {
@@ -120,7 +121,7 @@ void CfGrid::refuse_other_grid(const std::string& variable) const {
   file_.refuse(variable, "is on other dimensions than the variables before it; allowed is one grid");
 }
 
-// What of a variable is read at once: one instant, of the other axes all that is kept.
+// Returns the box of a variable that is read at once: one instant, and the kept range of every other axis.
 CfGrid::Box CfGrid::box_of(const std::string& variable) const {
   Box box;
   const std::vector<AxisKind> kinds = kinds_in(variable);

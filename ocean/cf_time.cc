@@ -23,7 +23,7 @@ constexpr double kDay = 86'400;  // s
 
 struct Date {
   int year = 0, month = 1, day = 1;
-  double second = 0;  // of the day
+  double second = 0;  // second of the day
 };
 
 constexpr std::array<std::pair<std::string_view, Calendar>, 9> kCalendars{
@@ -37,11 +37,14 @@ constexpr std::array<std::pair<std::string_view, Calendar>, 9> kCalendars{
      {"366_day", Calendar::kAllLeap},
      {"360_day", Calendar::k360Day}}};
 
-// Rounded down.
+// Returns the quotient rounded down, for b > 0.
 constexpr std::int64_t quotient(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
-// Julian day number of a date at noon: days of the years since March 1 of -4800, in which leap days come
-// last.
+// Returns the Julian day number of a date at noon. Years begin with March 1, so that leap days come last:
+//
+//   e = 1 in January and February, else 0;  y = year + 4800 - e;  m = month + 12 e - 3
+//   Gregorian: day + floor((153 m + 2) / 5) + 365 y + floor(y / 4) - floor(y / 100) + floor(y / 400) - 32045
+//   Julian:    day + floor((153 m + 2) / 5) + 365 y + floor(y / 4) - 32083
 std::int64_t julian_day(const Date& date, bool is_gregorian) {
   const std::int64_t early = date.month <= 2 ? 1 : 0;
   const std::int64_t year = date.year + 4800 - early, month = date.month + 12 * early - 3;
@@ -87,7 +90,7 @@ std::int64_t day_of(Calendar calendar, const Date& date) {
 constexpr std::array<std::string_view, 12> kMonths{"jan", "feb", "mar", "apr", "may", "jun",
                                                    "jul", "aug", "sep", "oct", "nov", "dec"};
 
-// What is left of the text of a date while it is read.
+// Remaining text of a date while it is parsed.
 class DateText {
  public:
   explicit DateText(std::string_view text) : rest_(text) {}
@@ -115,10 +118,10 @@ class DateText {
   std::string_view rest_;
 };
 
-// -1: none, or beyond any number of a date.
+// Returns the number; -1 for no digits, or for a number too large for a date.
 int number_of(std::string_view digits) { return parse_number<int>(digits, 0, 99'999'999).value_or(-1); }
 
-// "2026-5-1", "20260501", "2026-5", "2026", "1-May-2026": what is left out is 1.
+// Reads "2026-5-1", "20260501", "2026-5", "2026" or "1-May-2026"; omitted parts are 1.
 bool read_day(DateText& text, Date& date) {
   const int sign = text.take("-") ? -1 : 1;
   const std::string_view first = text.digits();
@@ -143,7 +146,8 @@ bool read_day(DateText& text, Date& date) {
   return date.year >= 0;
 }
 
-// "6", "06:00", "06:00:00.5", "0600", "060000": seconds of the day; NaN: none of these.
+// Reads "6", "06:00", "06:00:00.5", "0600" or "060000" and returns the seconds of the day; NaN for other
+// text.
 double read_clock(DateText& text) {
   const std::string_view first = text.digits();
   const bool is_packed = first.size() == 4 || first.size() == 6;
@@ -161,7 +165,8 @@ double read_clock(DateText& text) {
   return is_time ? 3600.0 * hour + 60.0 * minute + second : std::nan("");
 }
 
-// "", "Z", "UTC", "GMT", "+hh", "-h:mm", "+hhmm", "-hmm": how far ahead of UTC, s; NaN: another zone.
+// Reads "", "Z", "UTC", "GMT", "+hh", "-h:mm", "+hhmm" or "-hmm" and returns how far the zone is ahead of
+// UTC, s; NaN for another zone.
 double read_zone(DateText& text) {
   text.skip_blanks();
   if (text.is_done() || text.take("utc") || text.take("gmt") || text.take("z"))
@@ -180,7 +185,7 @@ double read_zone(DateText& text) {
   return is_zone ? sign * (3600.0 * hours + 60.0 * minutes) : std::nan("");
 }
 
-// A day, a time of day and a zone; false where it is none.
+// Reads a day, a time of day and a zone; false when the text is not such a date.
 bool read_date(const std::string& text, Date& date) {
   DateText rest(text);
   rest.skip_blanks();
@@ -205,7 +210,7 @@ double seconds_since_day_0(Calendar calendar, const std::string& text) {
   return static_cast<double>(day_of(calendar, date)) * kDay + date.second;
 }
 
-// "hours since 2000-01-01" into its unit and its date; UDUNITS has several words between.
+// Splits "hours since 2000-01-01" into its unit and its date; UDUNITS allows several words for "since".
 std::pair<std::string, std::string> split(const std::string& units) {
   const std::string text = lower_case(units);
   for (const std::string_view word : {" since ", " after ", " from ", " ref ", " @ "}) {
@@ -245,7 +250,8 @@ double CfTimeAxis::seconds_of(const std::string& date) const { return seconds_si
 std::string CfTimeAxis::date_of(double seconds) const {
   const auto day = static_cast<std::int64_t>(std::floor(seconds / kDay));
   const auto of_day = static_cast<std::int64_t>(seconds - static_cast<double>(day) * kDay);
-  // The last year, month and day that begin no later.
+  // The date is the last year, month and day that begin no later than the instant. The first guess of the
+  // year takes years of 367 days and so lies before it.
   Date date{static_cast<int>(quotient(day - day_of(calendar_, {0}), 367)), 1, 1, 0};
   while (day_of(calendar_, {date.year + 1}) <= day) ++date.year;
   while (date.month < 12 && day_of(calendar_, {date.year, date.month + 1}) <= day) ++date.month;

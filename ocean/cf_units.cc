@@ -14,7 +14,7 @@
 namespace halocline::ocean {
 namespace {
 
-constexpr double kKelvin = 273.15;      // of 0 degC
+constexpr double kKelvin = 273.15;      // temperature of 0 degC, K
 constexpr double kPascalPerDbar = 1e4;  // BIPM
 constexpr double kDegreesPerRadian = 57.29577951308232;
 
@@ -33,7 +33,7 @@ struct NamedUnit {
   Unit unit;
 };
 
-// Symbols take the prefixes that are symbols, and differ by case; names take those that are words.
+// Symbols take symbolic prefixes and are case-sensitive; names take the prefixes that are words.
 constexpr std::array kSymbols{NamedUnit{"m", {1, kMetre}},       NamedUnit{"g", {1e-3, kKilogram}},
                               NamedUnit{"s", {1, kSecond}},      NamedUnit{"h", {3600, kSecond}},
                               NamedUnit{"d", {86'400, kSecond}}, NamedUnit{"Pa", {1, kPascal}},
@@ -77,7 +77,7 @@ constexpr std::array kNamePrefixes{Prefix{"giga", 1e9},   Prefix{"mega", 1e6},  
                                    Prefix{"hecto", 100},  Prefix{"deca", 10},    Prefix{"deci", 0.1},
                                    Prefix{"centi", 0.01}, Prefix{"milli", 1e-3}, Prefix{"micro", 1e-6},
                                    Prefix{"nano", 1e-9},  Prefix{"pico", 1e-12}, Prefix{"d", 0.1},
-                                   Prefix{"m", 1e-3}};  // dbar of any case, msec
+                                   Prefix{"m", 1e-3}};  // "dbar" in any case, "msec"
 
 template <class Names>
 std::optional<Unit> exactly(const Names& names, std::string_view word) {
@@ -106,7 +106,7 @@ std::optional<Unit> unit_of_word(std::string_view word) {
                    : std::nullopt;
 }
 
-// One word or number with its exponent, cut off the front of the text.
+// Reader of the factors of a unit: cuts one word or number with its exponent off the front of the text.
 class Factors {
  public:
   explicit Factors(std::string_view text) : rest_(text) {}
@@ -115,7 +115,7 @@ class Factors {
     while (take(" ")) continue;
     return rest_.empty();
   }
-  // Whether the next factor divides, past the sign between.
+  // True when the next factor divides; skips the operator before it.
   bool divides() {
     if (take("/")) return true;
     if (!take("*")) take(".");
@@ -192,7 +192,7 @@ std::optional<UnitFactor> parsed_as(std::string_view text, const Powers& powers,
   return is_right ? std::optional(UnitFactor{unit->factor / si_per_unit}) : std::nullopt;
 }
 
-// Small letters without blanks, dots and underscores: "deg. C" is "degc".
+// Returns lower-case text without blanks, dots and underscores: "deg. C" becomes "degc".
 std::string folded(std::string_view text) {
   std::string result = lower_case(text);
   std::erase_if(result, [](char c) { return c == ' ' || c == '.' || c == '_'; });
@@ -235,7 +235,8 @@ std::optional<UnitFactor> salinity_unit(std::string_view text) {
   return number && (*number == 1 || *number == 1e-3) ? std::optional(UnitFactor{}) : std::nullopt;
 }
 
-// "n" of "degrees_north", "" of "degrees"; none where it is no degree.
+// Returns the text after the word for degrees: "n" for "degrees_n", "" for "degrees"; empty when there is no
+// such word.
 std::optional<std::string> after_degrees(std::string_view text) {
   const std::string unit = folded(text);
   const std::string_view rest = without_first(unit, {"degrees", "degree", "deg", "°"});
@@ -269,7 +270,7 @@ std::optional<UnitFactor> unit_in(Quantity quantity, std::string_view text) {
       return angle_unit(text);
     case Quantity::kLength:
       return length_unit(text);
-    case Quantity::kSpeed:  // a blank is often missing: "ms-1" is no velocity by its grammar
+    case Quantity::kSpeed:  // the blank is often missing, and "ms-1" is not a speed by the grammar
       return unit == "ms-1" || unit == "ms^-1" || unit == "ms**-1"
                  ? UnitFactor{}
                  : parsed_as(lower_case(text), kMetrePerSecond);

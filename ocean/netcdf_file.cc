@@ -18,10 +18,10 @@ namespace halocline::ocean {
 namespace {
 
 constexpr double kBeyondAnyValue = 1e30;  // netCDF's own fill values of real numbers are 9.97e36
-constexpr std::size_t kMostRead = std::size_t{1} << 28;  // values: 2 GB
+constexpr std::size_t kMostRead = std::size_t{1} << 28;  // values at once: 2 GB
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The fill value that a variable has without an attribute; NaN: none, as of bytes.
+// Returns the fill value of a variable without the attribute; NaN: none, as for bytes.
 double default_fill(nc_type type) {
   switch (type) {
     case NC_SHORT:
@@ -59,14 +59,14 @@ int bits_of(nc_type type) {
   }
 }
 
-// The same bits without a sign, where `unsigned_bits` is not 0.
+// Returns the value of the same bits as an unsigned integer, where `unsigned_bits` is not 0.
 double without_sign(double value, int unsigned_bits) {
   return unsigned_bits > 0 && value < 0 ? std::ldexp(1.0, unsigned_bits) + value : value;
 }
 
 }  // namespace
 
-// What a variable's attributes make of its packed values.
+// Interpretation of a variable's packed values, from its attributes.
 struct NetcdfFile::Packing {
   std::vector<double> missing;
   double least = -kInfinity, greatest = kInfinity;
@@ -87,7 +87,7 @@ struct NetcdfFile::Packing {
 
 NetcdfFile::NetcdfFile(const std::string& path) : path_(path) {
   require_whole_netcdf(path);
-  // The absolute path: netCDF would take "http:..." for the address of a server.
+  // An absolute path is passed because netCDF takes "http:..." for the address of a server.
   const int status = nc_open(std::filesystem::absolute(path).c_str(), NC_NOWRITE, &id_);
   require(status == NC_NOERR, path + ": cannot be read as netCDF: " + nc_strerror(status));
 }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A netCDF file as readers of the sea see it: variables, their dimensions and attributes, values with packing
-// undone. Part of the modules that read netCDF (halocline_ocean_fields.so, halocline_rasters.so).
+// Reader of a netCDF file: its variables, their dimensions and attributes, and their unpacked values. Part of
+// the modules that read netCDF (halocline_ocean_fields.so, halocline_rasters.so).
 //
-// Values (CF 1.10, sections 2.5.1 and 8.1; NetCDF User Guide, appendix A), in this order:
-// - _Unsigned = "true" turns negative integers into those above the half of their type;
-// - missing is what equals _FillValue, any element of missing_value, or the type's default fill where no
-//   _FillValue is given, all compared after rounding to the variable's type (1e20 as a double is no float);
-//   what lies outside of valid_range, valid_min and valid_max; NaN; and what is beyond 1e30;
-// - valid limits are of packed values, but of unpacked ones where their type is that of scale_factor and
-//   wider than the data's;
-// - the rest is multiplied by scale_factor, and add_offset added.
-// Attributes may be text where numbers are meant ("-999"), and strings of netCDF-4.
+// Values are interpreted in this order (CF 1.10, sections 2.5.1 and 8.1; NetCDF User Guide, appendix A):
+// - _Unsigned = "true" turns negative integers into unsigned ones, above half the range of their type.
+// - Missing values are those equal to _FillValue, to any element of missing_value, or, without _FillValue, to
+//   the default fill value of the type, all compared after rounding to the variable's type (1e20 as a double
+//   is not a float); values outside of valid_range, valid_min and valid_max; NaN; and magnitudes of 1e30 or
+//   more.
+// - Valid limits refer to packed values, but to unpacked ones where their type is that of scale_factor and at
+//   least as wide as that of the data.
+// - All other values are multiplied by scale_factor, and add_offset is added.
+//
+// Numeric attributes may be text ("-999") and netCDF-4 strings.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +24,7 @@ namespace halocline::ocean {
 
 class NetcdfFile {
  public:
-  // Throws InvalidArgument when it is not whole (netcdf_header.h) or cannot be read as netCDF.
+  // Throws InvalidArgument when the file is incomplete (netcdf_header.h) or cannot be read as netCDF.
   explicit NetcdfFile(const std::string& path);
   ~NetcdfFile();
   NetcdfFile(const NetcdfFile&) = delete;
@@ -30,17 +32,17 @@ class NetcdfFile {
 
   std::vector<std::string> variables() const;
   bool has(const std::string& variable) const;
-  // The names of its dimensions, outermost first, and their lengths.
+  // Returns the names of the variable's dimensions, outermost first.
   std::vector<std::string> dimensions_of(const std::string& variable) const;
   std::size_t length_of(const std::string& dimension) const;
-  // Empty where there is none, or of another kind.
+  // Returns an attribute; empty when there is none, or one of another type.
   std::string text(const std::string& variable, const char* attribute) const;
   std::vector<double> numbers(const std::string& variable, const char* attribute) const;
-  // Those of a box of the variable: `counts` from `from` on along its dimensions, the last one fastest; NaN:
-  // missing.
+  // Returns the values of a box of the variable: `counts` values from index `from` on along each dimension,
+  // the last dimension varying fastest; NaN: missing.
   std::vector<double> values(const std::string& variable, const std::vector<std::size_t>& from,
                              const std::vector<std::size_t>& counts) const;
-  // All of them.
+  // Returns all values of the variable.
   std::vector<double> values(const std::string& variable) const;
 
   // Throws InvalidArgument: "<path>: <variable>: <what>".

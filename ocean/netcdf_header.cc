@@ -19,15 +19,14 @@ namespace {
 
 using Number = std::uint64_t;
 constexpr std::string_view kHdf5Signature("\x89HDF\r\n\x1a\n", 8);
-constexpr Number kMostEntries =
-    1'000'000;  // of a list: beyond, a header is damaged; netCDF itself names 8192
-constexpr std::array<Number, 12> kTypeBytes{0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};  // of types 1 to 11
-constexpr Number kDimensions = 10, kVariables = 11, kAttributes = 12;             // tags of lists
-constexpr Number kLeastDimension = 8, kLeastVariable = 28, kLeastAttribute = 12, kLeastIndex = 4;  // bytes
+constexpr Number kMostEntries = 1'000'000;  // longer lists are damaged; netCDF allows 8192
+constexpr std::array<Number, 12> kTypeBytes{0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};  // for types 1 to 11
+constexpr Number kDimensions = 10, kVariables = 11, kAttributes = 12;             // list tags
+constexpr Number kLeastDimension = 8, kLeastVariable = 28, kLeastAttribute = 12, kLeastIndex = 4;  // in bytes
 
 Number padded(Number bytes) { return (bytes + 3) / 4 * 4; }
 
-// Bytes of the file in order, each step checked against its end.
+// Cursor over the bytes of a file; each step is checked against the end of the file.
 class Cursor {
  public:
   explicit Cursor(const std::string& path)
@@ -69,7 +68,8 @@ class Cursor {
     for (const char byte : text) value = value << 8 | static_cast<unsigned char>(byte);
     return value;
   }
-  // As many things, of so many bytes at least, which have to fit into what is left.
+  // Returns `count` after checking that so many items, of `least_bytes` or more each, fit into the remaining
+  // bytes.
   Number bounded(Number count, Number least_bytes) const {
     if (count > left() / least_bytes)
       damaged("it names " + std::to_string(count) + " things where " + std::to_string(left()) +
@@ -90,11 +90,11 @@ class Cursor {
 
 struct Variable {
   std::string name;
-  Number begin = 0, bytes = 0;  // of one record, where it has records
+  Number begin = 0, bytes = 0;  // for one record, if the variable has records
   bool has_records = false;
 };
 
-// What the header of a classic file says about where its variables lie.
+// Header of a classic file: where its variables lie.
 class ClassicHeader {
  public:
   explicit ClassicHeader(Cursor& in) : in_(in) {
@@ -175,7 +175,7 @@ class ClassicHeader {
     }
     skip_attributes();
     variable.bytes = type_bytes();
-    count();  // vsize
+    count();  // the stored vsize
     variable.begin = in_.big_endian(version_ == 1 ? 4 : 8);
     for (std::size_t i = 0; i < dimensions.size(); ++i) {
       const Number length = lengths_[dimensions[i]];
@@ -186,7 +186,7 @@ class ClassicHeader {
     return variable;
   }
 
-  // From one record to the next, of all variables.
+  // Returns the distance from one record to the next, over all record variables, bytes.
   Number record_bytes() const {
     Number total = 0, with_records = 0, only = 0;
     for (const Variable& variable : variables_) {
@@ -198,7 +198,7 @@ class ClassicHeader {
     return with_records == 1 ? only : total;
   }
 
-  // Beyond any file, they stay there.
+  // Sums and products saturate here, beyond the size of any file.
   static constexpr Number kMost = Number{1} << 62;
   static Number product(Number a, Number b) { return b != 0 && a > kMost / b ? kMost : a * b; }
   static Number sum(Number a, Number b) { return std::min(kMost, std::min(a, kMost) + std::min(b, kMost)); }
@@ -209,7 +209,7 @@ class ClassicHeader {
   std::vector<Variable> variables_;
 };
 
-// The superblock lies at 0, 512, 1024, 2048, ...
+// The superblock lies at byte 0, 512, 1024, 2048, ...
 std::optional<Number> superblock_of(Cursor& in) {
   for (Number place = 0; place + kHdf5Signature.size() < in.size(); place = place == 0 ? 512 : 2 * place) {
     in.go_to(place);
@@ -228,7 +228,7 @@ void require_whole_hdf5(Cursor& in, Number superblock) {
   if (offset_bytes < 2 || offset_bytes > 8)
     in.damaged("an offset has " + std::to_string(offset_bytes) + " bytes");
   in.skip(is_old ? (version == 1 ? 14 : 10) : 2);
-  in.skip(2 * offset_bytes);  // base and extension, or base and free space
+  in.skip(2 * offset_bytes);  // base and extension, or base and free-space addresses
   const Number end = in.little_endian(offset_bytes);
   if (end > in.size())
     in.refuse("is cut short: by its header it ends at byte " + std::to_string(end) + ", the file has " +

@@ -20,10 +20,10 @@ namespace halocline::ocean {
 namespace {
 
 constexpr double kEquatorialRadius = 6'378'137;         // m, WGS 84
-constexpr double kEccentricity2 = 6.69437999014e-3;     // its square
+constexpr double kEccentricity2 = 6.69437999014e-3;     // square of the eccentricity
 constexpr double kDeepest = 12'000;                     // m
-constexpr double kNearestPole = to_radians(89);         // of the origin
-constexpr double kOutsideRad = to_radians(1.0 / 3600);  // of the grid: what rounding of axes may take
+constexpr double kNearestPole = to_radians(89);         // greatest latitude of the origin
+constexpr double kOutsideRad = to_radians(1.0 / 3600);  // tolerance of the grid's edges, for rounding of axes
 
 void require_rising(const std::vector<double>& axis, double lowest, double highest, std::string_view what,
                     std::string_view unit, double unit_size = 1) {
@@ -34,14 +34,14 @@ void require_rising(const std::vector<double>& axis, double lowest, double highe
   }
 }
 
-// One variable on its grid.
+// One variable on its grid at one time.
 struct Layers {
   std::span<float> values;
   std::size_t depths, rows, columns;
   std::size_t horizontal() const { return rows * columns; }
 };
 
-// Above and below the values of each column; those that have none at all are named in the result.
+// Continues the values of each column above and below them; returns the columns without any value.
 std::vector<bool> fill_columns(const Layers& layers) {
   std::vector<bool> is_empty(layers.horizontal(), false);
   const auto value = [&](std::size_t depth, std::size_t column) -> float& {
@@ -60,8 +60,9 @@ std::vector<bool> fill_columns(const Layers& layers) {
   return is_empty;
 }
 
-// Columns without values take those of the nearest one, by steps along rows and columns; of several, of the
-// first found going out from all in the order of the file.
+// Fills each column without values with those of the nearest column, counted in steps along rows and columns
+// (breadth-first search). Among equally near columns, the first one found counts; the search starts from all
+// columns with values in the order of the file.
 void fill_land(const Layers& layers, std::vector<bool> is_empty) {
   std::deque<std::size_t> front;
   for (std::size_t column = 0; column < is_empty.size(); ++column) {
@@ -142,7 +143,8 @@ std::uint64_t hash_of(const OceanGrid& grid, const OceanValues& values) {
 
 std::string_view name_of(bool is_latitude) { return is_latitude ? "latitude" : "longitude"; }
 
-// `given` is the value as the scenario has it, `turns` radians from that of the grid.
+// Requires that the origin lies in the range of an axis. `given` is the angle in the scenario; `turns` is
+// what shifts it into the grid's turn, rad.
 void require_within(const std::vector<double>& axis, double given, double turns, bool is_latitude) {
   const double value = given + turns;
   if (value >= axis.front() - kOutsideRad && value <= axis.back() + kOutsideRad) return;
@@ -166,7 +168,7 @@ OceanField::OceanField(OceanGrid grid, OceanValues values, const GeodeticOrigin&
           "allowed are both components of the current or none, temperature with salinity or neither");
   require_in_range(to_degrees(origin_.latitude_rad), -to_degrees(kNearestPole), to_degrees(kNearestPole),
                    "latitude of the scenario's origin", "deg");
-  // The origin's longitude, in the turn of the grid.
+  // The origin's longitude is shifted by full turns into the turn of the grid.
   const double middle = (grid_.longitudes_rad.front() + grid_.longitudes_rad.back()) / 2;
   origin_.longitude_rad = middle + std::remainder(origin_.longitude_rad - middle, 2 * std::numbers::pi);
   require_within(grid_.latitudes_rad, origin_.latitude_rad, 0, true);
@@ -185,7 +187,10 @@ OceanField::OceanField(OceanGrid grid, OceanValues values, const GeodeticOrigin&
     fill(values_.salinity_psu, grid_, "salinity");
     extremes_ = extremes_of(values_, grid_);
   }
-  // Radii of curvature of the ellipsoid: M = a (1 - e2) / (1 - e2 sin^2)^(3/2), N = a / (1 - e2 sin^2)^(1/2).
+  // Radii of curvature of the ellipsoid, with latitude phi:
+  //
+  //   N = a / (1 - e2 sin^2(phi))^(1/2)
+  //   M = a (1 - e2) / (1 - e2 sin^2(phi))^(3/2)
   const double sine = elementary::sin(origin_.latitude_rad), w2 = 1 - kEccentricity2 * sine * sine;
   transverse_radius_m_ = kEquatorialRadius / std::sqrt(w2);
   meridional_radius_m_ = transverse_radius_m_ * (1 - kEccentricity2) / w2;
@@ -200,9 +205,13 @@ OceanField::Bracket OceanField::bracket(const std::vector<double>& axis, double 
   return {high - 1, high, (value - axis[high - 1]) / (axis[high] - axis[high - 1])};
 }
 
-// The transverse Mercator projection's inverse to second order in the distance over the earth's radius
-// (Snyder 1987, page 63): with phi1 the latitude of the foot of the place on the origin's meridian,
-//   phi = phi1 - y^2 tan(phi1) / (2 M N),  lambda = lambda0 + y / (N cos(phi1)).
+// Inverse transverse Mercator projection to second order in the distance over the earth's radius (Snyder
+// 1987, page 63). With phi1 the latitude of the foot of the position on the origin's meridian, x north and y
+// east,
+//
+//   phi1   = phi0 + x / M
+//   phi    = phi1 - y^2 tan(phi1) / (2 M N)
+//   lambda = lambda0 + y / (N cos(phi1))
 OceanField::GeodeticPlace OceanField::geodetic(double north_m, double east_m) const {
   const double foot = origin_.latitude_rad + north_m / meridional_radius_m_;
   const auto [sine, cosine] = elementary::sin_cos(foot);
@@ -248,7 +257,11 @@ double OceanField::at(const std::vector<float>& values, const Corners& corners, 
                          : above;
 }
 
-// True north lies (lambda - lambda0) sin(phi) to the west of grid north.
+// True north lies west of grid north by the meridian convergence
+//
+//   gamma = (lambda - lambda0) sin(phi)
+//
+// so grid north = cos(gamma) north + sin(gamma) east, grid east = cos(gamma) east - sin(gamma) north.
 Vec3 OceanField::current_ned_mps(const Vec3& place, double time_s) const {
   const GeodeticPlace there = geodetic(place.x(), place.y());
   const Corners about = corners(there);
@@ -279,7 +292,7 @@ std::vector<WaterAtDepth> OceanField::column_at(double north_m, double east_m, d
   return column;
 }
 
-// Between two levels water is that of both, mixed.
+// Water between two levels is a mixture of both.
 WaterRange OceanField::extremes_at(double depth_m) const {
   const Bracket depth = bracket(grid_.depths_m, depth_m);
   const WaterRange &a = extremes_[depth.low], &b = extremes_[depth.high];
@@ -287,16 +300,21 @@ WaterRange OceanField::extremes_at(double depth_m) const {
           std::min(a.least_psu, b.least_psu), std::max(a.greatest_psu, b.greatest_psu)};
 }
 
-// f(t) = h00 f1 + h10 H m1 + h01 f2 + h11 H m2 over t = 0..1 between points 1 and 2, H apart, with the
-// weights of Hermite's cubic and m1 = (d1 H + d2 G) / (G + H) of the differences d1 before, over G, and d2
-// between; m2 likewise.
+// Cubic Hermite interpolation between points 1 and 2, H apart, at t = 0..1:
+//
+//   f(t) = h00 f1 + h10 H m1 + h01 f2 + h11 H m2
+//   h00 = 1 - 3 t^2 + 2 t^3,  h10 = t - 2 t^2 + t^3,  h01 = 3 t^2 - 2 t^3,  h11 = t^3 - t^2
+//   m1 = (d1 H + d2 G) / (G + H),  d1 = (f1 - f0) / G,  d2 = (f2 - f1) / H
+//
+// G is the distance from point 0 to point 1; m2 is the mirror image. At an end of the axis, m1 = d2.
 OceanField::Stencil OceanField::stencil(const std::vector<double>& axis, double value) {
   const auto [low, high, t] = bracket(axis, value);
   if (low == high) return {{low, low, low, low}, {0, 1, 0, 0}};
   const std::size_t before = low > 0 ? low - 1 : low, after = std::min(high + 1, axis.size() - 1);
   const double width = axis[high] - axis[low], t2 = t * t, t3 = t2 * t;
   Stencil stencil{{before, low, high, after}, {0, 1 - 3 * t2 + 2 * t3, 3 * t2 - 2 * t3, 0}};
-  // The slope at `near`, seen from there the cell's other point is `far`, the one beyond `near` is `beyond`.
+  // Adds the slope at the point `near` of the cell; `far` is the cell's other point, `beyond` the one beyond
+  // `near`.
   const auto add_slope = [&](double weight, std::size_t beyond, std::size_t near, std::size_t far,
                              double gap) {
     const double inner = gap > 0 ? gap / (gap + width) : 1, sign = far > near ? 1 : -1;
@@ -343,8 +361,8 @@ std::vector<WaterAtDepth> OceanField::smooth_column_at(double north_m, double ea
   return column;
 }
 
-// Along the way latitude and longitude change all but evenly; a crossing is found by where their chord has
-// it, 100 m off at most over 100 km.
+// Latitude and longitude change almost linearly along the line; a crossing is placed where their chord has
+// it, with an error of 100 m at most over 100 km.
 std::vector<double> OceanField::crossings(const Vec3& from, const Vec3& to) const {
   std::vector<double> shares;
   const auto cross = [&shares](const std::vector<double>& axis, double a, double b) {

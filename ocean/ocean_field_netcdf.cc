@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ocean fields and columns of water from CF netCDF files. Part of the module halocline_ocean_fields.so, which
-// only ocean_field_reader.cc loads.
+// Reads ocean fields and water columns from CF netCDF files. Part of the module halocline_ocean_fields.so,
+// which only ocean_field_reader.cc loads.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -27,8 +27,8 @@
 namespace halocline::ocean {
 namespace {
 
-constexpr double kMostValues = 1e8;           // of a variable, 0.4 GB
-constexpr double kMostValuesOfAByte = 300;    // deflate packs 1032 bytes into one; more were never written
+constexpr double kMostValues = 1e8;           // limit for a variable, 0.4 GB
+constexpr double kMostValuesOfAByte = 300;    // deflate packs 1032 bytes into one; more was never written
 constexpr double kEarthRadius = 6'371'008.8;  // m, mean (IUGG)
 constexpr double kTurn = 360;                 // degrees
 
@@ -39,7 +39,7 @@ void require_size(const NetcdfFile& file, const CfGrid& grid) {
               std::to_string(bytes) + " bytes; allowed are 100000000, and 300 a byte: cut out a region");
 }
 
-// Times from the start on.
+// Returns the times relative to the start, s.
 std::vector<double> times_from(const NetcdfFile& file, const Axis& axis, const std::string& start_date) {
   const std::string units = axis.name.empty() ? "" : file.text(axis.name, "units");
   const bool is_undated = axis.name.empty() || (axis.values.size() == 1 && start_date.empty());
@@ -117,7 +117,10 @@ OceanField* read_field(const FieldQuery& query) {
   }
 }
 
-// Great circle (haversine), degrees to metres.
+// Returns the great-circle distance, m, between positions in degrees by the haversine formula:
+//
+//   h = sin^2((phi2 - phi1) / 2) + cos(phi1) cos(phi2) sin^2((lambda2 - lambda1) / 2)
+//   d = 2 R asin(sqrt(h))
 double distance_m(double latitude_a, double longitude_a, double latitude_b, double longitude_b) {
   const double half_lat = to_radians(latitude_b - latitude_a) / 2,
                half_lon = to_radians(longitude_b - longitude_a) / 2;
@@ -127,7 +130,7 @@ double distance_m(double latitude_a, double longitude_a, double latitude_b, doub
   return 2 * kEarthRadius * elementary::asin(std::sqrt(std::min(h, 1.0)));
 }
 
-// The values of an axis within a reach of a place, and one more on either side.
+// Keeps the values of an axis within `reach` of `place`, and one more on either side.
 void keep_about(CfGrid& grid, AxisKind kind, double place, double reach) {
   const std::vector<double>& values = grid.at(kind).values;
   const auto low = std::lower_bound(values.begin(), values.end(), place - reach);
@@ -136,7 +139,7 @@ void keep_about(CfGrid& grid, AxisKind kind, double place, double reach) {
   grid.keep(kind, static_cast<std::size_t>(first - values.begin()), static_cast<std::size_t>(last - first));
 }
 
-// The columns that can be near enough to a place.
+// Keeps the columns that may be near enough to a position.
 void keep_window(CfGrid& grid, double latitude_deg, double longitude_deg) {
   const double reach = to_degrees(kFarthestColumn / kEarthRadius);
   const double nearest_pole = std::min(std::abs(latitude_deg) + reach, 89.0);
@@ -152,9 +155,9 @@ void keep_time(const NetcdfFile& file, CfGrid& grid, int index) {
   grid.keep(AxisKind::kTime, static_cast<std::size_t>(found - places.begin()), 1);
 }
 
-// The column of a window that has water and is nearest to a place.
+// Column of a window that has water and is nearest to a position.
 struct Nearest {
-  std::size_t column = 0;  // row by row
+  std::size_t column = 0;  // index, row by row
   double latitude_deg = 0, longitude_deg = 0, distance_m = std::numeric_limits<double>::infinity();
 };
 
@@ -182,7 +185,8 @@ Nearest nearest_water(const CfGrid& grid, const OceanValues& values, double lati
   return best;
 }
 
-// Levels down to the deepest value of some columns: below, water stays as it is and needs no rows.
+// Returns the number of levels down to the deepest value of some columns. Below it water does not change and
+// needs no rows.
 std::size_t levels_with_water(const OceanGrid& grid, const OceanValues& values,
                               const std::vector<std::size_t>& columns) {
   std::size_t levels = 0;
@@ -193,7 +197,7 @@ std::size_t levels_with_water(const OceanGrid& grid, const OceanValues& values,
   return levels;
 }
 
-// The columns that stand around a place: two by two, or fewer at a line of the grid.
+// Returns the columns around a position: two by two, or fewer on a line of the grid.
 std::vector<std::size_t> columns_about(const OceanGrid& grid, double latitude_rad, double longitude_rad) {
   const auto lines = [](const std::vector<double>& axis, double value) {
     const auto above = std::lower_bound(axis.begin(), axis.end(), value);
@@ -209,7 +213,7 @@ std::vector<std::size_t> columns_about(const OceanGrid& grid, double latitude_ra
   return columns;
 }
 
-// Only that of one column.
+// Returns the values of one column alone.
 OceanValues column_of(const OceanValues& values, std::size_t columns, std::size_t column) {
   OceanValues one;
   for (std::size_t at = column; at < values.salinity_psu.size(); at += columns) {
@@ -223,16 +227,16 @@ bool is_within(const std::vector<double>& axis, double value) {
   return value >= axis.front() && value <= axis.back();
 }
 
-// Water of the columns near a place, on their grid.
+// Water of the columns near a position, on their grid.
 struct Window {
   OceanGrid grid;
   OceanValues values;
   Nearest nearest;
-  double longitude_deg = 0;  // of the place, in the turn of the grid
+  double longitude_deg = 0;  // longitude of the position in the turn of the grid
   std::string grid_in_words;
 };
 
-// Temperature and salinity, each on its own file's grid, which are the same.
+// Variables of temperature and salinity, each on the grid of its own file; the two grids must be equal.
 class WaterFiles {
  public:
   explicit WaterFiles(const ColumnQuery& query)
@@ -283,7 +287,8 @@ class WaterFiles {
   SalinityVariable salinity_;
 };
 
-// The nearest column with water alone stands for a place beyond the grid or among land.
+// Reduces the window to the nearest column with water, which represents a position beyond the grid or among
+// land.
 void keep_nearest(Window& window) {
   window.values = column_of(window.values, window.grid.columns(), window.nearest.column);
   window.grid.latitudes_rad = {to_radians(window.nearest.latitude_deg)};

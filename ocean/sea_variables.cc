@@ -14,9 +14,10 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-constexpr double kPracticalOfAbsolute = 35 / 35.16504;  // TEOS-10: the reference composition
+constexpr double kPracticalOfAbsolute = 35 / 35.16504;  // TEOS-10, reference composition
 
-// Empty where a modifier makes it something else ("sea_water_temperature status_flag").
+// Returns the standard name; empty when a modifier gives it another meaning ("sea_water_temperature
+// status_flag").
 std::string standard_name(const NetcdfFile& file, const std::string& variable) {
   const std::string whole = file.text(variable, "standard_name");
   return whole.find(' ') == std::string::npos ? whole : "";
