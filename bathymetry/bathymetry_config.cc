@@ -73,12 +73,12 @@ void visit_raster(ConfigVisitor& v, RasterOptions& r) {
   v.number("datum_offset_m", r.datum_offset_m, {-200, 200, "m", "added to every depth"});
 }
 
-// GDAL's own names, where they are allowed, are no files.
+// Requires a readable file, unless GDAL's own names are allowed, which need not be files.
 void require_raster(ConfigVisitor& v, const FilePath& path) {
   if (!is_any_raster_allowed()) bus::require_readable(v, "path", path);
 }
 
-// Visits what belongs to one kind of terrain.
+// Visits the keys that belong to one kind of terrain.
 void with_kind(ConfigVisitor& v, const TerrainRecipe& t, TerrainKind kind,
                const std::function<void()>& body) {
   bus::when_one_of(v, "kind", t.kind, kKinds, {kind}, body);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The [terrain] section of a scenario: how its keys fill a TerrainRecipe.
+// Reader of the [terrain] section of a scenario into a TerrainRecipe.
 #pragma once
 
 #include "bathymetry/rasters/terrain_recipe.h"
@@ -7,9 +7,9 @@
 
 namespace halocline::bathymetry {
 
-// Visits [terrain] and what lies in it: [terrain.flat], [terrain.slope], [terrain.ridge], [terrain.seamount],
-// [terrain.raster], [terrain.relief], [[terrain.nested]]. Angles are degrees in the file, radians in the
-// recipe.
+// Visits [terrain] and its subsections: [terrain.flat], [terrain.slope], [terrain.ridge], [terrain.seamount],
+// [terrain.raster], [terrain.relief], [[terrain.nested]]. Angles are in degrees in the file, in radians in
+// the recipe.
 void visit(bus::ConfigVisitor& v, TerrainRecipe& recipe);
 
 }  // namespace halocline::bathymetry

@@ -12,7 +12,7 @@
 namespace halocline::bathymetry {
 namespace {
 
-// The order of the enumerations is that of the message's constants.
+// The enumerations have the order of the message's constants.
 static_assert(static_cast<int>(QueryMode::kClosestHit) == ray_query_t::CLOSEST_HIT);
 static_assert(static_cast<int>(QueryMode::kOccluded) == ray_query_t::OCCLUDED);
 static_assert(static_cast<int>(QueryMode::kDepth) == ray_query_t::DEPTH);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Between ray_query_t / ray_reply_t, terrain_query_t / terrain_tile_t and the values the service computes
-// with.
+// Conversion between messages (ray_query_t / ray_reply_t, terrain_query_t / terrain_tile_t) and the values
+// that the service computes with.
 //
-// A query is read as it stands: rays that are impossible get their status from the service, an impossible
-// mode, count or spacing its refusal. Both directions exist for both types, for clients and for round-trip
-// tests.
+// Queries are converted without checks: the service gives invalid rays their status and refuses an invalid
+// mode, count or spacing. Both directions exist for the ray messages, for clients and for round-trip tests.
 #pragma once
 
 #include <cstdint>
@@ -27,22 +26,23 @@ struct QueryHeader {
 
 QueryHeader header_of(const ray_query_t& message);
 
-// num_rays 0 or less: no rays. A mode below 0 becomes one above the last, which the service refuses.
+// Without rays when num_rays is 0 or less. A mode below 0 becomes one above the last, which the service
+// refuses.
 RayBatch from_message(const ray_query_t& message);
 
-// Rays relative to `base_ned_m`, so that far from the origin offsets stay short.
+// Ray origins are stored relative to `base_ned_m`, so that offsets stay short far from the origin.
 ray_query_t to_message(const QueryHeader& header, const RayBatch& batch, const Vec3& base_ned_m);
 
-// session: of this start of the service.
+// `session` is that of the service's current start.
 ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
                        const std::string& terrain_version, std::int64_t session);
 
-// A sample that is not valid on the bus comes back as no_data.
+// A sample that is invalid on the bus becomes one without data.
 RayAnswers from_message(const ray_reply_t& message);
 
 QueryHeader header_of(const terrain_query_t& message);
 TileQuery from_message(const terrain_query_t& message);
-// Session and sequence are the publisher's to fill in.
+// The publisher sets session and sequence.
 terrain_tile_t to_message(const QueryHeader& header, const Tile& tile, const Terrain& terrain,
                           const std::string& terrain_version);
 

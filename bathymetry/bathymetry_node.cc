@@ -14,7 +14,7 @@
 namespace halocline::bathymetry {
 namespace {
 
-// Before every time that a message may hold.
+// Earlier than any time in a message: due as soon as the simulation time is known.
 constexpr SimTime kOnceTimeIsKnown = SimTime::from_nanoseconds(-4'000'000'000'000'000'000);
 
 }  // namespace

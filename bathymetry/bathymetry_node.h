@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bathymetry service on the bus: RAY_QUERY in, RAY_REPLY.<client> out; TERRAIN_QUERY in,
-// TERRAIN_REPLY.<client> out; and TERRAIN, the whole seabed coarsely, at the start of a run, so that a log
-// alone has its chart.
+// Bathymetry service on the bus. It answers RAY_QUERY with RAY_REPLY.<client> and TERRAIN_QUERY with
+// TERRAIN_REPLY.<client>, and publishes TERRAIN, a coarse map of the whole seabed, at the start of a run, so
+// that every log contains its chart.
 //
-// Stateless between queries: a client that got no reply repeats its query with the same request_id. Queries
-// wait until the next step, which answers all of them in the order they came; a query that a client repeats
-// while it waits is answered once.
+// The service keeps no state between queries: a client that gets no reply repeats its query with the same
+// request_id. Queries wait until the next step, which answers all of them in the order of their arrival; a
+// query that a client repeats while it waits is answered once.
 #pragma once
 
 #include <memory>
@@ -27,11 +27,12 @@ namespace halocline::bathymetry {
 
 class BathymetryNode : public bus::Node {
  public:
-  // More queries than this between two steps are refused and counted: their clients repeat them.
+  // When more queries than this arrive between two steps, the excess is refused and counted: their clients
+  // repeat them.
   static constexpr std::size_t kMaxWaiting = 1024;
-  static constexpr std::size_t kMaxTilesWaiting = 64;  // likewise: 3 MB of replies
+  static constexpr std::size_t kMaxTilesWaiting = 64;  // limit for tile queries: 3 MB of replies
 
-  // `summary`: the terrain in one line, for STATUS.
+  // `summary` describes the terrain in one line, for STATUS.
   BathymetryNode(lcm::LCM& lcm, bus::NodeIdentity identity, std::shared_ptr<const Terrain> terrain,
                  std::string summary);
 
@@ -47,7 +48,7 @@ class BathymetryNode : public bus::Node {
     QueryHeader header;
     Query query;
   };
-  // Stores a query, unless it waits already or there are `max_waiting`.
+  // Stores a query unless it is waiting already; refuses it when `max_waiting` queries wait.
   template <class Message, class Query>
   void store(std::string_view channel, const Message& message, std::vector<Waiting<Query>>& waiting,
              std::size_t max_waiting);

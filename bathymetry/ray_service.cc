@@ -38,7 +38,7 @@ void append(RayAnswers& answers, RayStatus status, double result_m) {
   answers.results_m.push_back(status == RayStatus::kHit ? result_m : 0);
 }
 
-// Of a tile, whose depths are for sound.
+// Appends a point of a tile, whose depth continues beyond the terrain for acoustics.
 void append_held(const Terrain& terrain, double x_m, double y_m, RayAnswers& answers) {
   const DepthStatus known = terrain.depth_at(x_m, y_m).status;
   const auto held = terrain.held_depth_at(x_m, y_m);
@@ -51,8 +51,7 @@ void append_depth(const Terrain& terrain, double x_m, double y_m, RayAnswers& an
   append(answers, as_ray_status(sample.status), sample.z_m);
 }
 
-// Points are products of whole numbers and the spacing, so that they are the same to the last bit whoever
-// computes them.
+// Points are products of integers and the spacing, so everybody computes the same bits.
 void append_tile(const Terrain& terrain, const Vec3& origin, double spacing_m, RayAnswers& answers) {
   const double north = std::round(origin.x() / spacing_m), east = std::round(origin.y() / spacing_m);
   for (std::size_t i = 0; i < kTileSide; ++i) {
@@ -92,7 +91,7 @@ RayAnswers answer_profile(const Terrain& terrain, const RayBatch& batch) {
   const Vec3 along = level / length;
   const PlanePoint from{ray.origin_ned_m.x(), ray.origin_ned_m.y()};
   if (batch.mode == QueryMode::kUniformProfile) {
-    // A range that is a multiple of the spacing but for rounding includes its end.
+    // A range that is a multiple of the spacing up to rounding includes its end.
     constexpr double kRounding = 1e-9;
     const double count = std::floor(ray.max_range_m / batch.sample_spacing_m + kRounding) + 1;
     if (count > static_cast<double>(kMaxRays)) return too_many_samples(count);
@@ -108,7 +107,7 @@ RayAnswers answer_profile(const Terrain& terrain, const RayBatch& batch) {
   return answers;
 }
 
-// Why the batch as a whole cannot be answered; Refusal::kNone when it can.
+// Returns why the whole batch cannot be answered; Refusal::kNone when it can.
 RayAnswers refusal_of(const std::string& terrain_version, const RayBatch& batch) {
   const std::size_t count = batch.rays.size();
   if (batch.mode > QueryMode::kDepthTiles)
@@ -150,7 +149,7 @@ RayAnswers answer(const Terrain& terrain, const std::string& terrain_version, co
     for (const Ray& ray : batch.rays) append_tile(terrain, ray.origin_ned_m, batch.sample_spacing_m, answers);
     return answers;
   }
-  // Occlusion is a closest hit: the search runs along the ray and ends at the first one.
+  // Occlusion is answered by the closest hit: the search along the ray ends at the first one.
   for (const RayHit& hit : terrain.closest_hits(batch.rays)) append(answers, hit.status, hit.range_m);
   return answers;
 }

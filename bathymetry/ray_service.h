@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Answers a batch of questions about the terrain: what the bathymetry service computes, without the bus.
+// Answers a batch of queries about the terrain: the computation of the bathymetry service, without the bus.
 //
-// Model: a query is of one mode. closest_hit and occluded follow each ray; depth looks below each origin; the
-// two profiles take one ray, whose horizontal direction and range give the line. depth_tiles looks below
-// kTileSide x kTileSide points of the lattice that has one point in the world's origin: the first is that
-// nearest to the ray's origin, the others lie north and east of it. A query is answered whole or refused
-// whole, with the reason: never cut. Stateless: the same query always has the same answer.
+// A query has one mode.
+//
+//   closest_hit, occluded           follow each ray to the seabed
+//   depth                           depth below each origin
+//   uniform_profile, exact_profile  one ray, whose horizontal direction and range define the line
+//   depth_tiles                     depths below kTileSide x kTileSide points of a lattice
+//
+// The lattice of depth_tiles has one point in the world's origin. The first point of a tile is the one
+// nearest to the ray's origin, the others lie north and east of it.
+//
+// A query is answered completely or refused completely, with the reason; it is never truncated. Stateless:
+// the same query always has the same answer.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +25,11 @@
 
 namespace halocline::bathymetry {
 
-// The largest batch that is advised: a message of this many rays is 57 kB.
+// Largest recommended batch: a message of this many rays has 57 kB.
 inline constexpr std::size_t kUsualRays = 1024;
-// More rays, points of tiles or samples of a profile are refused.
+// Limit of rays, tile points or profile samples; a query with more is refused.
 inline constexpr std::size_t kMaxRays = 4096;
-// Points of a tile along each side.
+// Points along each side of a tile.
 inline constexpr std::size_t kTileSide = 8;
 
 enum class QueryMode : std::uint8_t {
@@ -36,7 +43,7 @@ enum class QueryMode : std::uint8_t {
 
 struct RayBatch {
   QueryMode mode = QueryMode::kClosestHit;
-  std::string expected_terrain = {};  // version_text of the terrain relied upon; empty: any
+  std::string expected_terrain = {};  // required version_text of the terrain; empty: any
   double sample_spacing_m = 0;        // uniform_profile, depth_tiles: above 0
   std::vector<Ray> rays = {};         // 1 to kMaxRays; exactly 1 for a profile
 };
@@ -46,15 +53,15 @@ enum class Refusal : std::uint8_t { kNone, kTooMany, kOtherTerrain, kBadQuery };
 struct RayAnswers {
   Refusal refusal = Refusal::kNone;
   std::string reason = {};               // empty unless refused
-  std::vector<RayStatus> statuses = {};  // one a result, in order; empty when refused
-  // One a ray (of a tile one a point, eastwards row by row): the range of a hit; for depths z of the bottom
-  // (status hit); for a profile its length (status hit). 0 with any other status, but for tiles: outside and
-  // without data the last known depth, for sound.
+  std::vector<RayStatus> statuses = {};  // one for each result, in order; empty when refused
+  // One for each ray (for a tile, one for each point, row by row, each from west to east): the range of a
+  // hit; for depths, z of the bottom (status hit); for a profile, its length (status hit). 0 with any other
+  // status, except for tiles: points outside and without data have the last known depth, for acoustics.
   std::vector<double> results_m = {};
-  std::vector<ProfilePoint> samples = {};  // of a profile
+  std::vector<ProfilePoint> samples = {};  // profile modes only
 };
 
-// terrain_version: version_text(terrain.version()), made once by the caller.
+// Answers a batch. `terrain_version` is version_text(terrain.version()), which the caller computes once.
 [[nodiscard]] RayAnswers answer(const Terrain& terrain, const std::string& terrain_version,
                                 const RayBatch& batch);
 

@@ -12,7 +12,7 @@ namespace halocline::bathymetry {
 namespace {
 
 constexpr double kMaxSpacingM = 1e6;
-// Of a spacing: places that are off by so much through rounding lie on the terrain's edge.
+// Tolerance as a share of the spacing: positions that are off by rounding only lie on the terrain's edge.
 constexpr double kRounding = 1e-6;
 
 std::string problem(const std::string& field, double value, const std::string& allowed) {
@@ -21,7 +21,8 @@ std::string problem(const std::string& field, double value, const std::string& a
 
 std::string span(double from, double to) { return format_number(from) + " to " + format_number(to); }
 
-// Of one direction: a tile from `first` on, `length` long, must meet the terrain from `low` to `high`.
+// Checks one direction: a tile of `length` from `first` on must meet the terrain between `low` and `high`.
+// Returns the problem, or an empty string.
 std::string problem_of_corner(const std::string& field, double first, double length, double low,
                               double high) {
   const bool touches = first <= high && first + length >= low;  // false for NaN
@@ -85,7 +86,7 @@ Tile overview(const Terrain& terrain) {
   const GridGeometry& extent = terrain.extent();
   const int longest = std::max(extent.cells_x(), extent.cells_y());
   const double cells =
-      std::max(1.0, static_cast<double>(longest) / (kMaxOverviewPosts - 1));  // of a post to the next
+      std::max(1.0, static_cast<double>(longest) / (kMaxOverviewPosts - 1));  // cells between posts
   const auto posts = [&](int all) {
     return static_cast<std::int64_t>(std::floor(all / cells + kRounding)) + 1;
   };

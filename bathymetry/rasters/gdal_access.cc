@@ -21,7 +21,7 @@
 namespace halocline::bathymetry::gdal {
 namespace {
 
-constexpr std::string_view kInMemory = "/vsimem/";  // what the process itself put there
+constexpr std::string_view kInMemory = "/vsimem/";  // files that the process itself created
 
 struct Format {
   const char* name;
@@ -39,7 +39,7 @@ constexpr std::array kFormats{
     Format{"DTED", GDALRegister_DTED},       Format{"SAGA", GDALRegister_SAGA},
     Format{"GRIB", GDALRegister_GRIB}};
 
-// Stands in the place of a virtual file system.
+// File system that refuses every file; replaces a virtual one.
 class Refusal final : public VSIFilesystemHandler {
  public:
   VSIVirtualHandle* Open(const char* name, const char*, bool, CSLConstList) override {
@@ -50,14 +50,14 @@ class Refusal final : public VSIFilesystemHandler {
 };
 
 void close_virtual_files() {
-  // Handlers that GDAL forgets when others take their places: kept for as long as the process, in use or not.
+  // GDAL forgets handlers that are replaced while they may still be in use: kept for the life of the process.
   static auto& replaced = *new std::vector<VSIFilesystemHandler*>;
   char** prefixes = VSIFileManager::GetPrefixes();
   for (int i = 0; prefixes != nullptr && prefixes[i] != nullptr; ++i) {
     const std::string_view prefix = prefixes[i];
     if (!prefix.starts_with("/vsi") || prefix == kInMemory) continue;
     replaced.push_back(VSIFileManager::GetHandler(prefixes[i]));
-    VSIFileManager::InstallHandler(prefixes[i], new Refusal);  // GDAL's from then on
+    VSIFileManager::InstallHandler(prefixes[i], new Refusal);  // owned by GDAL from now on
   }
   CSLDestroy(prefixes);
 }

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What GDAL may open: a file comes from strangers, and GDAL follows what stands in it.
+// Restrictions on what GDAL may open: raster files come from strangers, and GDAL follows references inside of
+// them.
 //
-// Without the user's word (raster_options.h: is_any_raster_allowed)
-// - the formats of elevation data alone are known, none of which names other data sets or servers: no WMS, no
-//   VRT, no HTTP;
-// - GDAL's virtual files ("/vsicurl/...", "/vsizip/...", "/vsistdin/") are refused wherever a name of one
-//   stands, but for memory;
-// - a raster is a regular file, and where it is netCDF, whole (ocean/netcdf_header.h);
-// - PROJ fetches no grids.
+// Unless the user allows any raster (raster_options.h: is_any_raster_allowed):
+// - Only formats of elevation data are enabled, none of which refers to other data sets or servers: no WMS,
+//   no VRT, no HTTP.
+// - GDAL's virtual files ("/vsicurl/...", "/vsizip/...", "/vsistdin/") are refused wherever such a name
+//   occurs, except those in memory.
+// - A raster must be a regular file and, if it is netCDF, complete (ocean/netcdf_header.h).
+// - PROJ does not download grids.
 #pragma once
 
 #include <string>
 
 namespace halocline::bathymetry::gdal {
 
-// Before anything is opened; each call has effect once.
+// Applies the restrictions; must be called before anything is opened. Only the first call has an effect.
 void prepare_access();
 
-// The drivers that may open a raster, for GDALOpenEx; null: all that GDAL has.
+// Returns the drivers that may open a raster, for GDALOpenEx; null: all of GDAL's.
 const char* const* allowed_drivers();
 
-// Throws InvalidArgument with what the path is.
+// Throws InvalidArgument with the reason when the path must not be opened.
 void require_allowed(const std::string& path);
 
 }  // namespace halocline::bathymetry::gdal

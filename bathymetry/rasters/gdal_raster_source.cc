@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rasters that GDAL opens. Part of the module halocline_rasters.so, which only raster_source.cc loads.
+// Raster source based on GDAL. Part of the module halocline_rasters.so, which only raster_source.cc loads.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,8 +29,10 @@ constexpr double kTurnDeg = 360;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kMaxPostsRead = std::int64_t{1} << 28;  // 1 GiB of floats
 
-// x = origin_x + step_x column + skew_x row, y = origin_y + skew_y column + step_y row: at posts, not pixel
-// edges.
+// Affine transform from column and row to coordinates at posts, not pixel edges:
+//
+//   x = origin_x + step_x column + skew_x row
+//   y = origin_y + skew_y column + step_y row
 struct PostTransform {
   double origin_x = 0, step_x = 1, skew_x = 0;
   double origin_y = 0, skew_y = 0, step_y = 1;
@@ -41,7 +43,7 @@ struct PostTransform {
   }
 };
 
-// GDAL's geotransform of pixel edges: x, d(x)/d(column), d(x)/d(row), then y likewise.
+// GDAL's geotransform of pixel edges: x, dx / dcolumn, dx / drow, y, dy / dcolumn, dy / drow.
 using EdgeTransform = std::array<double, 6>;
 
 EdgeTransform edges_of(const RasterBounds& bounds, int columns, int rows) {
@@ -88,13 +90,12 @@ class GdalRasterSource final : public RasterSource {
     int columns = 0, rows = 0;
     PostTransform posts;
     bool local = false, geographic = false;
-    int period = 0;  // columns of a full turn; 0 when the raster does not go round the earth
+    int period = 0;  // columns of a full turn; 0 when the raster does not span the earth
     double origin_longitude_deg = 0;
     std::string coordinate_system_name, vertical_datum;
     std::vector<std::string> warnings;
-    bool is_down = false;  // it holds depths
-    gdal::Transformation
-        from_wgs84;  // null when the raster's coordinates are longitude and latitude on WGS84
+    bool is_down = false;             // values are depths
+    gdal::Transformation from_wgs84;  // null when coordinates are longitude and latitude on WGS84
 
     void place();
     void name_coordinate_system(double origin_latitude_deg);
@@ -128,7 +129,7 @@ void GdalRasterSource::State::name_coordinate_system(double origin_latitude_deg)
   }
   OGRSpatialReference system;
   if (!options.coordinate_system.empty()) {
-    // A definition or a code, no file and no address that holds one.
+    // SetFromUserInput is limited to definitions and codes; files and addresses are refused.
     require(
         system.SetFromUserInput(options.coordinate_system.c_str(),
                                 OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) == OGRERR_NONE,
@@ -152,8 +153,8 @@ void GdalRasterSource::State::name_coordinate_system(double origin_latitude_deg)
   if (vertical_datum.empty()) vertical_datum = gdal::vertical_datum_of(system);
 }
 
-// A raster that goes round the earth: its step is exactly a turn over its columns, whatever its rounded axis
-// states.
+// Sets the exact step of a raster that spans the earth: a full turn over its columns, whatever its rounded
+// axis states.
 void GdalRasterSource::State::close_the_turn() {
   if (!geographic || posts.skew_x != 0 || posts.skew_y != 0) return;
   const double turn = std::abs(kTurnDeg / posts.step_x);
@@ -163,7 +164,7 @@ void GdalRasterSource::State::close_the_turn() {
   posts.step_x = std::copysign(kTurnDeg / period, posts.step_x);
 }
 
-// The origin's longitude by as many turns as bring it nearest to the raster's middle.
+// Shifts the origin's longitude by full turns to the one nearest to the raster's middle.
 void GdalRasterSource::State::unwrap_around_origin() {
   const double middle = posts.origin_x + 0.5 * posts.step_x * (columns - 1);
   origin_longitude_deg -= kTurnDeg * std::round((origin_longitude_deg - middle) / kTurnDeg);
@@ -175,8 +176,8 @@ GdalRasterSource::GdalRasterSource(const RasterOptions& options, double origin_l
   s.options = options;
   s.vertical_datum = options.vertical_datum;
   s.origin_longitude_deg = origin_longitude_deg;
-  // netCDF files without coordinates would be turned over or not by rules of their own; then the file's order
-  // holds.
+  // GDAL may turn netCDF files without coordinates upside down by its own rules; with given bounds, the
+  // file's order holds.
   s.dataset = gdal::open(options.path.place(), options.variable, options.bounds.has_value(), s.warnings);
   s.columns = s.dataset->GetRasterXSize();
   s.rows = s.dataset->GetRasterYSize();
@@ -214,7 +215,7 @@ RasterSource::LocalPosts GdalRasterSource::local_posts() const {
           south_first};
 }
 
-// One contiguous run of columns, into the columns of the window it belongs to.
+// Reads one contiguous run of columns into the window's columns that it covers.
 void GdalRasterSource::State::read_block(int first_column, int columns_read, RasterWindow& window,
                                          PostCounts& counts) const {
   const int wrapped = period > 0 ? ((first_column % period) + period) % period : first_column;
@@ -243,7 +244,7 @@ void GdalRasterSource::State::read_block(int first_column, int columns_read, Ras
 RasterWindow GdalRasterSource::read(const PixelPosition& low, const PixelPosition& high,
                                     PostCounts& counts) const {
   const State& s = state_;
-  // A global raster may be entered from either side of its seam, by no more than a turn.
+  // A global raster may be entered from either side of its seam, by one turn at most.
   RasterWindow window = s.period > 0 ? window_between(low, high, -s.period, 2 * s.period, s.rows)
                                      : window_between(low, high, 0, s.columns - 1, s.rows);
   if (window.columns == 0) return window;

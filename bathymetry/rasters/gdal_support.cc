@@ -15,7 +15,7 @@
 namespace halocline::bathymetry::gdal {
 namespace {
 
-// While in scope: GDAL's messages of this thread are kept instead of printed.
+// Keeps GDAL's messages of this thread instead of printing them, while in scope.
 class QuietErrors {
  public:
   QuietErrors() {
@@ -28,7 +28,7 @@ class QuietErrors {
   std::string last() const { return CPLGetLastErrorMsg(); }
 };
 
-// While in scope: warnings of this thread are collected.
+// Collects GDAL's warnings of this thread while in scope.
 class CollectedWarnings {
  public:
   explicit CollectedWarnings(std::vector<std::string>& warnings) {
@@ -59,7 +59,7 @@ Dataset open_one(const std::string& path, bool rows_as_stored, std::vector<std::
   return dataset;
 }
 
-// Paths of the rasters inside a file, by the name that ends them.
+// Returns the paths of the rasters inside a file by their names, which end the paths.
 std::map<std::string, std::string> parts_of(GDALDataset& dataset) {
   std::map<std::string, std::string> parts;
   char** metadata = dataset.GetMetadata("SUBDATASETS");
@@ -116,7 +116,7 @@ Transformation transformation_from_wgs84(const OGRSpatialReference& system) {
   wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   OGRSpatialReference target(system);
   target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  target.StripVertical();  // the vertical datum is carried and offset, never transformed
+  target.StripVertical();  // the vertical datum is recorded and offset, never transformed
   if (target.IsSame(&wgs84) != 0) return nullptr;
   Transformation transformation(OGRCreateCoordinateTransformation(&wgs84, &target));
   require(transformation != nullptr,

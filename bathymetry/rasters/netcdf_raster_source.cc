@@ -28,8 +28,8 @@ using ocean::NetcdfFile;
 
 constexpr std::size_t kMostOfAnAxis = 1'000'000;
 constexpr double kFullTurnDeg = 360;
-constexpr double kEvenWithin = 0.05;                        // of a step: rounding of axes
-constexpr std::int64_t kMostPosts = std::int64_t{1} << 28;  // of a window: 1 GiB of floats
+constexpr double kEvenWithin = 0.05;                        // share of a step, for the rounding of axes
+constexpr std::int64_t kMostPosts = std::int64_t{1} << 28;  // limit of a window: 1 GiB of floats
 
 bool is_even(const std::vector<double>& values) {
   const double count = static_cast<double>(values.size()),
@@ -41,19 +41,20 @@ bool is_even(const std::vector<double>& values) {
   return true;
 }
 
-// Where a value lies between the posts of an axis, in posts; beyond its ends by its outermost cells.
+// Returns the position of a value along the posts of an axis, as a fractional index; beyond its ends, the
+// outermost cells are extrapolated.
 double position_on(const std::vector<double>& posts, double value) {
   const auto above = std::upper_bound(posts.begin() + 1, posts.end() - 1, value);
   const auto low = above - 1;
   return static_cast<double>(low - posts.begin()) + (value - *low) / (*above - *low);
 }
 
-// The axes of a variable by kind, of its last two dimensions that have a meaning.
+// Axes of a variable by kind, from its last dimensions that have coordinates.
 struct Layout {
   std::string variable = {};
   std::string latitude = {}, longitude = {};  // coordinate variables; empty: none
   bool latitude_first = true;
-  std::vector<std::string> others = {};  // coordinate variables of no such kind
+  std::vector<std::string> others = {};  // coordinate variables of another kind
 };
 
 Layout layout_of(const NetcdfFile& file, const std::string& variable) {
@@ -70,8 +71,8 @@ Layout layout_of(const NetcdfFile& file, const std::string& variable) {
   return layout;
 }
 
-// The variable asked for, or the only one on latitudes and longitudes, or the only one of two dimensions that
-// is no position: none where there are several.
+// Returns the layout of the wanted variable; else of the only one on latitudes and longitudes; else of the
+// only two-dimensional one that is not itself a position. Empty when there are several.
 std::optional<Layout> find_layout(const NetcdfFile& file, const std::string& wanted) {
   if (!wanted.empty()) return file.has(wanted) ? std::optional(layout_of(file, wanted)) : std::nullopt;
   std::vector<Layout> planes, placed;
@@ -146,7 +147,7 @@ class NetcdfRasterSource final : public RasterSource {
   RasterWindow read(const PixelPosition& low, const PixelPosition& high, PostCounts& counts) const override;
 
  private:
-  // Dimensions besides latitude and longitude count through the bands, the last one fastest.
+  // Numbers the bands through all dimensions besides latitude and longitude, the last one varying fastest.
   void place_band() {
     const std::vector<std::string> dimensions = file_->dimensions_of(variable_);
     std::size_t rest = static_cast<std::size_t>(options_.band - 1);
@@ -162,7 +163,7 @@ class NetcdfRasterSource final : public RasterSource {
     }
     require(rest == 0, options_.path.place() + ": there is no band " + std::to_string(options_.band));
   }
-  // What stands for no data beside what the file declares, as a value that is unpacked.
+  // Returns the unpacked value that means no data by the options, in addition to the file's; NaN: none.
   double extra_no_data() const {
     const auto first = [&](const char* attribute, double otherwise) {
       const std::vector<double> found = file_->numbers(variable_, attribute);
@@ -220,7 +221,7 @@ RasterWindow NetcdfRasterSource::read(const PixelPosition& low, const PixelPosit
   return window;
 }
 
-// Null where it cannot be opened: HDF5 has other contents too, which GDAL knows.
+// Opens a netCDF file; null when that fails, because HDF5 has other contents too, which GDAL reads.
 std::unique_ptr<NetcdfFile> open_file(const std::string& path) {
   if (ocean::netcdf_kind_of(path) == ocean::NetcdfKind::kClassic) return std::make_unique<NetcdfFile>(path);
   ocean::require_whole_netcdf(path);

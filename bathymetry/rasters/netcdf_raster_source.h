@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rasters of netCDF whose axes of latitude and longitude are unevenly spaced, or stand in the other order:
-// GDAL takes the first as even between their ends (kilometres off for a Mercator grid), and the second for
-// something else.
+// Raster source for netCDF files whose axes of latitude and longitude are unevenly spaced, or whose dimension
+// of longitude precedes that of latitude. GDAL treats uneven axes as even between their ends (kilometres off
+// for a Mercator grid), and misinterprets the other order of dimensions.
 //
-// Posts are interpolated between their own latitudes and longitudes. Rows run from south to north. Where the
-// grid goes round the earth, its seam is opposite of the origin. Part of the module halocline_rasters.so.
+// Depths are interpolated between the actual latitudes and longitudes of the posts. Rows run from south to
+// north. Where the grid spans the whole earth, its seam lies opposite of the origin. Part of the module
+// halocline_rasters.so.
 #pragma once
 
 #include <memory>
@@ -14,8 +15,8 @@
 
 namespace halocline::bathymetry {
 
-// Null where GDAL reads the file rightly, or it is no netCDF. Throws InvalidArgument for a file that is cut
-// short, for uneven axes of a projection, and for positions in two dimensions.
+// Returns the source; null where GDAL reads the file correctly or the file is not netCDF. Throws
+// InvalidArgument for a truncated file, for uneven axes of a projection, and for two-dimensional positions.
 std::unique_ptr<RasterSource> open_uneven_netcdf(const RasterOptions& options, double origin_latitude_deg,
                                                  double origin_longitude_deg);
 

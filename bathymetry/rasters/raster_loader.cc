@@ -18,11 +18,11 @@
 namespace halocline::bathymetry {
 namespace {
 
-constexpr int kBlockPosts = 16;        // posts each way that are mapped by their corners
-constexpr double kMaxMapError = 1e-4;  // of a pixel, at the block's middle, where it is greatest
-constexpr int kDepthRounds = 3;        // of the fixed point in enu mode: each gains four digits
+constexpr int kBlockPosts = 16;        // posts in each direction that are mapped by their corners
+constexpr double kMaxMapError = 1e-4;  // in pixels, at the block's middle, where the error is greatest
+constexpr int kDepthRounds = 3;  // rounds of the fixed-point iteration in enu mode: each gains four digits
 
-// From the plane of the grid to the raster's posts.
+// Map from the plane of the grid to the raster's posts.
 class PostMap {
  public:
   PostMap(const RasterSource& source, const LocalFrame& frame) : source_(source), frame_(frame) {}
@@ -32,7 +32,7 @@ class PostMap {
     const GeodeticPoint point = frame_.to_geodetic({x_m, y_m, z_m});
     return source_.pixel_at(to_degrees(point.latitude_rad), to_degrees(point.longitude_rad));
   }
-  // Depth below the datum of a point of the local frame.
+  // Returns the depth below the datum of a point of the local frame.
   double depth(double x_m, double y_m, double z_m) const {
     return source_.is_local() ? z_m : frame_.to_geodetic({x_m, y_m, z_m}).depth_m;
   }
@@ -47,7 +47,7 @@ PixelPosition between(const PixelPosition& p, const PixelPosition& q, double wei
   return {p.column + (q.column - p.column) * weight, p.row + (q.row - p.row) * weight};
 }
 
-// The raster's posts under the grid: the mapped border bounds them, for the map is continuous.
+// Bounds of the raster's posts under the grid: the map is continuous, so the mapped border encloses them.
 struct PixelBounds {
   PixelPosition low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
   void include(const PixelPosition& p) {
@@ -58,7 +58,7 @@ struct PixelBounds {
 };
 
 PixelBounds bounds_of(const PostMap& map, const GridGeometry& g) {
-  constexpr double kDeepestM = 12'000;  // enu: the place on earth depends a little on depth
+  constexpr double kDeepestM = 12'000;  // in enu mode the position on the earth depends slightly on depth
   PixelBounds bounds;
   for (const double z : {-kDeepestM, kDeepestM}) {
     for (int i = 0; i < g.posts_x; ++i) {
@@ -73,18 +73,18 @@ PixelBounds bounds_of(const PostMap& map, const GridGeometry& g) {
   return {{bounds.low.column - 1, bounds.low.row - 1}, {bounds.high.column + 1, bounds.high.row + 1}};
 }
 
-// z of the bottom over (x, y) where the place on earth depends on z: find z whose own depth is the raster's
-// there.
+// Returns z of the bottom at (x, y) where the position on the earth depends on z: the fixed point at which
+// the depth of z equals the raster's depth there.
 double depth_by_iteration(const PostMap& map, const RasterWindow& window, double x_m, double y_m) {
-  double z = -map.depth(x_m, y_m, 0);  // the datum itself, below the tangent plane
+  double z = -map.depth(x_m, y_m, 0);  // z of the datum itself, below the tangent plane
   for (int round = 0; round < kDepthRounds; ++round) {
     z += window.depth_at(map.pixel(x_m, y_m, z)) - map.depth(x_m, y_m, z);
   }
   return z;
 }
 
-// The block's corners and middle in the raster, and whether bilinear interpolation between corners is good
-// enough.
+// Corners and middle of a block in the raster; decides whether bilinear interpolation between the corners is
+// accurate enough.
 class BlockMap {
  public:
   BlockMap(const PostMap& map, const GridGeometry& g, int i, int j, int rows, int columns)
@@ -206,7 +206,8 @@ LoadedRaster read_local_raster(const RasterOptions& options) {
   return {std::move(grid), std::move(report)};
 }
 
-// As `reading` does; what HDF5 reads (netCDF-4, BAG), behind the guard.
+// Calls `reading`; files read by HDF5 (netCDF-4, BAG) are read behind the guard of
+// core/files/guarded_reading.h.
 template <class Reading>
 LoadedRaster load(const RasterOptions& options, const Reading& reading) {
   return is_hdf5(options.path.place()) ? guarded_reading({options.path.place()}, reading) : reading();

@@ -17,7 +17,7 @@ std::unique_ptr<RasterSource> RasterSource::open(const RasterOptions& options, d
 }
 
 double RasterWindow::depth_at(const PixelPosition& at) const {
-  constexpr double kRoundingPosts = 1e-6;  // how far beyond the last post still is the last post
+  constexpr double kRoundingPosts = 1e-6;  // tolerance for positions beyond the last post
   const double c = at.column - first_column, r = at.row - first_row;
   if (!(c >= -kRoundingPosts && r >= -kRoundingPosts && c <= columns - 1 + kRoundingPosts &&
         r <= rows - 1 + kRoundingPosts)) {
@@ -29,7 +29,7 @@ double RasterWindow::depth_at(const PixelPosition& at) const {
   const auto term = [&](int di, int dj, double weight) {
     const std::size_t n = static_cast<std::size_t>(i + di) * static_cast<std::size_t>(columns) +
                           static_cast<std::size_t>(j + dj);
-    return weight > 0 ? weight * double{depths_m[n]} : 0.0;  // a post without weight may be NaN
+    return weight > 0 ? weight * double{depths_m[n]} : 0.0;  // a post of weight 0 may be NaN
   };
   return term(0, 0, (1 - v) * (1 - u)) + term(0, 1, (1 - v) * u) + term(1, 0, v * (1 - u)) +
          term(1, 1, v * u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Windows of posts: how large one is, and what follows its reading, whoever reads. Part of the module
-// halocline_rasters.so.
+// Windows of raster posts: their bounds, and the steps after reading, for every kind of source. Part of the
+// module halocline_rasters.so.
 #pragma once
 
 #include "bathymetry/rasters/raster_options.h"
@@ -8,12 +8,12 @@
 
 namespace halocline::bathymetry {
 
-// The posts about low..high, of columns `first` to `last` and `rows` rows, without depths yet; empty where
-// they do not meet.
+// Returns the window of posts around low..high, within columns `first` to `last` and `rows` rows, without
+// depths yet; empty where they do not meet.
 RasterWindow window_between(const PixelPosition& low, const PixelPosition& high, int first, int last,
                             int rows);
 
-// Suspects go (suspect_values.h), unless every value is trusted, and the datum's offset is added.
+// Removes suspect values (suspect_values.h), unless every value is trusted, and adds the datum offset.
 void finish(RasterWindow& window, const RasterOptions& options, PostCounts& counts);
 
 }  // namespace halocline::bathymetry

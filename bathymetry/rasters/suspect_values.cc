@@ -11,10 +11,10 @@ namespace {
 
 constexpr float kDeepestM = 12'000, kHighestM = 9'500;
 constexpr float kMark = 9999, kSmallMark = 999;
-constexpr float kMaxStepM = 2000;  // between neighbouring posts of real terrain
+constexpr float kMaxStepM = 2000;  // limit between neighbouring posts of real terrain
 constexpr float kLeastCliffM = 50, kCliffSteps = 10;
-constexpr double kUsualShare = 0.95;           // of neighbours
-constexpr std::size_t kMostSteps = 1'000'000;  // looked at
+constexpr double kUsualShare = 0.95;           // quantile of steps between neighbours
+constexpr std::size_t kMostSteps = 1'000'000;  // limit of examined steps
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 bool is_mark(float value) { return std::abs(value) == kMark || std::abs(value) == kSmallMark; }
@@ -55,7 +55,7 @@ class Suspects {
     }
   }
 
-  // Posts that touch each other and have the same mark.
+  // Returns the connected posts around `first` that have the same mark.
   std::vector<std::size_t> patch_from(std::size_t first) {
     const float mark = window_.depths_m[first];
     std::vector<std::size_t> patch{first};
@@ -86,7 +86,7 @@ class Suspects {
     return has_others && nearest > std::max(kLeastCliffM, kCliffSteps * usual_step());
   }
 
-  // From a post to the next of its row, between posts that are no marks.
+  // Returns the usual step from a post to the next of its row, over pairs without marks.
   float usual_step() {
     if (usual_step_ >= 0) return usual_step_;
     std::vector<float> steps;
@@ -105,7 +105,7 @@ class Suspects {
 
   RasterWindow& window_;
   std::vector<bool> is_seen_;
-  float usual_step_ = -1;  // not known yet
+  float usual_step_ = -1;  // below 0: not computed yet
 };
 
 }  // namespace

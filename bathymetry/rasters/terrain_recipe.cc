@@ -20,17 +20,17 @@
 namespace halocline::bathymetry {
 namespace {
 
-constexpr double kMaxCells = 32'768;  // each way
+constexpr double kMaxCells = 32'768;  // in each direction
 
 double cells(double size_m, double spacing_m) { return std::round(size_m / spacing_m); }
 
 bool is_whole_multiple(double size_m, double spacing_m) {
-  constexpr double kDecimalTolerance = 1e-6;  // of a cell: sizes are written in decimals
+  constexpr double kDecimalTolerance = 1e-6;  // in cells: sizes are written in decimals
   const double count = size_m / spacing_m;
   return count >= 1 && count <= kMaxCells && std::abs(count - std::round(count)) <= kDecimalTolerance;
 }
 
-// None of a raster.
+// Returns the shape of the base; empty for a raster.
 std::optional<Shape> shape_of(const TerrainRecipe& recipe) {
   switch (recipe.kind) {
     case TerrainKind::kFlat:
@@ -47,7 +47,7 @@ std::optional<Shape> shape_of(const TerrainRecipe& recipe) {
   return std::nullopt;
 }
 
-// Of a level bottom one cell over the area, where the spacing does not divide it.
+// Returns the base grid. A level bottom has one cell over the area when the spacing does not divide it.
 GridGeometry grid_of(const TerrainRecipe& recipe) {
   DomainRecipe domain = recipe.domain;
   if (recipe.is_level() && !domain.is_possible())
@@ -56,7 +56,7 @@ GridGeometry grid_of(const TerrainRecipe& recipe) {
   return domain.geometry();
 }
 
-// What every post of the grid holds, and every one beyond it.
+// Returns the formula of every post of the grid, and of every point beyond it.
 BottomFormula formula_of(const TerrainRecipe& recipe, const Shape& shape) {
   if (recipe.relief.rms_m == 0) return [shape](double x_m, double y_m) { return depth_of(shape, x_m, y_m); };
   return [shape, relief = ReliefFormula(recipe.relief, recipe.domain.spacing_m)](double x_m, double y_m) {

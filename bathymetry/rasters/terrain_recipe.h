@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a scenario's terrain is made: a base grid from a shape or a raster, relief on top, finer grids nested
+// Recipe of a scenario's terrain: a base grid from a shape or a raster, relief on top, and finer grids nested
 // in it.
 //
-// Order: the base is made (shape sampled, or raster resampled once into the local frame), relief is added,
-// nested grids are read and blended in, each with relief of its own. Relief is synthetic and labelled so in
-// the summary. A nested grid's relief is that of the base where both hold the same octaves: relief belongs to
-// the place. A shape and its relief go on beyond the grid without end, at the grid's spacing; a raster ends
-// where its grid does.
+// Order: the base is made (a shape is sampled, or a raster resampled once into the local frame), relief is
+// added, and nested grids are read and blended in, each with relief of its own. Relief is synthetic and
+// labelled so in the summary. The relief of a nested grid equals that of the base where both have the same
+// octaves, because relief is a function of position. A shape and its relief continue beyond the grid without
+// end, at the grid's spacing; a raster ends at the edge of its grid.
 //
 //   const PreparedTerrain prepared = prepare_terrain(recipe, {29.9167, -28.4167});
 #pragma once
@@ -28,13 +28,14 @@ namespace halocline::bathymetry {
 
 enum class TerrainKind { kFlat, kSlope, kRidge, kSeamount, kRaster };
 
-// A rectangle of posts around a centre, local NED.
+// Rectangle of posts around a centre, local NED.
 struct DomainRecipe {
   double center_north_m = 0, center_east_m = 0;
   double size_north_m = 4000, size_east_m = 4000;  // whole multiples of the spacing
   double spacing_m = 20;
 
-  // The grid; its posts lie symmetrically about the centre. Throws InvalidArgument unless it is possible.
+  // Returns the grid, whose posts lie symmetrically about the centre. Throws InvalidArgument unless
+  // is_possible().
   GridGeometry geometry() const;
   // True when both sizes are whole multiples of the spacing, at least one.
   [[nodiscard]] bool is_possible() const;
@@ -49,47 +50,47 @@ struct NestedRecipe {
 
 struct TerrainRecipe {
   TerrainKind kind = TerrainKind::kFlat;
-  FrameMode frame = FrameMode::kFlat;  // for rasters
+  FrameMode frame = FrameMode::kFlat;  // used by rasters
   DomainRecipe domain = {};
   FlatShape flat;
   SlopeShape slope;
   RidgeShape ridge;
   SeamountShape seamount;
   RasterOptions raster = {};
-  bool whole_file = false;  // a local raster as it is: its own posts, `domain` is not looked at
-  // rms_m 0: none.
+  bool whole_file = false;  // a local raster with its own posts; `domain` is ignored
+  // No relief when rms_m is 0.
   FractalRelief relief{
       .rms_m = 0, .longest_wavelength_m = 500, .shortest_wavelength_m = 50, .hurst = 0.9, .seed = 1};
   std::vector<NestedRecipe> nested;
 
-  // A level bottom, for which any grid will do.
+  // True for a level bottom, which any grid represents.
   bool is_level() const { return kind == TerrainKind::kFlat && relief.rms_m == 0 && nested.empty(); }
 };
 
-// Where the scenario lies.
+// Geodetic origin of the scenario.
 struct Site {
   double origin_latitude_deg = 0, origin_longitude_deg = 0;
 };
 
 struct PreparedTerrain {
   std::shared_ptr<const Terrain> terrain;
-  std::vector<RasterReport> rasters;  // as read, base first; empty for generated terrain
-  std::string summary;                // one line for a person
+  std::vector<RasterReport> rasters;  // in the order of reading, base first; empty for generated terrain
+  std::string summary;                // one line for a reader
 };
 
-// Bytes of memory that the grids of a recipe take, those of whole_file not counted: posts, and the pyramid of
-// each. Throws InvalidArgument for an impossible recipe, and where its grids together have more than 2^30
-// posts.
+// Returns the memory of the recipe's grids, bytes: posts, and the pyramid of each; grids of whole_file are
+// not counted. Throws InvalidArgument for an impossible recipe, and when its grids together have more than
+// 2^30 posts.
 double memory_of(const TerrainRecipe& recipe);
 
-// Throws InvalidArgument for an impossible recipe, for rasters that cannot be read and for more than the
-// memory that is there.
+// Builds the terrain. Throws InvalidArgument for an impossible recipe, for rasters that cannot be read, and
+// when it needs more than the available memory.
 PreparedTerrain prepare_terrain(const TerrainRecipe& recipe, const Site& site);
 
-// Where it lies, for a person: "north -2000 to 2000 m, east -2000 to 2000 m".
+// Returns the extent of the terrain for a reader: "north -2000 to 2000 m, east -2000 to 2000 m".
 std::string extent_text(const Terrain& terrain);
 
-// The version as it travels on the bus: 16 hexadecimal digits.
+// Returns the version as sent on the bus: 16 hexadecimal digits.
 std::string version_text(std::uint64_t version);
 
 }  // namespace halocline::bathymetry

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a raster holds depths or heights, by what its file declares (CF 1.10: positive and standard_name)
-// and its options.
+// Vertical sense of a raster: depths or heights, by the file's declarations (CF 1.10: positive and
+// standard_name) and its options.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace halocline::bathymetry {
 
-// True for depths. Empty texts declare nothing. Throws InvalidArgument for contradictions, within the file or
-// of its options.
+// True for depths. Empty texts declare nothing. Throws InvalidArgument for contradictions within the file, or
+// between file and options.
 bool holds_depths(const std::string& positive, const std::string& standard_name,
                   const RasterOptions& options);
 

@@ -7,12 +7,13 @@
 namespace halocline::bathymetry {
 namespace {
 
-// The cell along one axis that holds parameter t: floor finds it but for rounding, the crossings decide.
+// Returns the cell along one axis that contains parameter t. floor finds it up to rounding; the crossings
+// decide.
 template <typename Crossing>
 int cell_at(double position, bool forward, double t, const Crossing& crossing) {
   constexpr double kMost = EndlessBottom::kMaxCells;
   int n = static_cast<int>(std::clamp(std::floor(position), -kMost, kMost));
-  const int near = forward ? 0 : 1;  // the boundary by which the ray enters a cell
+  const int near = forward ? 0 : 1;  // index of the boundary by which the ray enters a cell
   while (t < crossing(n + near)) n -= forward ? 1 : -1;
   while (t >= crossing(n + 1 - near)) n += forward ? 1 : -1;
   return n;

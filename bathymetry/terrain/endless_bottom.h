@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bottom past the base grid of a terrain from a formula: the grid goes on without end.
+// Bottom beyond the base grid of a terrain from a formula: the grid continues without end.
 //
-// Model: its posts go on at the same spacing, each computed where it is needed by the formula that made the
+// Model. Posts continue at the same spacing; each is computed when it is needed, by the formula that made the
 // others, and the surface between them is bilinear as in the grid (height_grid.h). So the two join without a
-// step, and a ray is followed cell by cell by the steps of ray_trace.h. Each cell costs four evaluations of
-// the formula: for the places and rays that leave the grid, not for many.
+// step, and a ray is followed cell by cell as in ray_trace.h. Each cell costs four evaluations of the
+// formula, which suits the few positions and rays that leave the grid.
 #pragma once
 
 #include <functional>
@@ -16,21 +16,22 @@
 
 namespace halocline::bathymetry {
 
-// z of the bottom at (x, y), local NED: finite everywhere.
+// Formula of z of the bottom at (x, y), local NED: finite everywhere.
 using BottomFormula = std::function<double(double x_m, double y_m)>;
 
 class EndlessBottom {
  public:
-  // Cells are followed so far from the first post, either way: a ray that goes on ends there.
+  // Greatest distance from the first post, in cells, at which rays are followed; longer rays end there.
   static constexpr int kMaxCells = 1 << 30;
 
   EndlessBottom(const GridGeometry& geometry, BottomFormula z_m)
       : geometry_(geometry), z_m_(std::move(z_m)) {}
 
-  // Indices below 0 and beyond the grid count on. Empty for a place that is not finite or beyond kMaxCells.
+  // Returns the cell of a position; its indices may be negative or beyond the grid. Empty for a position that
+  // is not finite or beyond kMaxCells.
   std::optional<CellPosition> locate(double x_m, double y_m) const;
   BilinearCell cell(int i, int j) const;
-  // The first end of the ray within `interval`, anywhere.
+  // Returns the first end of the ray within `interval`, anywhere.
   TraceResult trace(const GridRay& ray, Interval interval) const;
 
  private:

@@ -13,8 +13,11 @@
 namespace halocline::bathymetry {
 namespace {
 
-// Mean square of gradient noise with unit gradients of random direction: 4 A B, where A = integral of w^2 and
-// B = integral of w^2 t^2 over 0..1, w = 1 - fade(t); by polynomial integration A = 181/462, B = 535/18018.
+// Mean square of gradient noise with unit gradients of random direction. With w = 1 - fade(t),
+//
+//   mean square = 4 A B
+//   A = integral of w^2 over 0..1 = 181/462
+//   B = integral of w^2 t^2 over 0..1 = 535/18018
 constexpr double kNoiseMeanSquare = 4 * (181.0 / 462.0) * (535.0 / 18018.0);
 
 struct Gradient {
@@ -23,6 +26,7 @@ struct Gradient {
 
 using Octave = ReliefOctave;
 
+// Quintic fade of Perlin 2002: 6 t^5 - 15 t^4 + 10 t^3.
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
 Gradient gradient_at(std::uint64_t seed, std::uint32_t octave, std::int64_t i, std::int64_t j) {
@@ -34,7 +38,8 @@ Gradient gradient_at(std::uint64_t seed, std::uint32_t octave, std::int64_t i, s
   return {elementary::cos(angle), elementary::sin(angle)};
 }
 
-// Noise at the place (u, v) of a lattice cell with these gradients at its corners.
+// Returns the noise at the fractions (u, v) of a lattice cell with these gradients g at its corners: the
+// products g . (distance from the corner), interpolated between the corners with weights fade(u) and fade(v).
 double noise(const Gradient& g00, const Gradient& g10, const Gradient& g01, const Gradient& g11, double u,
              double v) {
   const double n00 = g00.x * u + g00.y * v, n10 = g10.x * (u - 1) + g10.y * v;
@@ -43,7 +48,7 @@ double noise(const Gradient& g00, const Gradient& g10, const Gradient& g01, cons
   return low + (high - low) * fade(v);
 }
 
-// Octaves by halving; amplitudes such that the variances of all of them sum to rms^2.
+// Returns octaves of halving wavelengths. Amplitudes are scaled so that their variances sum to rms^2.
 std::vector<Octave> octaves_of(const FractalRelief& relief) {
   std::vector<Octave> octaves;
   double variance = 0;
@@ -67,7 +72,7 @@ void require_possible(const FractalRelief& relief) {
   require_in_range(relief.hurst, 0, 1, "hurst of the relief");
 }
 
-// The lattice cell of a coordinate and the place in it.
+// Lattice cell of a coordinate, and the fraction within it.
 struct LatticePlace {
   std::int64_t cell;
   double fraction;
@@ -83,7 +88,7 @@ LatticePlace place_y(const Octave& octave, double y_m) {
   return lattice_place(y_m + octave.shift_y_m, octave.wavelength_m);
 }
 
-// The gradients of all lattice corners that a grid needs, drawn once.
+// Gradients of all lattice corners that a grid needs, drawn once.
 class GradientTable {
  public:
   GradientTable(std::uint64_t seed, const Octave& octave, const GridGeometry& g)

@@ -12,7 +12,7 @@
 namespace halocline::bathymetry {
 namespace {
 
-// Deeper than any sea, higher than any mountain.
+// Greater than the depth of any sea and the height of any mountain.
 constexpr double kMaxDepthM = 12'000;
 
 double gaussian(double distance_m, double scale_m) {

@@ -9,7 +9,7 @@
 namespace halocline::bathymetry {
 namespace {
 
-constexpr double kMaxLatitudeDeg = 89.9;  // at the poles north has no direction
+constexpr double kMaxLatitudeDeg = 89.9;  // at the poles, north is undefined
 
 double checked_latitude(double latitude_rad) {
   require_in_range(to_degrees(latitude_rad), -kMaxLatitudeDeg, kMaxLatitudeDeg, "latitude of the origin",

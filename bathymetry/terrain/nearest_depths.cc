@@ -10,9 +10,9 @@
 namespace halocline::bathymetry {
 namespace {
 
-using Posts = std::vector<std::size_t>;  // by index
+using Posts = std::vector<std::size_t>;  // indices
 
-// The posts beside one, at most four.
+// Visits the neighbours of a post, at most four.
 template <typename Visit>
 void visit_neighbours(const GridGeometry& g, std::size_t post, const Visit& visit) {
   const auto row = static_cast<std::size_t>(g.posts_y), rows = static_cast<std::size_t>(g.posts_x);
@@ -25,7 +25,7 @@ void visit_neighbours(const GridGeometry& g, std::size_t post, const Visit& visi
 
 }  // namespace
 
-// Breadth first from all posts with data at once.
+// Breadth-first search from all posts with data at once.
 NearestDepths::NearestDepths(const HeightGrid& grid) : geometry_(grid.geometry()), z_m_(grid.posts()) {
   Posts front;
   for (std::size_t post = 0; post < z_m_.size(); ++post) {

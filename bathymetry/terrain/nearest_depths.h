@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Depths of a grid with gaps filled: each post without data has that of the nearest post with data, counted
-// in steps from neighbour to neighbour. For sound, which needs a bottom everywhere; never an answer to who
-// asks for data.
+// Depths of a grid with its gaps filled: each post without data has the depth of the nearest post with data,
+// counted in steps from neighbour to neighbour. For acoustics, which needs a bottom everywhere; never used to
+// answer queries for data.
 #pragma once
 
 #include "bathymetry/terrain/height_grid.h"
@@ -11,10 +11,10 @@ namespace halocline::bathymetry {
 
 class NearestDepths {
  public:
-  // A grid with at least one post with data; takes time and memory in proportion to its posts.
+  // `grid` must have at least one post with data. Time and memory are proportional to its posts.
   explicit NearestDepths(const HeightGrid& grid);
 
-  // At the post nearest to a place that is finite, in the grid or not.
+  // Returns the depth at the post nearest to a finite position, inside or outside of the grid.
   double at(double x_m, double y_m) const;
 
  private:

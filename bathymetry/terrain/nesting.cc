@@ -12,7 +12,7 @@
 namespace halocline::bathymetry {
 namespace {
 
-// Coordinates that agree to this part of a spacing are the same grid line: configuration is decimal.
+// Tolerance in spacings for coordinates on the same grid line: configurations are decimal.
 constexpr double kAlignmentTolerance = 1e-6;
 
 bool is_whole(double value) { return std::abs(value - std::round(value)) <= kAlignmentTolerance; }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a fine grid is fitted into the coarser grid around it, so that the two surfaces meet without a step.
+// Fitting of a fine grid into the coarser grid around it, so that the two surfaces meet without a step.
 //
-// Model: the fine grid covers whole cells of the grid around it and its spacing divides that grid's, so along
-// its border every knot of the coarse surface is a post of the fine one. With d the distance of a post from
-// the border and w the blend width, post = z_around + (z_fine - z_around) min(1, d / w): the border itself (d
-// = 0) lies on the surface around, also for w = 0. Where the surface around is not known, the fine post stays
-// as it is. Accuracy: what rounding to float posts leaves, 0.25 mm at 4000 m.
+// Model. The fine grid covers whole cells of the grid around it and its spacing divides that grid's, so along
+// its border every kink of the coarse surface is at a post of the fine one. With d the distance of a post
+// from the border and w the blend width,
+//
+//   post = z_around + (z_fine - z_around) min(1, d / w)
+//
+// The border itself (d = 0) lies on the surface around, also for w = 0. Where the surface around is unknown,
+// the fine post is unchanged. Accuracy: the rounding of float posts, 0.25 mm at 4000 m.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +22,14 @@ namespace halocline::bathymetry {
 // `around`.
 void require_nested(const GridGeometry& fine, const GridGeometry& around, std::size_t number);
 
-// The cells of `around` under a grid that passed require_nested.
+// Returns the cells of `around` under a grid that passed require_nested.
 CellBlock cells_covered(const GridGeometry& fine, const GridGeometry& around);
 
-// True when the two rectangles share area (a shared edge is none).
+// True when the two rectangles share an area; a shared edge is not one.
 bool overlap(const GridGeometry& one, const GridGeometry& other);
 
-// Draws the posts of `fine` to the surface of `around` inside its border. `fill_holes`: its no-data posts
-// take the surface around. blend_width_m: 0 or more.
+// Blends the posts of `fine` inside its border into the surface of `around`. `fill_holes`: its no-data posts
+// take the depth of the surface around. blend_width_m: 0 or more.
 void blend_into(const HeightGrid& around, double blend_width_m, bool fill_holes, HeightGrid& fine);
 
 }  // namespace halocline::bathymetry

@@ -33,11 +33,11 @@ bool is_finite(const Line& line) {
   return std::isfinite(line.from.x_m) && std::isfinite(line.from.y_m) && std::isfinite(line.length_m);
 }
 
-// Of a grid that goes on without end, those that are looked at on either side: beyond them a piece is one
-// cell's.
+// Limit of the lines of an endless grid that are considered on either side; the line beyond them counts as
+// one piece.
 constexpr int kMaxLinesBeyond = 1 << 20;
 
-// Distances at which the line crosses the grid's lines of one axis, inside (0, length).
+// Appends the distances at which the line crosses the grid's lines of one axis, inside (0, length).
 void append_crossings(double from, double direction, double length, double first, double spacing, int lines,
                       int lines_beyond, std::vector<double>& out) {
   if (direction == 0) return;
@@ -68,11 +68,11 @@ std::vector<double> all_crossings(const Terrain& terrain, const Line& line) {
   return out;
 }
 
-// The piece of the line between two neighbouring crossings: it lies in one cell, that of its middle.
+// Piece of the line between two neighbouring crossings; it lies in the cell of its middle.
 struct Piece {
   DepthStatus status = DepthStatus::kOutside;
   double begin_m = 0, end_m = 0;
-  double z = 0, slope = 0, curvature = 0;  // z + slope s + curvature s^2, s from begin_m
+  double z = 0, slope = 0, curvature = 0;  // depth z + slope s + curvature s^2, s from begin_m
 
   double depth(double s) const { return z + (slope + curvature * s) * s; }
 };
@@ -102,7 +102,7 @@ void append_point(std::vector<ProfilePoint>& points, double distance_m, double z
   if (!same_place) points.push_back({distance_m, status == DepthStatus::kOk ? z_m : kUnknown, status});
 }
 
-// A gap is written once, from its first to its last point.
+// Appends the points of a piece. A gap is written once, from its first to its last point.
 void append_piece(std::vector<ProfilePoint>& points, const Piece& piece) {
   const double length = piece.end_m - piece.begin_m;
   if (piece.status != DepthStatus::kOk && points.size() > 1 && points.back().status == piece.status &&
@@ -118,9 +118,9 @@ void append_piece(std::vector<ProfilePoint>& points, const Piece& piece) {
   append_point(points, piece.end_m, piece.depth(length), piece.status);
 }
 
-// The samples of a line over one grid, finite: what HeightGrid::locate and Terrain::depth_at compute, in
-// passes over a block of samples without a branch, so that compilers make vectors of the first, and all posts
-// of a block are on their way to the cache before one is read.
+// Sampler of a finite line over one grid. It computes what HeightGrid::locate and Terrain::depth_at do, in
+// branchless passes over blocks of samples: compilers vectorise the first pass, and all posts of a block are
+// prefetched before one is read.
 class GridSampler {
  public:
   explicit GridSampler(const HeightGrid& grid) : grid_(grid) {}

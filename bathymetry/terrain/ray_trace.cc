@@ -9,13 +9,15 @@ namespace {
 
 constexpr double kTinyDirection = 1e-20;
 
-// The tiny component points into the grid, so that a ray along the grid's edge stays inside.
+// Replaces a component near 0 by a tiny one that points into the grid, so that a ray along the grid's edge
+// stays inside.
 double away_from_zero(double component, double position, int cells) {
   if (std::abs(component) >= kTinyDirection) return component;
   return position < 0.5 * cells ? kTinyDirection : -kTinyDirection;
 }
 
-// The cell along one axis that holds parameter t: floor finds it but for rounding, the crossings decide.
+// Returns the cell along one axis that contains parameter t. floor finds it up to rounding; the crossings
+// decide.
 template <typename Crossing>
 int start_cell(double position, int cells, bool forward, double t, Crossing crossing) {
   int n = static_cast<int>(std::clamp(std::floor(position), 0.0, cells - 1.0));
@@ -29,15 +31,16 @@ int start_cell(double position, int cells, bool forward, double t, Crossing cros
   return n;
 }
 
-// The smallest root in (0, length] of a + b s + c s^2 with a > 0, or a negative number when there is none.
+// Returns the smallest root in (0, length] of a + b s + c s^2 with a > 0; a negative number when there is
+// none.
 double first_root(double a, double b, double c, double length) {
   constexpr double kNone = -1;
   const bool below_at_end = a + (b + c * length) * length <= 0;
   const double discriminant = b * b - 4 * a * c;
   if (discriminant < 0) return below_at_end ? length : kNone;
   const double root = std::sqrt(discriminant);
-  // The pair q / c, a / q loses no digits to cancellation; the sign of b decides which is the first positive
-  // one.
+  // The pair of roots q / c and a / q loses no digits to cancellation; the sign of b selects the first
+  // positive one.
   double s = kNone;
   if (b < 0) {
     s = a / (-0.5 * (b - root));
@@ -48,14 +51,14 @@ double first_root(double a, double b, double c, double length) {
   return s <= length ? s : kNone;
 }
 
-// True when a + b s + c s^2 stays above the slack for s in [0, length]: a parabola sags by c length^2 / 4 at
-// most below the chord between its ends. Spares most cells the root.
+// True when a + b s + c s^2 stays above the slack for s in [0, length]. A parabola lies below the chord
+// between its ends by c length^2 / 4 at most. This test saves the root in most cells.
 bool stays_above(double a, double b, double c, double length) {
   const double end = a + (b + c * length) * length;
   return std::min(a, end) - std::max(c, 0.0) * (0.25 * length * length) > kSlackM;
 }
 
-// The walk over blocks: block `at_` holds parameter t.
+// Walk over the blocks of a grid: block `at_` contains parameter t.
 class Walk {
  public:
   Walk(const HeightGrid& grid, const ShallowestPyramid& pyramid, const GridRay& ray, Interval interval)
@@ -91,7 +94,8 @@ class Walk {
   }
 
  private:
-  // To the block across the boundary just reached; up a level whenever that boundary is also the parent's.
+  // Moves to the block across the boundary that was reached, and up a level if that boundary is also the
+  // parent's.
   void advance(bool across_x) {
     int& block = across_x ? at_.i : at_.j;
     const bool forward = across_x ? forward_x_ : forward_y_;
@@ -104,7 +108,7 @@ class Walk {
     }
   }
 
-  // To the quarter of the block that holds t: on the far side of the middle line once t has reached its
+  // Moves to the quarter of the block that contains t: beyond the middle line once t has reached its
   // crossing.
   void descend() {
     --at_.level;
@@ -159,7 +163,7 @@ TraceResult trace_cell(const BilinearCell& cell, const GridRay& ray, int i, int 
   const double u = std::clamp(ray.origin_x + ray.direction_x * t - i, 0.0, 1.0);
   const double v = std::clamp(ray.origin_y + ray.direction_y * t - j, 0.0, 1.0);
   const double du = ray.direction_x, dv = ray.direction_y;
-  // Bottom minus ray along the ray: f(s) = a + b s + c s^2, s from the entry into the cell.
+  // Bottom minus ray along the ray, with s from the entry into the cell: f(s) = a + b s + c s^2.
   const double a = cell.depth(u, v) - (ray.origin_z_m + ray.direction_z * t);
   const double b = cell.slope_u(v) * du + cell.slope_v(u) * dv - ray.direction_z;
   const double c = cell.c * du * dv;

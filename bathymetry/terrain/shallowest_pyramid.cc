@@ -7,7 +7,7 @@
 namespace halocline::bathymetry {
 namespace {
 
-// min(a, b), where a NaN (no data) is shallower than everything.
+// Returns min(a, b), where NaN (no data) is shallower than everything.
 float shallower(float a, float b) {
   constexpr float kNoBound = -std::numeric_limits<float>::infinity();
   if (a != a || b != b) return kNoBound;
@@ -33,7 +33,7 @@ ShallowestPyramid::ShallowestPyramid(const HeightGrid& grid) {
   for (std::size_t below = 0; below + 1 < levels_.size(); ++below) reduce_level(below);
 }
 
-// Level 1: two cells each way, so three posts each way, fewer at the far edges.
+// Builds level 1: two cells and so three posts in each direction, fewer at the far edges.
 void ShallowestPyramid::reduce_posts(const HeightGrid& grid) {
   const int posts_x = grid.geometry().posts_x, posts_y = grid.geometry().posts_y;
   std::vector<float> row(static_cast<std::size_t>(posts_y));

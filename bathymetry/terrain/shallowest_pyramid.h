@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For square blocks of cells, the shallowest depth in each: lets a ray leap over all that lies deeper than it
-// goes.
+// Pyramid of the shallowest depths in square blocks of cells: lets a ray skip all blocks that lie deeper than
+// it goes.
 //
-// Model: a max pyramid of heights (in z, positive down, a min pyramid). Level L >= 1 holds blocks of 2^L x
-// 2^L cells; block (bi, bj) covers cells bi 2^L .. and all posts on its edges. Level 0, single cells, is not
-// stored: the four posts are read instead. A block with a no-data post is -infinity: no ray passes it
-// unexamined. Only this bound is kept, no deepest: rays come from the water. Cost: a third of the posts'
-// memory; 0.02 s for 4096 x 4096 posts.
+// Model. A max pyramid of heights (in z, positive down, a min pyramid). Level L >= 1 consists of blocks of
+// 2^L x 2^L cells; block (bi, bj) covers cells bi 2^L .. and all posts on its edges. Level 0, single cells,
+// is not stored: the four posts are read instead. A block with a no-data post has -infinity: no ray passes it
+// unexamined. Only this bound is kept, none of the deepest points, because rays come from the water. Cost: a
+// third of the posts' memory; 0.02 s for 4096 x 4096 posts.
 #pragma once
 
 #include <cstddef>
@@ -20,16 +20,16 @@ class ShallowestPyramid {
  public:
   explicit ShallowestPyramid(const HeightGrid& grid);
 
-  // The level whose single block covers the grid; at least 1.
+  // Level whose single block covers the grid; at least 1.
   int top_level() const { return static_cast<int>(levels_.size()); }
 
-  // z, metres down, of the shallowest post of the block; level 1..top_level(), block inside the grid.
+  // Returns z, m, down, of the shallowest post of a block; level 1..top_level(), block inside the grid.
   float shallowest(int level, int bi, int bj) const {
     const Level& l = levels_[static_cast<std::size_t>(level - 1)];
     return depths_[l.offset + static_cast<std::size_t>(bi) * l.blocks_y + static_cast<std::size_t>(bj)];
   }
 
-  // The level's blocks for those who index them: block (bi, bj) is first(level)[bi * row_length(level) + bj].
+  // Blocks of a level for direct indexing: block (bi, bj) is first(level)[bi * row_length(level) + bj].
   const float* first(int level) const {
     return depths_.data() + levels_[static_cast<std::size_t>(level - 1)].offset;
   }
@@ -39,7 +39,7 @@ class ShallowestPyramid {
 
  private:
   struct Level {
-    std::size_t offset = 0;    // of its first block in depths_
+    std::size_t offset = 0;    // index of its first block in depths_
     std::size_t blocks_y = 0;  // row length
     std::size_t blocks_x = 0;
   };

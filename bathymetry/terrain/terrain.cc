@@ -15,11 +15,11 @@
 namespace halocline::bathymetry {
 namespace {
 
-constexpr double kFarthestCells = 32'768;  // of a ray beyond the base grid: a side of the largest grid
+constexpr double kFarthestCells = 32'768;  // limit for a ray beyond the base grid: a side of the largest grid
 
 RayHit ended(RayStatus status, double range_m = kUnknown) { return {status, range_m, Vec3::Zero()}; }
 
-// The ray with a direction of length 1; a length of 0 when the ray is impossible.
+// Returns the ray with a direction of length 1; of length 0 when the ray is invalid.
 Ray normalised(const Ray& ray) {
   const double length = ray.direction.norm();
   const bool possible = ray.origin_ned_m.allFinite() && ray.direction.allFinite() && length > 0 &&
@@ -33,15 +33,15 @@ Vec3 upward_normal(double slope_north, double slope_east) {
   return Vec3(slope_north, slope_east, -1).normalized();
 }
 
-// Spreads the lowest 6 bits of n to the even ones.
+// Spreads the lowest 6 bits of n to the even bits.
 std::uint32_t spread(std::uint32_t n) {
   n = (n | n << 4) & 0x030f;
   n = (n | n << 2) & 0x0333;
   return (n | n << 1) & 0x0555;
 }
 
-// The numbers of the rays, ordered along a Morton curve over 64 x 64 tiles of the grid where they begin:
-// neighbours read the same posts. Rays outside, or not finite, belong to a tile at the edge.
+// Returns the indices of the rays, ordered along a Morton curve over 64 x 64 tiles of the grid by their
+// origins, because neighbours read the same posts. Rays outside, or not finite, belong to a tile at the edge.
 std::vector<std::uint32_t> in_morton_order(const GridGeometry& grid, std::span<const Ray> rays) {
   constexpr std::size_t kTiles = 64;
   const auto tile = [](double from_m, double length_m) {
@@ -150,9 +150,9 @@ DepthSample Terrain::depth_at(double x_m, double y_m) const {
   return sample(base.inside.empty() ? base : finest_patch(base, x_m, y_m), x_m, y_m);
 }
 
-// The interval above nested grids belongs to them, the rest to this patch; pieces are taken in the ray's
-// order. Where a piece begins and ends is given by the crossings of the patch around, so that its walk stops
-// and resumes exactly at the border and never looks into a cell that the nested grid covers.
+// Appends the segments of a ray. The interval over nested grids belongs to them, the rest to this patch;
+// pieces are processed in the ray's order. The crossings of the patch around define the ends of a piece, so
+// that its walk stops and resumes exactly at the border and never reads a cell that the nested grid covers.
 void Terrain::append_segments(const Patch& patch, const Ray& unit_ray, Interval interval,
                               std::vector<Segment>& out) const {
   struct Piece {
@@ -191,8 +191,8 @@ RayHit Terrain::finish(const Departure& departure, const TraceResult& result, co
           upward_normal(cell.slope_u(result.at.v) / spacing, cell.slope_v(result.at.u) / spacing)};
 }
 
-// The bound on the bottom's depth where a ray starts: it spares most rays the two cache misses of looking up
-// the bottom.
+// Returns the bound on the bottom's depth around a point; it saves most rays the two cache misses of a depth
+// at their origin. Null outside and with nested grids.
 const float* Terrain::shallowest_around(const Vec3& point_ned_m) const {
   const Patch& base = patches_.front();
   const auto at = base.grid.locate(point_ned_m.x(), point_ned_m.y());
@@ -235,7 +235,7 @@ RayHit Terrain::closest_hit(const Ray& ray) const {
   return departure.answer ? *departure.answer : follow_inside(departure);
 }
 
-// A ray that comes from beyond the base grid, or goes there: before it, over it, after it.
+// Follows a ray that comes from beyond the base grid or goes there: before, over and after the grid.
 RayHit Terrain::follow_beyond(const Departure& departure) const {
   const GridRay& ray = departure.base_ray;
   const double max_range_m = departure.ray.max_range_m, spacing_m = extent().spacing_m;
@@ -275,7 +275,8 @@ RayHit Terrain::follow_inside(const Departure& departure) const {
   return finish(departure, {}, base);
 }
 
-// Follows rays[numbers[..]]: all their first segments, then the second ones of those that passed, and so on.
+// Follows the rays with the given numbers: all first segments, then the second segments of those that passed,
+// and so on.
 void Terrain::trace_some(std::span<const Ray> rays, std::span<const std::uint32_t> numbers, VectorUnit unit,
                          std::vector<RayHit>& hits) const {
   struct Flight {
@@ -330,7 +331,7 @@ void Terrain::trace_some(std::span<const Ray> rays, std::span<const std::uint32_
 }
 
 std::vector<RayHit> Terrain::closest_hits(std::span<const Ray> rays, VectorUnit unit) const {
-  constexpr std::size_t kAtOnce = 1024;  // what is computed of so many rays stays in the cache
+  constexpr std::size_t kAtOnce = 1024;  // rays whose data fits into the cache
   std::vector<RayHit> hits(rays.size());
   const std::vector<std::uint32_t> order = in_morton_order(extent(), rays);
   for (std::size_t first = 0; first < rays.size(); first += kAtOnce) {

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The seabed as others see it: how deep the bottom is, where a ray meets it, what a line crosses.
+// The seabed for its users: the depth of the bottom, where rays meet it, and what lies along a line.
 //
-// Model: one base grid, and finer grids nested in it (and in each other). Terrain from a formula goes on
-// beyond the base grid without end (endless_bottom.h); beyond another one is `outside`. The surface is
-// bilinear in each cell (height_grid.h). A nested grid covers whole cells of the grid around it, its spacing
-// divides that grid's, and inside its border, over `blend_width_m`, its posts are drawn linearly to the
-// surface around: so the surface has no step where grids meet (but for the rounding of float posts, 0.25 mm
-// at 4000 m, which rays meet as a wall of that height, never as a gap). No data: a point over a no-data cell
-// has no depth, and a ray that comes over such a cell before it hits anything ends there as `no_data`, at
-// whatever depth it passes: what is not known to be deep may not be taken as water. There is no sea surface
-// here: a ray upwards goes on until its greatest range or the edge of the terrain. Answers are never made up:
-// what is not known has a status, and NaN where the number would be.
+// Model. One base grid, and finer grids nested in it and in each other. Terrain from a formula continues
+// beyond the base grid without end (endless_bottom.h); beyond other terrain the status is `outside`. The
+// surface is bilinear in each cell (height_grid.h). A nested grid covers whole cells of the grid around it,
+// its spacing divides that grid's, and inside its border, over `blend_width_m`, its posts are blended
+// linearly into the surface around. So the surface has no step where grids meet, except the rounding of float
+// posts, 0.25 mm at 4000 m, which rays meet as a wall of that height, never as a gap.
+//
+// No data: a point over a no-data cell has no depth, and a ray that comes over such a cell before a hit ends
+// there as `no_data`, at whatever depth it passes, because an unknown bottom must not be taken for deep
+// water. There is no sea surface here: an upward ray continues to its greatest range or the edge of the
+// terrain. Answers are never invented: what is unknown has a status, and NaN in place of the number.
 //
 //   const Terrain terrain(make_grid(geometry, FlatShape{.depth_m = 100}));
 //   const RayHit hit =
 //       terrain.closest_hit({.origin_ned_m = {0, 0, 20}, .direction = {0, 0, 1}, .max_range_m = 500});
 //
-// Immutable: const calls may overlap between threads. All coordinates are local NED, metres, z down from the
+// Immutable: const calls may overlap between threads. All coordinates are local NED, m, z down from the
 // datum.
 #pragma once
 
@@ -41,27 +42,28 @@ inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 enum class DepthStatus : std::uint8_t { kOk, kOutside, kNoData, kBadInput };
 
-// The bottom below (or above) one point of the plane.
+// Bottom below (or above) one point of the plane.
 struct DepthSample {
   DepthStatus status = DepthStatus::kOutside;
-  double z_m = kUnknown;    // of the bottom; NaN unless ok
-  double slope_north = 0;   // dz/dx: above 0 where the bottom falls away towards north; 0 unless ok
+  double z_m = kUnknown;    // z of the bottom; NaN unless ok
+  double slope_north = 0;   // dz/dx: above 0 where the bottom descends towards north; 0 unless ok
   double slope_east = 0;    // dz/dy
-  Vec3 normal_ned() const;  // unit, into the water; straight up unless ok
+  Vec3 normal_ned() const;  // unit vector into the water; straight up unless ok
 };
 
-// A depth for sound, which goes on where charts end.
+// Depth for acoustics, which continues beyond the data.
 struct HeldDepth {
   double z_m = 0;
-  bool is_held = false;  // known elsewhere: at the nearest place of the terrain with data
+  bool is_held = false;  // taken from the nearest place of the terrain with data
 };
 
 enum class RayStatus : std::uint8_t {
   kHit,   // met the bottom at range_m
   kMiss,  // water over known bottom all the way to max_range_m
-  // Left the terrain at range_m without a hit (0: began there); of endless terrain, was followed no further.
+  // Left the terrain at range_m without a hit (0: started outside); on endless terrain, was followed no
+  // further.
   kOutside,
-  kNoData,              // came over a no-data cell at range_m without a hit before
+  kNoData,              // came over a no-data cell at range_m before any hit
   kStartedBelowBottom,  // the origin lies below the bottom
   kBadInput,            // not finite, no direction, or a range below 0
 };
@@ -75,63 +77,63 @@ struct Ray {
 struct RayHit {
   RayStatus status = RayStatus::kBadInput;
   double range_m = kUnknown;       // see RayStatus; max_range_m for a miss; NaN below the bottom, bad input
-  Vec3 normal_ned = Vec3::Zero();  // of the bottom at a hit, unit, into the water; zero otherwise
+  Vec3 normal_ned = Vec3::Zero();  // at a hit, unit vector into the water; zero otherwise
 };
 
-// What to do with the posts a nested grid lacks.
+// Treatment of the posts without data in a nested grid.
 enum class Holes : std::uint8_t {
   kKeep,           // no data stays no data
-  kFillFromAround  // take the surface of the grid around it at that post
+  kFillFromAround  // the surface of the grid around is taken at that post
 };
 
 struct NestedGrid {
   HeightGrid grid;
-  double blend_width_m = 0;  // from its border inwards; 0 or more; posts of the border itself always join
+  double blend_width_m = 0;  // from the border inwards; 0 or more; posts on the border always join
   Holes holes = Holes::kKeep;
 };
 
 class Terrain {
  public:
-  // nested: coarse before fine; each lies in the base or in an earlier one, without overlapping others beside
-  // it. Throws InvalidArgument, naming the grid, when one is not aligned as stated above.
-  // `beyond`: of terrain from a formula, z at every post of the base grid and of its continuation; empty: it
-  // ends there.
+  // `nested` lists coarse grids before fine ones; each lies in the base or in an earlier grid, without
+  // overlap with others in it. Throws InvalidArgument, naming the grid, when one is not aligned as stated
+  // above. `beyond`, for terrain from a formula, gives z at every post of the base grid and of its
+  // continuation; empty: the terrain ends at its edge.
   explicit Terrain(HeightGrid base, std::vector<NestedGrid> nested = {}, const BottomFormula& beyond = {});
 
   DepthSample depth_at(double x_m, double y_m) const;
 
-  // As sound meets it: where the bottom is not known, the last depth that is. Empty for a place that is not
-  // finite.
+  // Returns the depth for acoustics: where the bottom is unknown, that of the nearest known place. Empty for
+  // a position that is not finite.
   std::optional<HeldDepth> held_depth_at(double x_m, double y_m) const;
 
-  // The surface over the piece of the plane that holds a point beyond the base grid, and where in it the
-  // point is; empty where it ends at its edge.
+  // Returns the surface over the cell that contains a point beyond the base grid, and the point's position in
+  // it; empty where the terrain ends at its edge.
   std::optional<std::pair<BilinearCell, CellPosition>> cell_beyond(double x_m, double y_m) const;
   bool is_endless() const { return beyond_.has_value(); }
 
-  // Where the ray first meets the bottom. A ray that begins exactly on the bottom hits at range 0.
+  // Returns where the ray first meets the bottom. A ray that starts exactly on the bottom hits at range 0.
   RayHit closest_hit(const Ray& ray) const;
 
-  // The same of many rays, in their order: each answer is that of closest_hit, bit by bit. They are followed
-  // in Morton order (Morton 1966) of where they begin, several at a time (wide_trace.h): 1.5 to 2 times as
-  // fast from some hundred rays on.
+  // Returns closest_hit() of many rays, in their order, equal bit by bit. They are followed in Morton order
+  // (Morton 1966) of their origins, several at a time (wide_trace.h): 1.5 to 2 times as fast from some
+  // hundred rays on.
   std::vector<RayHit> closest_hits(std::span<const Ray> rays, VectorUnit unit = widest_vector_unit()) const;
 
-  // Whether the bottom stands between two points: `hit` blocked (range from `from`), `miss` free, else as
-  // above. The first and the last `skin_m` (0 or more) of the segment are not looked at, for ends that lie on
-  // the bottom.
+  // Tests whether the bottom lies between two points: `hit` is blocked (range from `from`), `miss` is free,
+  // other statuses as above. The first and last `skin_m` (0 or more) of the segment are skipped, for ends
+  // that lie on the bottom.
   RayHit occluded(const Vec3& from_ned_m, const Vec3& to_ned_m, double skin_m) const;
 
-  // The base grid's geometry: the rectangle between its first and last post, which maps show.
+  // Geometry of the base grid: the rectangle between its first and last post, which maps show.
   const GridGeometry& extent() const { return patches_.front().grid.geometry(); }
-  // Nested grids after blending, base first.
+  // Grids after blending, base first.
   std::size_t grid_count() const { return patches_.size(); }
   const HeightGrid& grid(std::size_t index) const { return patches_[index].grid; }
 
-  // The index of the finest grid over (x, y); -1 outside.
+  // Returns the index of the finest grid over (x, y); -1 outside.
   int grid_index_at(double x_m, double y_m) const;
 
-  // A number of the content (geometry and posts, bit by bit): equal terrains have equal versions in every
+  // Hash of the content (geometry and posts, bit by bit): equal terrains have equal versions in every
   // process.
   std::uint64_t version() const { return version_; }
 
@@ -140,16 +142,16 @@ class Terrain {
     HeightGrid grid;
     ShallowestPyramid pyramid;
     CellBlock covers = {};                 // cells of the patch around; unused in the base
-    std::vector<std::size_t> inside = {};  // patches nested directly in this one
+    std::vector<std::size_t> inside = {};  // indices of patches nested directly in this one
   };
-  // A ray before it is followed: its direction has length 1; `answer` is set when there is nothing to follow.
+  // Ray before it is followed: its direction has length 1; `answer` is set when there is nothing to follow.
   struct Departure {
     Ray ray;
     GridRay base_ray = {};
-    Interval inside = {};  // the base grid
+    Interval inside = {};  // over the base grid
     std::optional<RayHit> answer = {};
   };
-  // A part of a ray that one patch decides; parts are in the ray's order.
+  // Part of a ray that one patch decides; parts are in the ray's order.
   struct Segment {
     const Patch* patch;
     GridTrace trace;
@@ -167,6 +169,12 @@ class Terrain {
   RayHit follow_inside(const Departure& departure) const;
   RayHit follow_beyond(const Departure& departure) const;
   RayHit finish(const Departure& departure, const TraceResult& result, const Patch& owner) const;
+
+  // Filled depths for held_depth_at(), computed at the first use.
+  struct Gaps {
+    std::once_flag once;
+    std::optional<NearestDepths> filled;
+  };
 
   std::vector<Patch> patches_;
   std::optional<EndlessBottom> beyond_;

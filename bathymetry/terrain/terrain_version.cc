@@ -8,7 +8,7 @@
 namespace halocline::bathymetry {
 namespace {
 
-// Odd, from the fractional digits of the golden ratio and of the square root of 2: no pattern of their own.
+// Odd constants without a pattern: fractional digits of the golden ratio and of the square root of 2.
 constexpr std::uint64_t kMultiplier = 0x9E3779B97F4A7C15u, kOffset = 0x6A09E667F3BCC909u;
 constexpr std::size_t kLanes = 4;
 

@@ -10,11 +10,11 @@
 namespace halocline::bathymetry {
 namespace {
 
-// So many rays are under way at a time. While the lanes of one group compute, what others read next comes
-// into the cache.
+// Number of rays followed at a time. While the lanes of one group compute, the next data of the other groups
+// is fetched into the cache.
 constexpr int kRaysUnderWay = 64;
 
-// N numbers at once. Comparisons give -1 in the lanes that they hold in.
+// Vectors of N numbers. Comparisons give -1 in the lanes where they hold.
 template <int N>
 struct Vectors;
 #define HALOCLINE_VECTORS(N)                                \
@@ -28,13 +28,13 @@ HALOCLINE_VECTORS(4);
 HALOCLINE_VECTORS(8);
 #undef HALOCLINE_VECTORS
 
-// Where the shallowest posts of a level's blocks lie; the posts themselves for level 0.
+// Shallowest posts of a level's blocks; the posts themselves for level 0.
 struct LevelRows {
   const float* first;
   std::size_t row_length;
 };
 
-// Rays side by side; names as in ray_trace.cc.
+// N rays side by side; names as in ray_trace.cc.
 template <int N>
 struct Group {
   using Reals = typename Vectors<N>::Reals;
@@ -44,10 +44,10 @@ struct Group {
   Reals t, end;
   Reals exit_x, exit_y;           // crossings of the boundaries ahead of the block
   Integers first_x, first_y;      // the block's first cell
-  Integers size, level;           // cells along its side, 2^level
+  Integers size, level;           // cells along the block's side, 2^level
   Integers forward_x, forward_y;  // -1 where the ray goes towards greater coordinates
   Integers busy;                  // -1 where there is a ray
-  const float* post[N];           // shallowest of the block, or first of the cell
+  const float* post[N];           // shallowest post of the block, or first post of the cell
   GridTrace* trace[N];
   int running = N;
 };
@@ -81,14 +81,15 @@ class WideWalk {
   using Reals = typename Vectors<N>::Reals;
   using Integers = typename Vectors<N>::Integers;
 
-  // Of integers from 0 to 2^31: 2^52 + n has n as its last bits. No instruction before AVX-512 converts 64
-  // bits. (By reference: how vectors are returned depends on the instructions that a function may use.)
+  // Converts integers from 0 to 2^31 to reals: 2^52 + n has n in its last bits. No instruction before AVX-512
+  // converts 64 bits. The result is returned by reference because the way in which vectors are returned
+  // depends on the instructions that a function may use.
   [[gnu::always_inline]] static inline void to_reals(const Integers& n, Reals& out) {
     constexpr double kTwoTo52 = 0x1p52;
     out = reinterpret_cast<Reals>(n | std::bit_cast<long long>(kTwoTo52)) - kTwoTo52;
   }
 
-  // The next ray that is not decided at once into lane k, or none.
+  // Loads the next ray that is not decided at once into lane k; leaves it idle when there is none.
   void load_next(Group<N>& group, int k) {
     group.busy[k] = 0;
     while (next_ < traces_.size()) {
@@ -125,7 +126,7 @@ class WideWalk {
     group.busy[k] = -1;
   }
 
-  // Sends for what lane k reads in its next step.
+  // Prefetches what lane k reads in its next step.
   [[gnu::always_inline]] inline void fetch(Group<N>& group, int k) {
     const long long level = group.level[k];
     const LevelRows& rows = rows_[static_cast<std::size_t>(level)];
@@ -155,7 +156,7 @@ void WideWalk<N>::step(Group<N>& w) {
   const Reals exit = w.end < exit_xy ? w.end : exit_xy;
   const Integers in_cell = w.busy & (w.level == 0), in_block = w.busy & (w.level != 0);
 
-  // Blocks: down into a quarter unless the ray clears the shallowest post.
+  // Blocks: descend into a quarter unless the ray clears the shallowest post.
   Reals shallowest;
   int cells = 0;
   for (int k = 0; k < N; ++k) {
@@ -166,21 +167,21 @@ void WideWalk<N>::step(Group<N>& w) {
   const Integers descend = in_block & (deepest + kSlackM >= shallowest);
   Integers advance = in_block & ~descend;
 
-  // Cells, when enough lanes wait for it.
+  // Cells: examined when enough lanes wait for it.
   if (2 * cells >= w.running) clear_cells(w, in_cell, exit, advance);
 
   const Integers passed = advance & (exit >= w.end);
   advance &= ~passed;
   w.t = (advance & (w.t < exit)) != 0 ? exit : w.t;
 
-  // Onwards: across the nearer boundary, and up a level when it is the parent's as well.
+  // Advance across the nearer boundary, and up a level when it is also the parent's.
   const Integers across_x = advance & (w.exit_x <= w.exit_y), across_y = advance & ~across_x;
   const Integers ahead_x = w.first_x + (w.forward_x & w.size), ahead_y = w.first_y + (w.forward_y & w.size);
   const Integers crossed = across_x != 0 ? ahead_x : ahead_y;
   const Integers climb = advance & ((crossed & (2 * w.size - 1)) == 0) &
                          (w.level != static_cast<long long>(pyramid_.top_level()));
   const Integers next_size = w.size + (climb & w.size);
-  // +size or -size: (s ^ -1) - -1 = -s.
+  // The sum is +size or -size: (s ^ -1) - -1 = -s.
   const Integers moved_x = w.first_x + (across_x & ((w.size ^ ~w.forward_x) - ~w.forward_x));
   const Integers moved_y = w.first_y + (across_y & ((w.size ^ ~w.forward_y) - ~w.forward_y));
   const Integers next_x = moved_x & -next_size, next_y = moved_y & -next_size;

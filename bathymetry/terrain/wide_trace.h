@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Follows many rays over one grid, eight side by side: the answers of `trace_grid`, bit by bit, sooner.
+// Ray tracing of many rays over one grid in vectors: the results of `trace_grid` for single rays, bit by bit,
+// but faster.
 //
-// Model: the walk of ray_trace.h with a ray in each lane of vectors of eight doubles. A step takes every lane
-// down into a quarter of its block or on to the next block. Lanes that have come to a single cell wait until
-// some have, then their cells are looked at together; a cell that the ray does not surely clear is decided by
-// `trace_cell`. A lane whose ray has ended takes the next. Every lane computes what the walk of a single ray
-// computes, by the same operations of IEEE 754 and without fused ones; so an answer depends neither on the
-// rays beside it nor on the instructions of the processor.
+// Model. The walk of ray_trace.h with a ray in each lane of vectors of 2, 4 or 8 doubles. A step moves every
+// lane down into a quarter of its block or on to the next block. Lanes that have reached a single cell wait
+// until enough of them have, then their cells are examined together. A cell that the ray does not certainly
+// clear is decided by `trace_cell`. A lane whose ray has ended takes the next ray. Every lane computes what
+// the walk of a single ray computes, by the same IEEE 754 operations without fused ones, so a result depends
+// neither on the rays beside it nor on the instructions of the processor.
 #pragma once
 
 #include <span>
@@ -17,21 +18,21 @@
 
 namespace halocline::bathymetry {
 
-// A ray to follow over one grid, and what came of it.
+// Ray to follow over one grid, and its result.
 struct GridTrace {
   GridRay ray;
   Interval interval;  // inside the grid (clip_to_cells), not empty
   TraceResult result = {};
 };
 
-// What the processor computes 2, 4 or 8 numbers at once with. (SSE2 stands for whatever every processor of
-// the kind has.)
+// Vector units that compute 2, 4 or 8 numbers at once. kSse2 represents what every processor of the
+// architecture has.
 enum class VectorUnit { kSse2, kAvx2, kAvx512 };
 
-// The widest that this processor has.
+// Returns the widest unit that this processor has.
 VectorUnit widest_vector_unit();
 
-// Sets the result of each trace; none may be null. `unit`: one that the processor has.
+// Sets the result of each trace; none may be null. The processor must have `unit`.
 void trace_grid(const HeightGrid& grid, const ShallowestPyramid& pyramid, std::span<GridTrace* const> traces,
                 VectorUnit unit = widest_vector_unit());
 
