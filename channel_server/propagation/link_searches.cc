@@ -15,8 +15,8 @@
 namespace halocline::channel_server {
 namespace {
 
-constexpr std::size_t kMaxFound = 4096, kMaxSharedFound = 32'768;  // searches, 7 kB each
-constexpr std::size_t kMaxRayWaters = 256;                         // 20 kB each
+constexpr std::size_t kMaxFound = 4096, kMaxSharedFound = 32'768;  // cached searches, 7 kB each
+constexpr std::size_t kMaxRayWaters = 256;                         // limit of the cache, 20 kB each
 constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;      // the bottom lies below it
 
 double depth_of(const LinkEnd& end, const acoustics::Environment& environment) {

@@ -17,7 +17,7 @@ namespace halocline::channel_server {
 namespace {
 
 constexpr double kMinCellsOfALink = 20;
-constexpr double kEvenM = 0.5;  // a bottom at least this uneven permits energy alone, m
+constexpr double kEvenM = 0.5;  // a bottom at least this uneven permits energy flux, m
 constexpr int kMaxHalvings = 6;
 constexpr double kRounding = 1e-6;   // m
 constexpr double kDepthShare = 0.1;  // height of a cell over its length

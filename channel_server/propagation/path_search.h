@@ -51,14 +51,14 @@ struct RayModel {
   // Ignored where options.diffuse_below_db is 0.
   Decibels diffuse_below_noise{5};
   // A link longer than 10 water depths whose paths together are weaker by this than that limit is computed by
-  // its energy alone, -100..100 (acoustics/link/mixed_link.h). A value below 0 includes links whose paths
-  // together exceed the limit.
+  // its incoherent energy flux alone, -100..100 (acoustics/link/mixed_link.h). A value below 0 includes links
+  // whose paths together exceed the limit.
   Decibels weak_below_diffuse{6};
   // Range of the depth of the water wherever sound travels, as far as it is known, m; it bounds the reach of
   // sound. 0..kDeepestWater, rising.
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
   int max_searches_per_tick = 0;         // limit for link tables (search_budget.h); 0: unlimited
-  double profile_reuse_distance_m = 25;  // then, lattice of the ends of bottom profiles, 0.1..1000
+  double profile_reuse_distance_m = 25;  // lattice spacing of profile ends under reuse, 0.1..1000
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
@@ -108,7 +108,7 @@ inline bool is_of_one_sea(const PathQuery& a, const PathQuery& b) {
 }
 
 struct FoundPaths {
-  std::shared_ptr<const SeabedProfile> given;  // whose address is part of the key
+  std::shared_ptr<const SeabedProfile> given;  // the given bottom, whose address is in the key
   acoustics::Arrivals arrivals;
   double mean_depth_m = 0;      // mean depth of the water between the ends
   bool blocked = false;         // the bottom cuts the straight line
@@ -138,8 +138,8 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
                                                const acoustics::Environment& environment,
                                                const PathQuery& query, const SeabedProfile& seabed);
 
-// Searches for links that differ only in the depths of their ends: their sea is built once. Not to be shared
-// between threads.
+// Search for the eigenrays of links that differ only in the depths of their ends: their sea is built once.
+// Not to be shared between threads.
 class PathLine {
  public:
   // Searches like search_paths(), which is used where an end lies below the bottom. With `shared` rays, links
@@ -153,6 +153,7 @@ class PathLine {
  private:
   std::unique_ptr<const PathSea> sea_;  // built by the first call
 };
+// Links whose searches share rays as well as their sea.
 struct SharedLine {
   // For receivers at several depths of one position (acoustics/rays/column_rays.h).
   static SharedLine of_depths();
@@ -164,8 +165,8 @@ struct SharedLine {
   std::unique_ptr<acoustics::SharedRays> rays;  // refers to the sea of `line`
 };
 
-// Returns the energy alone, without single paths, of a link that is weak enough and over an uneven enough
-// bottom (acoustics/link/mixed_link.h); null for other links.
+// Returns the arrivals of a link by its incoherent energy flux alone (acoustics/link/mixed_link.h), when the
+// link is weak enough and its bottom uneven enough; null for other links.
 std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,
                                              const acoustics::Environment& environment,
                                              const PathQuery& query, const SeabedPlaces& seabed);

@@ -109,15 +109,15 @@ struct Reception {
   // Level of the diffuse paths, a part of the received level; kSilence without any.
   Decibels diffuse_level = kSilence;
   std::vector<SoundPath> paths;  // sorted by delay; empty unless the state is kOpen
-  // Time since the paths were those of a search for this link; since then they are extrapolated to its
-  // present geometry. 0 when they are not extrapolated. Above 0 only in link tables with a limited number of
+  // Age of the paths: time since the search of which they are the result was up to date for this link. Older
+  // paths are extrapolated to the present geometry. Above 0 only in link tables with a limited number of
   // searches a tick.
   SimDuration paths_age = {};
   // Measured channel whose taps are the paths and whose fading they have; null: they fade by the model.
   std::shared_ptr<const acoustics::MeasuredChannel> measured = {};
 };
 
-// Bound on links that are so weak that only their energy is computed: all links whose level lies
+// Bound on flux-only links, for which only the incoherent energy flux is computed: all links whose level lies
 // `below_noise` below the noise over the transmitter's band, less the receiver's directivity.
 struct WeakLinks {
   acoustics::LeastMixedLoss loss;
@@ -199,8 +199,8 @@ class Propagation {
                                                          double /*deepest_end_m*/) const {
     return std::nullopt;
   }
-  // Returns the bound on links whose energy alone is computed; empty where weak links are computed like all
-  // others, or where the depth of the water is unknown.
+  // Returns the bound on flux-only links; empty where weak links are computed like all others, or where the
+  // depth of the water is unknown.
   virtual std::optional<WeakLinks> weak_links(SimTime /*at*/, double /*frequency_hz*/,
                                               double /*deepest_end_m*/) const {
     return std::nullopt;

@@ -9,11 +9,12 @@
 // at minus the arrival angle. The level of the link is the sum of the paths' powers or, on request, the sum
 // of their phasors at the exact ends.
 //
-// In the budget, delay, mean sound speed (range over delay) and absorption are those of the first significant
-// path. Transmission loss = source level - received level; noise, signal-to-noise ratio and whether the link
-// is receivable follow. Capacity takes that loss at the centre of the band. Elsewhere in the band the loss
-// differs by as much as absorption does, in water between the two depths, over the length of the first
-// significant path (LinkKernel::budget_of_path). Doppler of each path: acoustics/link/ray_doppler.h.
+// In the budget, the delay is that of the strongest path in the receiver's guard window; mean sound speed
+// (range over delay) and absorption are those of the first significant path. Transmission loss = source level
+// - received level; noise, signal-to-noise ratio and whether the link is receivable follow. Capacity takes
+// that loss at the centre of the band. Elsewhere in the band the loss differs by as much as absorption does,
+// in water between the two depths, over the length of the first significant path
+// (LinkKernel::budget_of_path). Doppler of each path: acoustics/link/ray_doppler.h.
 //
 // Without a path the state is
 //

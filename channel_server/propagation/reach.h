@@ -18,8 +18,8 @@
 //   source level + both beams at their best - least loss
 //
 // falls below the lower of the two levels (acoustics/link/least_loss.h), the greatest such range of all
-// modems in use, the sender's own included. Where links at that range are so weak that only their energy is
-// computed (Propagation::weak_links), the least loss is that of their energy.
+// modems in use, the sender's own included. Where links at that range are flux-only
+// (Propagation::weak_links), the least loss is that of their incoherent energy flux.
 //
 // The noise is the least of the environments known to hold within kLongestFlight after the departure. The
 // modems are those carried at the departure or announced to be carried within that time. Left out: changes of
@@ -118,7 +118,7 @@ class ReachModel {
   const Propagation& propagation_;
   ReachRule rule_;
   LruCache<Key, double> ranges_;
-  LruCache<ModemKey, double> unnoticed_;  // ratios, dB
+  LruCache<ModemKey, double> unnoticed_;  // signal-to-noise ratios, dB
 };
 
 }  // namespace halocline::channel_server

@@ -40,11 +40,11 @@ class SearchBudget {
   struct Wanted {
     LinkId id;
     PathQuery query;
-    double excess_db = 0;  // L
+    double excess_db = 0;  // the L of the urgency
   };
   struct Granted {
     PathQuery query;
-    SimTime current_at;  // the latest tick at which this was the link's query
+    SimTime current_at;  // latest tick at which this was the link's query
     std::shared_ptr<const FoundPaths>
         paths;  // set after the search; null before, and where the bottom is unknown
   };
