@@ -93,7 +93,7 @@ class TileSurvey {
 class SeabedMap {
  public:
   static constexpr int kBeyond = 3;  // samples beyond each end of a link
-  // When more tiles are kept, those that no link needed since the last tick but one are dropped. 33 MB.
+  // Limit of kept tiles, 33 MB: beyond it, those that no link needed since the last tick but one are dropped.
   static constexpr std::size_t kMaxTiles = 65'536;
 
   // Throws InvalidArgument when the rule is out of range.
