@@ -13,7 +13,7 @@
 namespace halocline::bus {
 namespace {
 
-// Of all types that travel on channels.
+// Digest of all message types that are used on channels.
 std::uint64_t message_digest() {
   std::uint64_t digest = 0;
   any_channel([&digest]<class Message>(const auto&) {

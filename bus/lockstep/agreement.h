@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all participants of a lockstep run must agree upon, as words "scenario=... version=... messages=...
-// arithmetic=...": the same scenario, the same program, the same layouts of messages, and the same results of
-// the same formulas (bus/lockstep/arithmetic_digest.h). It is no digest of the binary: builds by several
-// compilers take part in one run.
+// Agreement of the participants of a lockstep run, as a text "scenario=... version=... messages=...
+// arithmetic=...": they must have the same scenario, the same version of the program, the same message
+// layouts, and the same results of the same formulas (bus/lockstep/arithmetic_digest.h). It is not a digest
+// of the binary, so builds by different compilers can take part in one run.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace halocline::bus {
 
-// For lockstep_join_t::scenario_digest. `scenario`: its digest.
+// Returns the text for lockstep_join_t::scenario_digest. `scenario` is the digest of the scenario.
 std::string agreement_on(std::string_view scenario);
 
-// What of `theirs` is not as in `ours`, for a person; empty where they agree.
+// Describes the items in which `theirs` differs from `ours`; empty if they agree.
 std::string disagreement(std::string_view theirs, std::string_view ours);
 
 }  // namespace halocline::bus

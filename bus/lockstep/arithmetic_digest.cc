@@ -16,7 +16,7 @@ namespace {
 
 namespace el = elementary;
 
-// Of points in (0, 1).
+// Results of all covered functions at the point (x, y, z) in (0, 1)^3.
 template <std::size_t N>
 std::array<double, N> results_at(double x, double y, double z) {
   const double wide = std::ldexp(x - 0.5, static_cast<int>(80 * y) - 40);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A digest of what this build computes: equal in two processes whose results are the same bytes.
+// Digest of the numerical results of this build: equal in two processes that compute the same bytes.
 //
-// It covers elementary functions, roots, fused and separate products and sums, and rotations, each at
-// addressed points (random.h), by the bits of their results. So it shows another C library, SLEEF or Eigen
-// where results differ, contraction, excess precision, another mode of rounding, denormals taken as zero; not
-// which compiler, processor or level of optimisation it is, as long as they agree.
+// It covers elementary functions, roots, products and sums (fused and separate), and rotations, each at
+// counter-based random points (random.h), by the bits of their results. It thus detects another C library,
+// SLEEF or Eigen if results differ, contraction of expressions, excess precision, another rounding mode, and
+// flushing of denormals to zero. Compiler, processor and optimisation level may differ as long as the results
+// agree.
 #pragma once
 
 #include <cstdint>

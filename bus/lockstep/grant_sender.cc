@@ -8,7 +8,7 @@
 namespace halocline::conductor {
 namespace {
 
-// History in one grant: about a slice.
+// Amount of history in one grant: about one slice.
 constexpr std::size_t kHistoryBytesPerGrant = 40'000;
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sends grants to participants, and retransmits those that are not answered.
+// Sender of grants to participants; retransmits grants that are not answered.
 //
-// Turns that are alike travel in one grant to all addressed, else in one each; bodies longer than a datagram
-// travel in slices. A retransmission goes to those alone whose answer is missing.
+// Identical turns are sent in one grant to all addressees, others in one grant each. Bodies longer than a
+// datagram are sent in slices. A retransmission addresses only the participants whose answer is missing.
 #pragma once
 
 #include <cstdint>
@@ -24,16 +24,16 @@ class GrantSender {
   using Send = std::function<void(const std::string& channel, lockstep_grant_t& grant)>;
   GrantSender(const Sequencer& sequencer, Send send) : sequencer_(sequencer), send_(std::move(send)) {}
 
-  // The turn of the present round to each of these; all are up to date.
+  // Grants the turn of the present round to each of these participants, all of which are up to date.
   void grant_turn(const std::vector<ParticipantLink*>& links, SimTime steady);
-  // The next turns of the run's history that this incarnation lacks.
+  // Grants the next turns of the run's history that this incarnation has not taken.
   void grant_history(ParticipantLink& link, SimTime steady);
 
-  // The number of the first turn in the grant that a link has not answered.
+  // Returns the number of the first turn in the grant that a participant has not answered.
   std::int64_t first_turn(const ParticipantLink& link) const;
 
   void retransmit(ParticipantLinks& links, SimTime steady);
-  // Steady time; nothing is to be retransmitted before.
+  // Steady time before which nothing is to be retransmitted.
   SimTime next_retransmission() const { return next_retransmission_; }
   std::int64_t retransmissions() const { return retransmissions_; }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Write-ahead journal of the conductor: the inputs of its sequencer in their order, from which a new
-// incarnation continues the run.
+// Write-ahead journal of the conductor: the inputs of its sequencer in order, from which a new incarnation
+// continues the run.
 //
-// A file of records (bus/files/journal_file.h) of LCM-encoded messages. Each entry is handed to the kernel
-// before anything that follows from it is sent, so a killed process loses nothing that anybody acted upon; a
-// machine that loses power may (no fsync). An entry that a kill cut short is removed.
+// The file consists of records (bus/files/journal_file.h) that hold LCM-encoded messages. Each entry is
+// handed to the kernel before anything that depends on it is sent, so a killed process loses nothing that
+// anybody acted upon; a machine that loses power may (no fsync). An entry that a kill cut off is removed.
 #pragma once
 
 #include <cstddef>
@@ -24,10 +24,10 @@ struct JournalEntry {
   bus::Bytes bytes;
 };
 
-// All whole entries of the file, oldest first; empty when there is no file. The bytes behind the last whole
-// one are cut off the file, and one flipped bit of an entry is set right; both are counted. Throws
-// InvalidArgument for a file that is damaged otherwise, because what follows would not follow from it, is
-// none of ours, or that another process has.
+// Returns all complete entries of the file, oldest first; empty if there is no file. Bytes after the last
+// complete entry are cut off the file, and one flipped bit of an entry is corrected; both are counted. Throws
+// InvalidArgument for a file with other damage, because the entries after it would not continue the run, for
+// a file of another kind, and for one that another process uses.
 struct JournalContents {
   std::vector<JournalEntry> entries;
   std::size_t bytes_cut_off = 0, bits_mended = 0;
@@ -36,11 +36,11 @@ JournalContents read_journal(const std::string& path);
 
 class Journal {
  public:
-  // Appends to the file, or creates it. Throws InvalidArgument when it cannot be written, is none of ours, or
-  // another process has it.
+  // Appends to the file, or creates it. Throws InvalidArgument when it cannot be written, is of another kind,
+  // or is used by another process.
   explicit Journal(const std::string& path);
 
-  // False when the disk refuses it, or others deleted or truncated the file.
+  // Returns false when the disk refuses the entry, or others deleted or truncated the file.
   [[nodiscard]] bool append(const JournalEntry& entry);
 
  private:

@@ -13,13 +13,13 @@
 namespace halocline::conductor {
 
 // Applies the entries to a new sequencer, which publishes the messages of the run again. Throws
-// std::runtime_error for a journal of another run (by `agreement`: agreement.h), and for entries that no
-// conductor wrote.
+// std::runtime_error for a journal of another run (different `agreement`, agreement.h), and for entries that
+// no conductor wrote.
 RunState replay_journal(const std::vector<JournalEntry>& entries, const std::string& agreement,
                         Sequencer& sequencer);
 
-// A local participant takes its turns again. Throws std::runtime_error when it publishes otherwise than
-// before.
+// Makes a local participant take its turns again. Throws std::runtime_error when its messages differ from
+// those of the journal.
 void replay_local(const ParticipantLink& local, const Sequencer& sequencer);
 
 }  // namespace halocline::conductor

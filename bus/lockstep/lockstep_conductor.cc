@@ -21,8 +21,8 @@ lockstep_result_t dropped(const std::string& name) {
   return result;
 }
 
-// Whether a result can come of a turn: steps and messages in the order of time, from the turn's instant to
-// before its horizon.
+// True if a turn can have this result: steps and messages in order of time, from the turn's instant to before
+// its horizon.
 bool is_possible(const lockstep_result_t& result, SimTime instant, SimTime horizon) {
   const std::int64_t end = std::max(horizon, instant + SimDuration::from_nanoseconds(1)).nanoseconds();
   std::int64_t before = instant.nanoseconds();
@@ -158,7 +158,7 @@ void LockstepConductor::begin_exchange(SimTime steady) {
     if (link.take) {
       local.push_back(&link);
     } else if (link.up_to_date && link.incarnation != 0) {
-      // An incarnation that joined after its predecessor had answered lacks that turn.
+      // An incarnation that joined after its predecessor had answered has not taken that turn.
       link.up_to_date = link.turns_taken >= sequencer_.turns_taken(name);
       if (link.up_to_date) {
         remote.push_back(&link);
@@ -168,7 +168,7 @@ void LockstepConductor::begin_exchange(SimTime steady) {
     }
   }
   grants_.grant_turn(remote, steady);
-  for (ParticipantLink* link : local) {  // meanwhile the others take theirs
+  for (ParticipantLink* link : local) {  // meanwhile the remote ones take theirs
     results_.push_back(link->take(sequencer_.turn_of(link->name)));
     link->awaited = false;
   }
@@ -197,7 +197,7 @@ void LockstepConductor::finish() {
 // ---- inputs
 
 void LockstepConductor::on_join(const lockstep_join_t& join, SimTime steady) {
-  advance(steady);  // after a resume: the round that is under way counts
+  advance(steady);  // after resume() the current round counts
   membership_.on_join(join, run_, steady);
   advance(steady);
 }

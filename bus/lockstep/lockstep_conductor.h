@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The conductor's side of the lockstep protocol (docs/architecture.md): runs the rounds of the sequencer by
-// granting turns and collecting their results, in one or several incarnations of this process. A state
+// Conductor's side of the lockstep protocol (docs/architecture.md): executes the rounds of the sequencer by
+// granting turns and collecting their results, in one or several incarnations of this process. It is a state
 // machine: messages and steady time in, messages and journal entries out; no socket, no file, no clock.
 //
-// Cost: a round is one grant (one datagram to all whose turns are alike, else one each) and one answer of
-// each participant of the round.
+// Cost: each round takes one grant (one datagram for all identical turns, otherwise one each) and one answer
+// of each participant of the round.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@ namespace halocline::conductor {
 
 struct LockstepRules {
   std::set<std::string> expected;  // the run begins when all of these have joined
-  SimTime end;                     // instants up to here, this one included
+  SimTime end;                     // last instant of the run, inclusive
   // Silence (steady time) of an awaited participant after which it is dropped; 0: never.
   SimDuration drop_after = SimDuration();
-  std::string agreement = {};  // what participants must agree upon (agreement.h); empty: nothing
+  std::string agreement = {};  // text on which participants must agree (agreement.h); empty: none
   bool lookahead = true;       // a participant that steps alone may run ahead (lockstep_schedule.h)
 };
 
@@ -38,8 +38,8 @@ class LockstepConductor {
   struct Outputs {
     std::function<void(const std::string& channel, const lockstep_grant_t&)> grant;
     std::function<void(const lockstep_notice_t&)> notice;
-    std::function<void(const JournalEntry&)> record;         // before anything that follows from it is sent
-    std::function<void(const lockstep_message_t&)> publish;  // every message of the run, in order
+    std::function<void(const JournalEntry&)> record;  // called before anything that depends on it is sent
+    std::function<void(const lockstep_message_t&)> publish;  // gets every message of the run, in order
     std::function<void(const std::string& event, const std::string& detail)> report;  // for a person
   };
 
@@ -47,28 +47,29 @@ class LockstepConductor {
   LockstepConductor(const LockstepConductor&) = delete;
   LockstepConductor& operator=(const LockstepConductor&) = delete;
 
-  // A participant in this process. Before start() or resume(), or to join later.
+  // Adds a participant of this process. Call before start() or resume(), or to join later.
   void add_local(const lockstep_join_t& introduction, TakeTurn take);
-  // A new run.
+  // Starts a new run.
   void start();
-  // Continues the run of a journal, whose messages are published again. Throws what replay_journal throws.
+  // Continues the run of a journal, whose messages are published again. Throws what replay_journal() throws.
   void resume(const std::vector<JournalEntry>& entries);
 
   void on_join(const lockstep_join_t& join, SimTime steady);
   void on_answer(const lockstep_answer_t& answer, SimTime steady);
-  // A message of a publisher outside the run: delivered at the beginning of the next instant.
+  // Accepts a message of a publisher outside the run; it is delivered at the beginning of the next instant.
   void inject(lockstep_message_t message) { injected_.push_back(std::move(message)); }
-  // Continues as far as possible without another answer; retransmits and drops what is due.
+  // Continues as far as possible without another answer; retransmits and drops participants when due.
   void on_timer(SimTime steady);
   SimTime next_timer() const;
-  // Instants up to here may begin now; lookahead ends before the next (paced runs).
+  // Limits the run: instants up to `furthest` may begin now, and lookahead ends before the next one (paced
+  // runs).
   void set_pace(SimTime furthest) { furthest_ = furthest; }
   // Ends the run at the instant reached.
   void request_stop() { stop_requested_ = true; }
 
   bool over() const { return run_.over; }
   const Sequencer& sequencer() const { return sequencer_; }
-  // Names of the participants that have not joined or answered.
+  // Returns the names of the participants that have not joined or answered.
   std::vector<std::string> waiting_for() const;
   std::int64_t retransmissions() const { return grants_.retransmissions(); }
 
@@ -94,7 +95,7 @@ class LockstepConductor {
   ParticipantLinks links_;
   GrantSender grants_;
   Membership membership_;
-  std::vector<ParticipantLink*> round_;  // of those in the sequencer's
+  std::vector<ParticipantLink*> round_;  // those in the sequencer's round
   std::vector<lockstep_result_t> results_;
   std::vector<lockstep_message_t> injected_;
   SimTime furthest_ = SimTime::never();

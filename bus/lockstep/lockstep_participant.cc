@@ -40,7 +40,7 @@ void LockstepParticipant::take(const std::vector<lockstep_turn_t>& turns, std::i
     reached_ = SimTime::from_nanoseconds(result.reached_ns);
     if (turn.farewell != 0) state_ = State::kLeft;
   }
-  if (past) {  // known to the conductor, which compares digests
+  if (past) {  // the conductor has the messages, and compares digests
     result.outputs.clear();
     result.num_outputs = 0;
   }

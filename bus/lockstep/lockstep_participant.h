@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The participant's side of the lockstep protocol (docs/architecture.md): joins, takes the turns it is
-// granted, once and in their order, and answers. A state machine: messages and steady time in, messages out;
-// no socket, no clock.
+// Participant's side of the lockstep protocol (docs/architecture.md): joins, takes the granted turns, each
+// once and in order, and answers. It is a state machine: messages and steady time in, messages out; no
+// socket, no clock.
 //
-// Every grant carries the participant's incarnation and the number of its turn. The next turn is taken; the
-// last one taken is answered again with the answer that was kept; any other is ignored. So grants may be
-// lost, duplicated and reordered, and each turn is taken exactly once. Repetitions that came while a turn was
-// being taken ask for an answer that is on its way, and are ignored.
+// Every grant carries the participant's incarnation and the number of its turn. If the turn is the next one,
+// it is taken. If it is the last one taken, the stored answer is sent again. Any other is ignored. Grants may
+// therefore be lost, duplicated or reordered, and each turn is still taken exactly once. Repeated grants that
+// arrived while their turn was being taken are ignored, as the answer is already under way.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,10 @@ namespace halocline::bus {
 
 class LockstepParticipant {
  public:
-  // Between JOINs until one is answered, and afterwards while no grant is received.
+  // Time between JOINs until one is answered; afterwards, while no grant is received, kKeepAlivePeriod.
   static constexpr SimDuration kJoinPeriod = SimDuration::from_milliseconds(100);
   static constexpr SimDuration kKeepAlivePeriod = SimDuration::from_milliseconds(250);
-  // After its last turn a participant still answers until the conductor notifies it that the run is over, or
+  // After its last turn a participant continues to answer until the conductor reports the end of the run, or
   // is silent for this long.
   static constexpr SimDuration kLinger = SimDuration::from_milliseconds(60'000);
 
@@ -35,21 +35,22 @@ class LockstepParticipant {
   using TakeTurn = std::function<lockstep_result_t(const lockstep_turn_t&)>;
   enum class State { kJoining, kTakingPart, kLeft, kOver, kExpelled };
 
-  // `introduction`: LockstepTurns::introduction with an incarnation; `take` throws what ends the participant.
+  // `introduction`: LockstepTurns::introduction() with an incarnation. `take` throws errors that end the
+  // participant.
   LockstepParticipant(lockstep_join_t introduction, TakeTurn take, Outputs outputs);
 
   void on_grant(const lockstep_grant_t& grant, SimTime steady);
   void on_notice(const lockstep_notice_t& notice, SimTime steady);
-  // Between two batches of messages: those given since the last call had come before the first of them was
-  // handled. Sends the JOIN that is due.
+  // Call between two batches of messages: messages passed since the previous call had arrived before the
+  // first of them was handled. Sends the JOIN that is due.
   void on_timer(SimTime steady);
   SimTime next_timer() const { return next_join_; }
-  // Requests its last turn: with the next answer, and with each JOIN.
+  // Requests its last turn, with the next answer and with each JOIN.
   void request_leave();
 
   State state() const { return state_; }
   bool has_ended() const { return state_ == State::kOver || state_ == State::kExpelled; }
-  // Why it was expelled.
+  // Reason for which it was expelled.
   const std::string& reason() const { return reason_; }
   // Simulation time of its last turn.
   SimTime reached() const { return reached_; }

@@ -11,7 +11,7 @@
 namespace halocline::bus {
 namespace {
 
-// Chains of messages at one instant have a few links; this many passes mean a livelock.
+// A chain of messages at one instant has a few links; this many passes indicate a livelock.
 constexpr int kMaxPassesPerInstant = 100'000;
 constexpr int kFirstStage = std::numeric_limits<int>::min();
 

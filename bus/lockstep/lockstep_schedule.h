@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Step order of lockstep, for runs in one process and in many: a discrete-event schedule.
+// Step order of lockstep, for runs in one process or several: a discrete-event schedule.
 //
-// Time advances to the earliest instant at which a participant is due. There the stages step in their order
-// (vehicles before pilots, the channel server last), and all participants of a stage that are due step
-// together: none receives what the others of its stage publish in that round. Their messages are ordered (by
-// participant, then as each published them) and delivered; then the next stage steps. Passes over the stages
-// are repeated until nobody is due at that instant.
+// Time advances to the earliest instant at which a participant is due. At that instant the stages step in
+// order (vehicles before pilots, the channel server last). All participants of a stage that are due step
+// together: none receives the messages that the others of its stage publish in that round. Their messages are
+// ordered (by participant, then in the order of publication) and delivered; then the next stage steps. Passes
+// over the stages are repeated until no participant is due at that instant.
 //
-// So the order of all messages of a run depends on the participants and what they publish alone, never on how
-// long anything took or on who joined first.
+// The order of all messages of a run thus depends only on the participants and their messages, never on the
+// duration of a computation or the order of joining.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@
 
 namespace halocline::bus {
 
-// A participant's place in the schedule.
+// State of a participant in the schedule.
 struct ScheduleEntry {
   int stage = 0;
   SimTime due = SimTime::never();
-  bool has_input = false;  // messages that may advance its due instant: it steps at the present instant
-  // It publishes nothing before this that another than a service may be made due by, unless it has input of
-  // others than services. Before `due` it publishes nothing anyway.
+  bool has_input = false;  // messages that may advance its due time: it steps at the present instant
+  // Before this time it publishes no message that may make a participant due, except a service, unless it
+  // gets input from a participant that is not a service. Before `due` it publishes nothing anyway.
   SimTime quiet_until = SimTime::at_once();
 };
 
@@ -33,17 +33,17 @@ class LockstepSchedule {
  public:
   SimTime now() const { return now_; }
 
-  // The earliest instant at which one is due, the present one at the earliest; never() when none is.
-  // An entry with input is due at the present instant.
+  // Returns the earliest instant at which an entry is due, at least the present one; never() when none is. An
+  // entry with input is due at the present instant.
   SimTime next_instant(std::span<const ScheduleEntry> entries) const;
-  // Time advances to `instant`, which is not before now().
+  // Advances to `instant`, which must not be before now().
   void begin(SimTime instant);
-  // The entries of the next round at now(), all of one stage, as indices in rising order; empty when the
-  // instant is over. `entries` are in rising order of stage. Throws std::runtime_error when an instant does
-  // not end.
+  // Returns the entries of the next round at now(), all of one stage, as ascending indices; empty when the
+  // instant is over. `entries` must be in ascending order of stage. Throws std::runtime_error when an instant
+  // does not end.
   std::vector<std::size_t> round(std::span<const ScheduleEntry> entries);
-  // A participant of `stage` that stepped alone used its lookahead as far as `instant`, which continues with
-  // the next stage.
+  // Continues at `instant` with the next stage, after a participant of `stage` that stepped alone has used
+  // its lookahead up to there.
   void resume_after(SimTime instant, int stage);
 
  private:
@@ -52,18 +52,19 @@ class LockstepSchedule {
   int passes_ = 0;
 };
 
-// Lookahead of the entry that steps alone: it may step at all of its own instants before this one. A due
-// instant is a promise to publish nothing before it unless a message is received, so until the earliest of
-// the others is due nobody can publish anything that it would receive. at_once() when another has input.
+// Returns the lookahead of the entry that steps alone: it may take all of its own steps before this instant.
+// A due time is a promise to publish nothing before it unless a message is received. Therefore, until the
+// earliest of the others is due, nobody can publish a message to it. at_once() when another entry has input.
 SimTime lockstep_horizon(std::span<const ScheduleEntry> entries, std::size_t alone);
 
-// Lookahead that the entries of one stage share: each may step at all of its own instants before this one,
-// because until then none of the others is due, and none of the stage publishes what the rest of it receives.
-// The present or earlier: there is none. It is kLongestSharedLookahead at most.
+// Returns the lookahead that the entries of one stage share: each may take all of its own steps before this
+// instant, because until then none of the other entries is due, and none of the stage publishes a message
+// that others of the stage receive. There is no lookahead if the result is `now` or earlier. It is at most
+// kLongestSharedLookahead.
 //
-// A service (Stage::kTerrain) may be asked and may answer meanwhile. It publishes only what answers a
-// message, at the instant of that message, to whom the message came from, so that others may have stepped
-// beyond that instant.
+// A service (Stage::kTerrain) may receive requests and answer them meanwhile. It publishes only answers to
+// messages, at the instant of the message, to its sender, so other participants may have stepped beyond that
+// instant.
 inline constexpr SimDuration kLongestSharedLookahead = SimDuration::from_milliseconds(100);
 SimTime shared_horizon(std::span<const ScheduleEntry> entries, int stage, SimTime now);
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lockstep's messages on the wire: fragmentation into datagrams and reassembly, and digests of
-// published messages.
+// Lockstep messages on the wire: fragmentation into datagrams, reassembly, and digests of published messages.
 //
-// A body (the turns of a grant, the result of an answer) may be longer than a datagram; it travels in slices.
-// The same body is always cut the same way, so slices of retransmissions fit together.
+// A body (the turns of a grant, the result of an answer) may be longer than a datagram and is then sent in
+// slices. The same body is always divided in the same way, so slices of retransmissions can be combined.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +18,15 @@ namespace halocline::bus {
 // Leaves room for the headers of the slice and of LCM below the 65 507 bytes of a UDP datagram.
 inline constexpr std::size_t kMaxSliceBytes = 56'000;
 
-// How many slices a body takes, one at least, and the bytes of one.
+// Returns the number of slices of a body, at least one, and the bytes of one slice.
 int slice_count(std::size_t body_bytes);
 std::span<const std::uint8_t> slice_of(const Bytes& body, int number);
 
-// Reassembles the slices of one body, in whatever order and however often they are received.
+// Reassembles the slices of one body; they may arrive in any order and repeatedly.
 class SliceCollector {
  public:
-  // `key` identifies the body: slices of another key are discarded. Returns the body when it is whole.
+  // `key` identifies the body: a slice with another key discards the previous ones. Returns the body when it
+  // is complete.
   [[nodiscard]] std::optional<Bytes> add(std::int64_t key, int number, int count, const Bytes& slice);
 
  private:
@@ -34,8 +34,8 @@ class SliceCollector {
   std::vector<std::optional<Bytes>> slices_;
 };
 
-// Digest of all messages published so far (XXH3 over instants, channels and bytes), continued from `before`:
-// shows whether an incarnation that replays the history publishes the same.
+// Returns the digest of all messages published so far (XXH3 over instants, channels and bytes), continued
+// from `before`. It shows whether an incarnation that replays the history publishes the same messages.
 std::int64_t digest_of(std::int64_t before, std::span<const lockstep_message_t> published);
 
 }  // namespace halocline::bus

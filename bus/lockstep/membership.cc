@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLongestExpression = 256;
 
-// Of what it subscribes to; empty where all can be followed.
+// Returns the objection to its subscriptions; empty if there is none.
 std::string objection_to_subscriptions(const lockstep_join_t& join) {
   try {
     for (const std::string& expression : join.subscriptions) {
@@ -59,14 +59,14 @@ void Membership::on_repeated_join(const lockstep_join_t& join, ParticipantLink& 
   link.wants_to_leave = link.wants_to_leave || join.wants_to_leave != 0;
   const bool done = run.over || link.has_left;
   notify(join.incarnation, run, done ? lockstep_notice_t::OVER : lockstep_notice_t::WELCOME);
-  // A join of an earlier instant was received first.
+  // JOIN is repeated: this one reports more turns than the previous one did.
   if (!link.up_to_date && join.turns_taken > link.turns_taken) {
     link.turns_taken = join.turns_taken;
     grant_next(link, steady);
   }
 }
 
-// The run ends without it, or this incarnation has taken its last turn.
+// True if the run ends without the participant, or if this incarnation has taken its last turn.
 bool Membership::is_too_late(const lockstep_join_t& join, const RunState& run) const {
   const std::string& name = join.participant_name;
   if (run.over) return true;
@@ -91,7 +91,8 @@ std::string Membership::objection_to(const lockstep_join_t& join, const Particip
   return ahead <= (in_round ? 1 : 0) ? "" : "it took turns that the run does not count";
 }
 
-// History where it lacks some; else the turn of the round, if it is in it.
+// Grants history if the participant has not taken all turns; otherwise the turn of the round, if it is in the
+// round.
 void Membership::grant_next(ParticipantLink& link, SimTime steady) {
   link.up_to_date = link.turns_taken >= sequencer_.turns_taken(link.name);
   if (!link.up_to_date) return grants_.grant_history(link, steady);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Membership of a lockstep run: admits participants and returning incarnations, replays to them the turns
-// that they lack, and expels what cannot take part.
+// that they have not taken, and expels participants that cannot take part.
 //
-// A participant that was killed returns as a new incarnation with a greater number. It takes the turns of the
-// run's history again, and the digest of what it publishes meanwhile must be that of its predecessor.
+// A participant that was killed returns as a new incarnation with a higher number. It takes the turns of the
+// run's history again, and the digest of the messages that it publishes must equal that of its predecessor.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@
 
 namespace halocline::conductor {
 
-// How far a run has come.
+// Progress of a run.
 struct RunState {
   std::int64_t id = 0;
-  bool ending = false;  // every round is one of last turns
+  bool ending = false;  // only last turns remain
   bool over = false;
 };
 
@@ -30,15 +30,16 @@ class Membership {
     std::function<void(const lockstep_notice_t&)> notice;
     std::function<void(const std::string& event, const std::string& detail)> report;
   };
-  // `agreement`: what participants must agree upon (agreement.h). All references must outlive this.
+  // `agreement`: text on which participants must agree (agreement.h). All references must outlive this
+  // object.
   Membership(const Sequencer& sequencer, ParticipantLinks& links, GrantSender& grants, std::string agreement,
              Outputs outputs);
 
   void on_join(const lockstep_join_t& join, const RunState& run, SimTime steady);
-  // All turns of the last grant_history() were taken, with the result of the last of them.
+  // All turns of the last grant_history() were taken; `result` is that of the last of them.
   void on_history_taken(ParticipantLink& link, const lockstep_result_t& result, const RunState& run,
                         SimTime steady);
-  // `kind`: of lockstep_notice_t.
+  // `kind`: an enumerator of lockstep_notice_t.
   void notify(std::int64_t incarnation, const RunState& run, std::int8_t kind,
               const std::string& reason = "") const;
 

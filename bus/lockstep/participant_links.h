@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The conductor's connections to the participants of a run: by name, and by the incarnation connected at
+// Conductor's connections to the participants of a run, by name and by the incarnation that is connected at
 // present.
 #pragma once
 
@@ -15,22 +15,22 @@
 
 namespace halocline::conductor {
 
-// Takes a turn of a participant that runs in the conductor's process.
+// Makes a participant of the conductor's process take a turn.
 using TakeTurn = std::function<lockstep_result_t(const lockstep_turn_t&)>;
 
-// One participant: its incarnation, how far that has come, and the grant that it has not answered.
+// One participant: its incarnation, its progress, and the unanswered grant.
 struct ParticipantLink {
   std::string name;
   std::int64_t incarnation = 0;  // 0: none connected, or local
   lockstep_join_t join;
-  TakeTurn take;                 // of a local participant
+  TakeTurn take;                 // for a local participant
   std::int64_t turns_taken = 0;  // by this incarnation, as far as is known
   bool up_to_date = false;       // it has taken all turns of its name
   bool wants_to_join = false;    // to be admitted between rounds
   bool wants_to_leave = false;
   bool has_left = false;  // this incarnation has taken its last turn
-  bool awaited = false;   // in the round, and its result has not been received
-  // The turns granted and not answered.
+  bool awaited = false;   // it is in the round, and its result has not been received
+  // Turns that were granted and not answered.
   bus::Bytes granted;
   std::int32_t turns_granted = 0;
   bus::SliceCollector answer;
@@ -40,10 +40,10 @@ struct ParticipantLink {
 
 class ParticipantLinks {
  public:
-  // Made where the name is new; stays where it is.
+  // Returns the link of a name, and creates it if the name is new. The address never changes.
   ParticipantLink& of(const std::string& name);
   const ParticipantLink* find(const std::string& name) const;
-  // Null where that incarnation is not connected.
+  // Returns null if that incarnation is not connected.
   ParticipantLink* of_incarnation(std::int64_t incarnation);
 
   void connect(ParticipantLink& link, const lockstep_join_t& join, SimTime steady);

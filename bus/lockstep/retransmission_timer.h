@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Retransmission timeout of a request from the round-trip times of earlier ones: Jacobson, "Congestion
-// avoidance and control" (1988): timeout = mean + 4 mean deviations, both smoothed. Karn's rule: the answer
-// to a request that was sent more than once yields no sample.
+// Retransmission timer, after Jacobson, "Congestion avoidance and control" (1988):
 //
-// The timeout doubles from the third retransmission on, up to kMax: before that a lost datagram is likelier
-// than a slow or absent peer. The time a participant computes is part of the round trip.
+//   timeout = mean + 4 deviation,
+//   mean += (t - mean) / 8,    deviation += (|t - mean| - deviation) / 4,
+//
+// where t is the latest round-trip time. Karn's rule: a request that was sent more than once yields no
+// sample.
+//
+// The timeout doubles from the third retransmission on, up to kMax; before that, a lost datagram is likelier
+// than a slow or absent peer. The computing time of the participant is part of the round trip.
 #pragma once
 
 #include <algorithm>
@@ -20,19 +24,19 @@ class RetransmissionTimer {
   static constexpr SimDuration kAtFirst = SimDuration::from_milliseconds(20);
   static constexpr SimDuration kMax = SimDuration::from_milliseconds(200);
 
-  // The request was sent, for the first time or again. Steady time.
+  // The request was sent, for the first time or again, at this steady time.
   void on_sent(SimTime steady) {
     if (times_sent_++ == 0) first_sent_ = steady;
     const int doublings = std::clamp(times_sent_ - 3, 0, 10);
     expires_at_ = steady + std::min(timeout() * (std::int64_t{1} << doublings), kMax);
   }
-  // Its answer was received.
+  // The answer was received.
   void on_answered(SimTime steady) {
     if (times_sent_ == 1) add_sample(steady - first_sent_);
     times_sent_ = 0;
     expires_at_ = SimTime::never();
   }
-  // When to send it again; never() while no answer is outstanding.
+  // Time at which to send the request again; never() while no answer is outstanding.
   SimTime expires_at() const { return expires_at_; }
   int times_sent() const { return times_sent_; }
 

@@ -18,8 +18,8 @@ auto order_of(const Member& member) {
 
 constexpr int kServices = static_cast<int>(bus::Stage::kTerrain);
 
-// All channels of the family of an expression: subscriptions to each vehicle's make one. What is no channel
-// and no prefix stays.
+// Returns the expression of all channels of a family, so that the subscriptions to each vehicle's channel
+// give one entry. An expression that is neither a channel nor a prefix is returned unchanged.
 std::string family_of(const std::string& expression) {
   const bus::ChannelPattern pattern(expression);
   const bool is_text = !pattern.only_channel().empty() || !pattern.only_prefix().empty();
@@ -73,7 +73,7 @@ void Sequencer::note_members_changed() {
   receivers_.clear();
   for (const auto& member : members_) {
     member->stopping.clear();
-    member->schedule.quiet_until = SimTime::at_once();  // it promised that to those before
+    member->schedule.quiet_until = SimTime::at_once();  // the promise was made to the previous members
   }
 }
 
@@ -153,8 +153,8 @@ void Sequencer::leave_out_those_ahead(std::vector<std::size_t>& round) {
   if (others != round.begin()) round.erase(others, round.end());
 }
 
-// While something is held one that steps alone keeps to what is shared, too: the others may be waiting for a
-// service.
+// While messages are held back, a participant that steps alone is limited to the shared lookahead, too: the
+// others may be waiting for a service.
 SimTime Sequencer::look_ahead(const std::vector<bus::ScheduleEntry>& all,
                               std::vector<std::size_t>& round) const {
   const int stage = all[round.front()].stage;
@@ -194,8 +194,8 @@ lockstep_turn_t Sequencer::turn_of(const std::string& name) const {
   return turn;
 }
 
-// What may wake one of the others, and whatever those of its stage receive; by family, for each turn has the
-// list.
+// Returns families that may wake another participant, and everything that others of its stage receive.
+// Families keep the list short, as each turn carries it.
 std::map<std::string, bool> Sequencer::stopping_channels(const Member& of) const {
   std::map<std::string, bool> families;
   for (const auto& member : members_) {
@@ -241,8 +241,8 @@ void Sequencer::complete(std::vector<lockstep_result_t> results) {
   for (const auto& [member, result] : in_order) member->was_ahead = member->reached > now();
 }
 
-// In the order of the run: instant by instant, as far as nobody can publish anything before it, and as nobody
-// has been woken, who would.
+// Delivers held messages in the order of the run, instant by instant, as long as nobody can publish an
+// earlier message, and nobody has been woken, who might do so.
 void Sequencer::release() {
   const SimTime safe_until = safe();
   auto next = held_.begin();
@@ -255,7 +255,7 @@ void Sequencer::release() {
   held_.erase(held_.begin(), next);
 }
 
-// The last instant at which nobody has a step to take any more, but for another pass.
+// Returns the last instant at which nobody has another step, except in another pass at that instant.
 SimTime Sequencer::safe() const {
   SimTime safe = SimTime::never();
   for (const auto& member : members_) {
@@ -280,13 +280,13 @@ void Sequencer::take_result(Member& member, const lockstep_result_t& result) {
   member.taken.push_back(
       {instant_of(member).nanoseconds(), result.reached_ns, result.num_steps, member.delivered});
   member.reached = SimTime::from_nanoseconds(result.reached_ns);
-  // Where it is due again at the instant of its step, those that share its lookahead may not pass that.
+  // If it is due again at the instant of its step, those that share its lookahead must not pass that instant.
   const bool is_due_again = member.schedule.due <= member.reached;
   member.schedule.quiet_until =
       is_due_again ? SimTime::at_once() : SimTime::from_nanoseconds(result.quiet_until_ns);
   if (!last_turn_) return;
   note_members_changed();
-  member.present = false;  // should it come back, it begins anew
+  member.present = false;  // if it returns, it begins again
   member.taken.clear();
   member.inbox.clear();
   member.delivered = 0;

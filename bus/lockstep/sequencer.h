@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Deterministic state machine of a lockstep run: membership, step order, and the total order of all messages.
+// Sequencer of a lockstep run: a deterministic state machine for membership, step order, and the total order
+// of all messages.
 //
-// Conservative synchronisation of a distributed discrete-event simulation (Chandy and Misra 1979): a
-// participant steps only when no message can reach it any more that precedes the step; one that steps alone
-// has lookahead to the earliest instant of the others, and those of one stage share lookahead
-// (lockstep_schedule.h). Some are then ahead of now(): what they publish is held until nobody can publish
-// anything that comes before it. The state is a function of the inputs in their order (members admitted,
-// results of rounds, ...) and of nothing else. So replaying a journal of the inputs restores it, and the
-// turns of a participant can be replayed to a new incarnation of it.
+// The method is conservative synchronisation of a distributed discrete-event simulation (Chandy and Misra
+// 1979): a participant steps only when no message that precedes the step can reach it any more. A participant
+// that steps alone has lookahead to the earliest instant of the others, and those of one stage share
+// lookahead (lockstep_schedule.h). Participants may then be ahead of now(): their messages are held back
+// until nobody can publish an earlier one. The state is a function only of the inputs in order (members
+// admitted, results of rounds, ...). Replaying a journal of the inputs therefore restores it, and the turns
+// of a participant can be replayed to a new incarnation.
 //
 //   sequencer.admit(join);
 //   while (sequencer.next_instant() <= end) {
@@ -40,26 +41,26 @@ namespace halocline::conductor {
 
 class Sequencer {
  public:
-  // A result with this many steps: the participant was dropped. It takes no further part unless admitted
+  // Number of steps in the result of a participant that was dropped. It takes no further part unless admitted
   // again.
   static constexpr std::int32_t kDropped = -1;
 
   // `publish` gets every message of the run, in order.
   explicit Sequencer(std::function<void(const lockstep_message_t&)> publish) : publish_(std::move(publish)) {}
 
-  // ---- between rounds, when nobody is ahead
+  // ---- between rounds, when nobody is ahead of now()
 
-  // Whether nobody is.
+  // True if nobody is ahead of now().
   bool is_level() const;
   // Admits a participant: at the start, late, or again after it was dropped or has left.
   void admit(const lockstep_join_t& join);
-  // The next round is this participant's last turn; then it takes no further part. False when it takes none,
-  // or was dismissed already.
+  // Makes the next round this participant's last turn, after which it takes no further part. Returns false if
+  // it takes no part, or was dismissed already.
   bool dismiss(const std::string& name);
-  // A message of a publisher outside the run: delivered, in the order given, at the beginning of the next
-  // instant.
+  // Accepts a message of a publisher outside the run; such messages are delivered, in the order given, at the
+  // beginning of the next instant.
   void inject(lockstep_message_t message);
-  // From here on every round is a last turn, at `instant`, in the order of stages.
+  // From now on every round is a last turn, at `instant`, in the order of stages.
   void end_run(SimTime instant);
 
   // ---- time and rounds
@@ -68,20 +69,21 @@ class Sequencer {
   // never() when nobody is due any more.
   SimTime next_instant() const;
   void begin_instant(SimTime instant);
-  // Lookahead ends before this; at_once(): there is none.
+  // Lookahead ends before this instant; at_once(): there is none.
   void set_furthest(SimTime furthest) { furthest_ = furthest; }
-  // False when the instant is over, or, after end_run, when nobody is left.
+  // Returns false when the instant is over, or, after end_run(), when nobody is left.
   [[nodiscard]] bool begin_round();
-  // As begin_round(), of those who have taken part in a round of the past: its results.
+  // As begin_round(), with the participants of a past round, given by its results.
   [[nodiscard]] bool begin_past_round(const std::vector<lockstep_result_t>& results);
   bool in_round() const { return !round_.empty(); }
   const std::vector<std::string>& round() const { return round_; }
   lockstep_turn_t turn_of(const std::string& name) const;
-  // Of a turn of the round: its instant, and before what its steps are.
+  // Instant of a turn of the round; horizon() is the limit before which its steps are.
   SimTime instant_of(const std::string& name) const { return instant_of(*find(name)); }
   SimTime horizon() const { return horizon_; }
-  // One result for each of the round, in whatever order. Throws std::runtime_error when one of the stage
-  // published before the instant until which it promised to be quiet, and another is beyond that.
+  // Takes one result for each participant of the round, in any order. Throws std::runtime_error when a
+  // participant of the stage published before the time until which it promised to publish nothing, and
+  // another is beyond that.
   void complete(std::vector<lockstep_result_t> results);
 
   // ---- history
@@ -90,10 +92,11 @@ class Sequencer {
   bool takes_part(const std::string& name) const;
   std::int64_t turns_taken(const std::string& name) const;
   std::int64_t digest_of(const std::string& name) const;
-  // Turns already taken, from number `first` (from 1) on; as many as make about `bytes`, one at least.
+  // Returns turns already taken, from number `first` (counted from 1) on: as many as make about `bytes`, at
+  // least one.
   std::vector<lockstep_turn_t> history_of(const std::string& name, std::int64_t first,
                                           std::size_t bytes) const;
-  // Rounds completed, and turns within them.
+  // Number of rounds completed, and of turns in them.
   std::int64_t rounds() const { return rounds_; }
   std::int64_t turns() const { return turns_; }
 
@@ -101,21 +104,21 @@ class Sequencer {
   struct Turn {
     std::int64_t instant_ns = 0, reached_ns = 0;
     std::int32_t steps = 0;
-    std::size_t inbox_end = 0;  // messages delivered until then
+    std::size_t inbox_end = 0;  // number of messages delivered until then
   };
   struct Member {
     lockstep_join_t join;
     bus::ChannelPatterns patterns;
-    std::set<std::string> families,
-        waking;  // of channels it receives; whose messages may advance its due instant
-    std::map<std::string, bool>
-        stopping;  // what must end its lookahead, and whether services alone receive it
+    // Families of channels that it receives, and of those whose messages may advance its due time.
+    std::set<std::string> families, waking;
+    // Families that must end its lookahead; true if only services receive them.
+    std::map<std::string, bool> stopping;
     bus::ScheduleEntry schedule;
     SimTime reached = SimTime::at_once();  // in its last turn
-    bool was_ahead = false;                // of now(), after that
+    bool was_ahead = false;                // ahead of now() after its last turn
     bool present = true;
     std::vector<std::size_t> inbox;  // indices of all messages that it receives
-    std::size_t delivered = 0;       // of them, in turns that it took
+    std::size_t delivered = 0;       // number of these in turns that it took
     std::vector<Turn> taken;
     std::int64_t digest = 0;
   };
@@ -137,10 +140,10 @@ class Sequencer {
   void deliver(lockstep_message_t message);
   void take_result(Member& member, const lockstep_result_t& result);
   void note_members_changed();
-  // The instant of its next turn.
+  // Returns the instant of its next turn.
   SimTime instant_of(const Member& member) const { return std::max(now(), member.reached); }
-  // Those of them that are due again at an instant where they have stepped ahead of the others wait for
-  // these.
+  // Removes from the round participants that are due again at an instant to which they had stepped ahead of
+  // the others; they wait for those.
   void leave_out_those_ahead(std::vector<std::size_t>& round);
   // Adds to the round those that share its lookahead; returns the horizon.
   SimTime look_ahead(const std::vector<bus::ScheduleEntry>& all, std::vector<std::size_t>& round) const;
@@ -161,7 +164,7 @@ class Sequencer {
   SimTime furthest_ = SimTime::at_once();
   std::vector<std::string> round_;
   SimTime horizon_ = SimTime::at_once();
-  bool last_turn_ = false;  // the round is one of last turns
+  bool last_turn_ = false;  // the round consists of last turns
   std::vector<std::string> leaving_;
   bool ended_ = false;
   std::vector<lockstep_message_t> injected_;
