@@ -6,7 +6,7 @@ namespace {
 
 using Kind = JournalledMessage::Kind;
 
-constexpr std::size_t kOutputHeadBytes = 20;  // of an output: session, sequence, length of the identity
+constexpr std::size_t kOutputHeadBytes = 20;  // session, sequence, length of the identity
 
 }  // namespace
 

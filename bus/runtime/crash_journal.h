@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets a node that was killed go on where it was: replays its recent inputs, and publishes each output once
-// in all its incarnations together. For a node whose state follows from recent inputs; one whose state does
-// not, and can be written whole, has a StateJournal (state_journal.h).
+// Crash recovery of a node by replay: a restarted node replays its recent inputs, and publishes each output
+// once over all its incarnations together. For a node whose state follows from recent inputs; a node whose
+// state does not, and can be saved completely, uses a StateJournal (state_journal.h).
 //
-// The inputs of a state machine, and the steps that took them, give the same outputs again (Schneider 1990),
-// of which those that the journal holds are not published again.
-// Inputs and outputs are written before anything that follows from them is published (message_journal.h). For
-// a bus that repairs losses, not for lockstep, where the conductor replays.
+// A state machine gives the same outputs again for the same inputs, taken in the same steps (Schneider 1990).
+// Outputs found in the journal are not published again. Inputs and outputs are written before anything that
+// depends on them is published (message_journal.h). For a bus that repairs losses, not for lockstep, where
+// the conductor replays.
 //
 //   CrashJournal journal(bus(), publisher);  // does nothing until it is open: publish_once() publishes
 //   journal.open(rule);                      // when the node is made, before anything is dispatched
 //   journal.replay_inputs([&](SimTime at) { history.push_back({at, take_inbox()}); });
 //
-// In the first step whose simulation time is known, and nothing more until kRepairTime has passed (inputs
-// published meanwhile come by repair):
+// In the first step whose simulation time is known, and no other step until kRepairTime has passed (inputs
+// published meanwhile arrive by repair):
 //
 //   if (!history.empty() && !journal.resume(now.sim)) forget_all();  // it belongs to another run
 //   for (const auto& [at, inbox] : history) {
@@ -48,65 +48,66 @@
 
 namespace halocline::bus {
 
-// A time further before the journal's end than this belongs to another run.
+// A time further before the end of the journal than this belongs to another run.
 inline constexpr SimDuration kSameRun = SimDuration::from_milliseconds(10'000);
 
 class CrashJournal {
  public:
   struct Rule {
     std::string path;
-    // How far back inputs and outputs reach; above 0. After a longer absence nothing is resumed.
+    // Span of inputs and outputs that is kept; above 0. After a longer absence nothing is resumed.
     SimDuration kept;
-    std::function<bool(std::string_view channel)> is_input;  // selects what is kept of what is received
-    // Inputs of which the last of each flow is kept for ever: what begins while the node is away is then
-    // known to be missing.
+    std::function<bool(std::string_view channel)> is_input;  // selects the received messages to keep
+    // Families of inputs of which the last message of each flow is kept for ever. Messages published while
+    // the node is down are then known to be missing.
     std::vector<Family> keep_last;
-    std::vector<std::string> keep_all;  // channels whose inputs are all kept (the latest 1000)
-    std::uint64_t digest = 0;           // of all that the steps depend on, beside their inputs
+    std::vector<std::string> keep_all;  // channels of which all inputs are kept (the latest 1000)
+    std::uint64_t digest = 0;           // of everything that the steps depend on except their inputs
   };
-  // Steady time, from the first step, within which repair brings what was published while the node was away:
-  // heartbeats come four times a second, the second tells of flows that began meanwhile, the messages come
-  // within two requests.
+  // Steady time, from the first step, within which repair delivers the messages published while the node was
+  // down. Heartbeats come four times a second, the second one lists the flows that began meanwhile, and the
+  // messages arrive within two requests.
   static constexpr SimDuration kRepairTime = SimDuration::from_milliseconds(600);
 
   CrashJournal(Bus& bus, NumberedPublisher& publisher) : bus_(bus), publisher_(publisher) {}
 
-  // Once. Throws InvalidArgument when the file cannot be written.
+  // Call once. Throws InvalidArgument when the file cannot be written.
   void open(Rule rule);
   bool is_open() const { return journal_ != nullptr; }
 
   // ---- recovery
-  // The earlier incarnation's last step; empty without one.
+  // Time of the earlier incarnation's last step; nothing if there was none.
   std::optional<SimTime> last_step() const { return last_step_; }
-  // Hands the inputs to the node's own handlers, oldest first, and calls `end_step` after those of each step,
-  // some of which took none. Once, before anything else is dispatched: what follows an input in its flow is
-  // then known to be missing, and is repaired.
+  // Passes the inputs to the node's own handlers, oldest first, and calls `end_step` after those of each
+  // step; some steps have no inputs. Call once, before anything else is dispatched: later messages of the
+  // same flows are then known to be missing, and are repaired.
   void replay_inputs(const std::function<void(SimTime at)>& end_step);
-  // Takes up the outputs: they are not published again, their channels' numbers go on, and they are kept for
-  // repair. False when the journal belongs to another run, or is too old, and is empty now.
+  // Restores the outputs: they are not published again, their channels continue their numbering, and they are
+  // available for repair. Returns false when the journal belongs to another run or is too old; it is empty
+  // then.
   [[nodiscard]] bool resume(SimTime now);
-  // The outputs that follow belong to this step, which is done again.
+  // The following outputs belong to this step, which is repeated.
   void redo_step(SimTime at) { step_ = at; }
   void end_recovery() { recovers_ = false; }
   bool is_recovering() const { return recovers_; }
 
   // ---- each step
-  // Writes what was received since the last one.
+  // Writes the messages received since the last step.
   void write_inputs(SimTime now);
-  // Whether an earlier incarnation published it, or this one while it recovers.
+  // True when an earlier incarnation published the output, or this one did during recovery.
   bool was_published(const std::string& channel, const std::string& identity) const {
     return published_.contains({channel, identity});
   }
-  // Publishes with the channel's next number, unless an earlier incarnation has published it, or this one
-  // between resume() and end_recovery(). `identity` tells the output from all others on its channel,
-  // whichever incarnation computes it. Returns whether it was published.
+  // Publishes with the channel's next number, unless an earlier incarnation has published the output, or this
+  // one has between resume() and end_recovery(). `identity` distinguishes the output from all others on its
+  // channel, and is the same in each incarnation that computes it. Returns true if it was published.
   template <class Message>
   bool publish_once(const std::string& channel, Message message, const std::string& identity) {
     if (!claim(channel, identity)) return false;
     publish_again(channel, std::move(message), identity);
     return true;
   }
-  // The same, whether or not it was published before: an answer to who repeats a request.
+  // Publishes even if the output was published before: the answer to a repeated request.
   template <class Message>
   void publish_again(const std::string& channel, Message message, const std::string& identity) {
     publisher_.number(channel, message);
@@ -114,7 +115,7 @@ class CrashJournal {
     bus_.publish(channel, message);
   }
 
-  // Another run has begun: forgets everything but what was received since the last step.
+  // Another run has begun: discards everything except the messages received since the last step.
   void clear();
 
  private:
@@ -139,11 +140,11 @@ class CrashJournal {
   NumberedPublisher& publisher_;
   SimDuration kept_;
   std::unique_ptr<MessageJournal> journal_;
-  std::vector<JournalledMessage> history_;  // inherited: inputs, and outputs without their bytes
-  std::vector<JournalledMessage> outputs_;  // inherited
+  std::vector<JournalledMessage> history_;  // from the journal: inputs, and outputs without their bytes
+  std::vector<JournalledMessage> outputs_;  // from the journal
   std::optional<SimTime> last_step_;
-  std::set<std::pair<std::string, std::string>>
-      published_;  // (channel, identity), while repetition threatens
+  // (channel, identity) of outputs that might be published twice.
+  std::set<std::pair<std::string, std::string>> published_;
   SimTime published_forgotten_at_ = SimTime::never();
   SimTime step_;
   bool replays_ = false, recovers_ = false, given_up_ = false;

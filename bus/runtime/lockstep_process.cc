@@ -23,7 +23,7 @@
 namespace halocline::bus {
 namespace {
 
-// For the last turn after a stop was requested.
+// Waiting time for the last turn after a stop was requested.
 constexpr SimDuration kLastTurnTimeout = SimDuration::from_milliseconds(800);
 
 // The participant's side of the synchronisation channel: receives grants and notices, publishes joins and

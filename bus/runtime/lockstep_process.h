@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A node as a participant of lockstep in a process of its own: the protocol of lockstep_participant.h on LCM.
+// Runs a node as a lockstep participant in a separate process: the protocol of lockstep_participant.h on LCM.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace halocline::bus {
 
-// What all participants of a run must agree upon (bus/lockstep/agreement.h): of the scenario the common part,
-// with seed and vehicles.
+// Returns the digest on which all participants of a run must agree (bus/lockstep/agreement.h): that of the
+// common part of the scenario, with seed and vehicles.
 std::string agreement_on(const Scenario& scenario);
 
-// A number for an incarnation of a participant or for a run: greater than all before (wall clock,
-// microseconds), and in all likelihood unique.
+// Returns a number for an incarnation of a participant or for a run: greater than all earlier ones (wall
+// clock, microseconds), and very likely unique.
 std::int64_t draw_incarnation();
 
-// Runs until the conductor's notice that the run is over. `sync_url`: grants are received there, from hosts
-// that the scenario accepts; answers go to the next port.
-// Once `should_stop` returns true, the node requests its last turn and waits for it 0.8 s. Throws what the
-// node throws, and std::runtime_error when the conductor expels it: then it should be restarted.
+// Runs until the conductor reports the end of the run. Grants are received on `sync_url`, from hosts that the
+// scenario accepts; answers are sent on the next port. Once `should_stop` returns true, the node requests its
+// last turn and waits for it for 0.8 s. Throws what the node throws, and std::runtime_error when the
+// conductor expels the node, which should then be restarted.
 void run_lockstep_participant(Node& node, const std::string& sync_url, const Scenario& scenario,
                               const std::function<bool()>& should_stop);
 

@@ -56,7 +56,7 @@ void LockstepRunner::deliver() {
     if (listener_) listener_(at, channel, message);
   };
   const auto waiting = [](const MessageBatch& batch) { return !batch.empty(); };
-  // Of the first node that has any; a handler may publish more.
+  // Starts over at the first node that has messages, because a handler may publish more.
   for (auto from = std::find_if(published_.begin(), published_.end(), waiting); from != published_.end();
        from = std::find_if(published_.begin(), published_.end(), waiting)) {
     std::swap(*from, delivered_);

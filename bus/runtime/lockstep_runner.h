@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs many nodes in one process, all at one simulation time, as fast as they compute.
 //
-// The step order is that of lockstep_schedule.h. Nodes that step together, those of one stage that are due at
-// one instant, may do so on several threads: what each publishes is kept until all have stepped, then
-// delivered in the order of their names. Messages go from node to node within the process, through no LCM.
-// Nothing depends on a clock or a thread, so two runs publish the same messages in the same order.
+// The order of steps is that of lockstep_schedule.h. Nodes of one stage that are due at the same instant may
+// step on several threads: the messages of each are kept until all have stepped, then delivered in the order
+// of the nodes' names. Messages are passed within the process, without LCM. Nothing depends on a clock or a
+// thread, so two runs publish the same messages in the same order.
 #pragma once
 
 #include <cstdint>
@@ -26,24 +26,25 @@ namespace halocline::bus {
 
 class LockstepRunner {
  public:
-  // Of each message in its order, once the nodes have received it. `at`: when it was published.
+  // Called with each message in order, once the nodes have received it. `at` is its time of publication.
   using Listener =
       std::function<void(SimTime at, std::string_view channel, std::span<const std::uint8_t> message)>;
 
-  // The nodes step by stage, and within a stage by name, whatever their order here. They must outlive the
-  // runner, and are nobody else's meanwhile. `for_each` shares those that step together among threads.
+  // The nodes step by stage, and within a stage by name, whatever their order in `nodes`. They must outlive
+  // the runner, and must not be used by anybody else meanwhile. `for_each` distributes the nodes that step
+  // together over threads.
   explicit LockstepRunner(std::vector<Node*> nodes, ForEach for_each = one_after_the_other);
   ~LockstepRunner();
   LockstepRunner(const LockstepRunner&) = delete;
   LockstepRunner& operator=(const LockstepRunner&) = delete;
 
-  // Called with each instant before its nodes step: pacing, progress. It may return false to stop the run
-  // before that instant.
+  // Called with each instant before its nodes step, for pacing or progress. The run stops before that instant
+  // if it returns false.
   void set_before_instant(std::function<bool(SimTime)> callback) { before_instant_ = std::move(callback); }
   void set_listener(Listener listener) { listener_ = std::move(listener); }
 
-  // Advances to `end`, all instants at `end` included. Throws what a node or a handler throws, and when
-  // nodes keep each other busy at one instant without end.
+  // Advances to `end`, including all instants at `end`. Throws what a node or a handler throws, and when
+  // nodes wake each other at one instant without end.
   void run_until(SimTime end);
   // Stops each node, in order, at the time reached.
   void stop();
@@ -58,19 +59,19 @@ class LockstepRunner {
 
   std::vector<ScheduleEntry> schedule_entries() const;
   void step_all_due();
-  // What the nodes published, to all.
+  // Delivers the published messages to all nodes.
   void deliver();
   const std::vector<Node*>& receivers_of(std::string_view channel);
 
   std::vector<Node*> nodes_;
-  std::vector<MessageBatch> published_;  // by each node, not yet delivered
-  MessageBatch delivered_;               // now
+  std::vector<MessageBatch> published_;  // of each node, not yet delivered
+  MessageBatch delivered_;               // being delivered
   ForEach for_each_;
   std::function<bool(SimTime)> before_instant_;
   Listener listener_;
   std::unordered_map<std::string, std::vector<Node*>, ChannelHash, std::equal_to<>> receivers_;  // by channel
   LockstepSchedule schedule_;
-  SimTime now_;  // messages are stamped with it: the schedule's, or the end that was reached
+  SimTime now_;  // time stamp of messages: that of the schedule, or the end that was reached
 };
 
 }  // namespace halocline::bus

@@ -11,7 +11,7 @@
 namespace halocline::bus {
 namespace {
 
-// Bounds on the lookahead of one turn, so that its result does not outgrow a datagram by much.
+// Limits on the lookahead of one turn; they keep its result near the size of a datagram.
 constexpr int kMaxStepsPerTurn = 1000;
 constexpr std::size_t kMaxPublishedPerTurn = 200;
 
@@ -61,7 +61,7 @@ void LockstepTurns::deliver(const std::vector<lockstep_message_t>& messages) {
     node_.receive(message.channel_name, message.message_bytes);
     may_wake = may_wake || interest_in(message.channel_name).may_wake;
   }
-  if (!may_wake) node_.note_due_changed();  // whatever it promised
+  if (!may_wake) node_.note_due_changed();  // recompute it: the promise may be broken
   if (!may_wake && node_.lockstep_due() < due)
     throw std::logic_error(node_.name() + " became due by a message that it promised only to store");
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Executes the turns of a lockstep run for one node: delivers the turn's messages, steps the node if it is
-// due, and returns what it published and when it is next due.
+// due, and returns the messages that it published and the time at which it is next due.
 //
-// Its inputs are delivered as LCM would, and its outputs go to the result alone. With lookahead (a turn whose
-// horizon lies beyond its instant) it steps at its own instants until the horizon, until it publishes a
-// message that may advance the due instant of a participant, or until it is due again at the instant of a
+// Inputs are delivered as LCM would deliver them; outputs go only to the result. With lookahead (a turn whose
+// horizon lies beyond its instant) the node steps at its own instants until one of these: the horizon; it
+// publishes a message that may advance the due time of a participant; it is due again at the instant of a
 // step.
 #pragma once
 
@@ -23,17 +23,17 @@ namespace halocline::bus {
 
 class LockstepTurns {
  public:
-  // The node must outlive this, and is nobody else's meanwhile.
+  // The node must outlive this object, and must not be used by anybody else meanwhile.
   explicit LockstepTurns(Node& node);
 
-  // The node as a participant, for LOCKSTEP_JOIN: its name, stage, subscriptions and first due instant.
+  // Returns the node's LOCKSTEP_JOIN: its name, stage, subscriptions and first due instant.
   lockstep_join_t introduction() const;
 
-  // Throws what the node throws, and when the node broke its promise only to store (Wakeup::kStoreOnly).
+  // Throws what the node throws, and when the node breaks its promise to store only (Wakeup::kStoreOnly).
   lockstep_result_t take(const lockstep_turn_t& turn);
 
  private:
-  // The node's subscriptions that match a channel.
+  // Subscriptions of the node that match a channel.
   struct Interest {
     bool receives = false, may_wake = false;
   };

@@ -7,7 +7,7 @@ namespace halocline::bus {
 
 SimDuration MessageBatches::wait_at(SimTime steady) {
   if (const SimDuration passed = steady - window_begins_; passed >= kWindow) {
-    // Over a window that lasted longer because nothing came.
+    // Rate over the window; it lasted longer than kWindow if no message came.
     is_busy_ = messages_ * kWindow.seconds() >= kBusy * passed.seconds();
     window_begins_ = steady;
     messages_ = 0;
@@ -16,8 +16,8 @@ SimDuration MessageBatches::wait_at(SimTime steady) {
 }
 
 void Halt::look(SimTime steady, SimDuration used, bool waits, bool misses) {
-  constexpr SimDuration kHalted = SimDuration::from_milliseconds(1000);  // the loop sleeps 0.1 s at most
-  // A message that nobody can repair must not hold a node for long.
+  constexpr SimDuration kHalted = SimDuration::from_milliseconds(1000);  // the loop sleeps at most 0.1 s
+  // A message that nobody can repair must not hold the node for long.
   constexpr SimDuration kLongest = SimDuration::from_milliseconds(3000);
   const SimDuration idle = (steady - looked_) - (used - used_);
   looked_ = steady;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long a node that is woken by a message lets more of them gather: where many come, a wake-up for each
-// costs more than the messages.
+// Batching of messages: how long a node that a message wakes waits for more, as on a busy bus a wake-up for
+// each message costs more than the messages themselves.
 //
-// Rule: interrupt moderation (Mogul and Ramakrishnan 1997, "Eliminating receive livelock in an
-// interrupt-driven kernel"). Where the last whole window of kWindow had kBusy messages or more, a batch of
-// kBatch is taken; otherwise every message at once. So a message of a busy bus is handled up to kBatch later,
-// far less than the lag of positions (docs/architecture.md).
+// The rule is interrupt moderation (Mogul and Ramakrishnan 1997, "Eliminating receive livelock in an
+// interrupt-driven kernel"). If the last complete window of kWindow had kBusy messages or more, messages are
+// collected for kBatch; otherwise each is handled at once. A message on a busy bus is thus handled up to
+// kBatch later, far less than the lag of positions (docs/architecture.md).
 #pragma once
 
 #include <optional>
@@ -17,28 +17,27 @@ namespace halocline::bus {
 class MessageBatches {
  public:
   static constexpr SimDuration kWindow = SimDuration::from_milliseconds(20);
-  static constexpr int kBusy = 60;  // 3000 a second
+  static constexpr int kBusy = 60;  // messages in a window: 3000 a second
   static constexpr SimDuration kBatch = SimDuration::from_milliseconds(1);
 
-  // How long messages may gather when the first of them has come at `steady`; times do not go back.
+  // Returns how long to wait for more messages when the first has arrived at `steady`; times do not decrease.
   SimDuration wait_at(SimTime steady);
-  // So many were handled, since the last call.
+  // Records how many messages were handled since the last call.
   void note_handled(int messages) { messages_ += messages; }
 
  private:
   SimTime window_begins_;
-  int messages_ = 0;  // since then
+  int messages_ = 0;  // since the window began
   bool is_busy_ = false;
 };
 
-// Notices that the process was halted (SIGSTOP, a debugger, a machine that slept or had no processor for it),
-// so that its socket may have run over, and holds a node until repair has brought what it missed.
+// Detector of halts of the process (SIGSTOP, a debugger, a machine that slept or gave it no processor), in
+// which its socket may have overflowed. It holds the node until repair has delivered the missing messages.
 class Halt {
  public:
   // `used`: processor time of the process so far.
   Halt(SimTime steady, SimDuration used) : looked_(steady), used_(used) {}
-  // To be called in each turn of the loop. `waits`: the node waits for repair; `misses`: messages are
-  // missing.
+  // Call it in each turn of the loop. `waits`: the node waits for repair; `misses`: messages are missing.
   void look(SimTime steady, SimDuration used, bool waits, bool misses);
   bool holds() const { return since_.has_value(); }
 

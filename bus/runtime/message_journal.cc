@@ -19,19 +19,19 @@ namespace {
 using Kind = JournalledMessage::Kind;
 
 constexpr std::string_view kHeader = "HALOCLINE INPUT2";
-constexpr std::size_t kMaxKept = 1000;                  // of keep_all
+constexpr std::size_t kMaxKept = 1000;                  // inputs of keep_all
 constexpr std::size_t kMaxKeptLast = 4 * kMaxVehicles;  // channels of keep_last
-constexpr std::size_t kMaxSessions = 8;                 // of each
-constexpr std::size_t kHeadBytes = 9;                   // of a body: stamp, length of the channel
-// A step's time is less than this, before or after the start (146 years), so that sums and differences of
-// times fit.
+constexpr std::size_t kMaxSessions = 8;                 // sessions of each channel
+constexpr std::size_t kHeadBytes = 9;                   // head of a body: time stamp, length of the channel
+// Limit on the time of a step, before or after the start (146 years), so that sums and differences of times
+// do not overflow.
 constexpr std::int64_t kStepNs = std::numeric_limits<std::int64_t>::max() / 2;
 
-// Body: stamp, length of the channel, channel, message.
+// Layout of a body: time stamp, length of the channel, channel, message.
 JournalFile::Record to_record(const JournalledMessage& entry) {
   Bytes body;
   append_int64(entry.at.nanoseconds(), body);
-  body.push_back(static_cast<std::uint8_t>(entry.channel.size()));  // 63 at most in LCM
+  body.push_back(static_cast<std::uint8_t>(entry.channel.size()));  // at most 63 in LCM
   body.insert(body.end(), entry.channel.begin(), entry.channel.end());
   body.insert(body.end(), entry.bytes.begin(), entry.bytes.end());
   return {static_cast<std::uint8_t>(entry.kind), std::move(body)};
@@ -54,7 +54,7 @@ std::optional<JournalledMessage> to_entry(const JournalFile::Record& record) {
   return entry;
 }
 
-// Of the publisher; 0 where none is stated.
+// Returns the publisher's session; 0 if none is stated.
 std::int64_t session_of(const JournalledMessage& input) {
   return input.bytes.size() < kFlowHeadBytes ? 0 : int64_at(input.bytes, kSessionAt);
 }
@@ -82,7 +82,7 @@ void MessageJournal::read(JournalFile& file) {
 
 MessageJournal::MessageJournal(Rule rule) : rule_(std::move(rule)) {
   file_ = std::make_unique<JournalFile>(rule_.path, kHeader);
-  rule_.path = std::filesystem::canonical(rule_.path);  // a link stays one
+  rule_.path = std::filesystem::canonical(rule_.path);  // of a link, the target is renamed, not the link
   if (std::filesystem::exists(rule_.path + ".1")) {
     JournalFile before(rule_.path + ".1", kHeader);
     read(before);
@@ -130,7 +130,7 @@ void MessageJournal::clear() {
   begin_file({});
 }
 
-// Written beside the old file first, so that a kill meanwhile leaves that.
+// The new file is written beside the old one and then renamed, so that a kill meanwhile leaves the old one.
 void MessageJournal::begin_file(const std::vector<JournalledMessage>& entries) {
   const std::string unfinished = rule_.path + ".unfinished";
   std::remove(unfinished.c_str());
@@ -160,7 +160,7 @@ void MessageJournal::write(const std::vector<JournalledMessage>& entries) {
   }
 }
 
-// A journal that lacks entries would let the next incarnation contradict what this one published.
+// A journal that lacks entries would let the next incarnation contradict the messages of this one.
 void MessageJournal::give_up() {
   file_.reset();
   for (const char* part : {"", ".1", ".unfinished"}) std::remove((rule_.path + part).c_str());
@@ -180,7 +180,7 @@ void MessageJournal::carry(const JournalledMessage& entry) {
     of_channel.push_back(entry);
   }
   if (kept_last_.size() > kMaxKeptLast) forget_older_half();
-  // Each file begins with them, so those of the earlier incarnation are read more than once.
+  // Each file begins with these inputs, so that the earlier incarnation's are read more than once.
   const auto is_known = [&](const JournalledMessage& other) {
     return other.at == entry.at && other.channel == entry.channel && other.bytes == entry.bytes;
   };
@@ -191,13 +191,14 @@ void MessageJournal::carry(const JournalledMessage& entry) {
   if (kept_all_.size() > kMaxKept) kept_all_.pop_front();
 }
 
-// By halves, so that names made up without end cost no more than a constant for each.
+// Dropping half of the channels at once keeps the cost per message constant, even for an endless series of
+// names.
 void MessageJournal::forget_older_half() {
   std::vector<SimTime> times;
   for (const auto& [channel, entries] : kept_last_) times.push_back(entries.back().at);
   const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
   std::nth_element(times.begin(), middle, times.end());
-  // Not all, where all are of one instant.
+  // Limits the number dropped, as all may be of one instant.
   std::size_t left = times.size() / 2;
   std::erase_if(kept_last_,
                 [&](const auto& kept) { return kept.second.back().at <= *middle && left > 0 && left-- > 0; });

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Write-ahead journal of a node's recent steps, their inputs and outputs: a file from which the next
-// incarnation of a node that was killed restores what was under way (crash_journal.h). A node whose state can
-// be written whole keeps that instead (state_journal.h).
+// Write-ahead journal of a node's recent steps with their inputs and outputs: the file from which a restarted
+// node restores its work in progress (crash_journal.h). A node whose complete state can be saved keeps that
+// instead (state_journal.h).
 //
-// A file of records (bus/files/journal_file.h). What is written is handed to the kernel before anything that
-// follows from it is published, so a killed process loses nothing that anybody acted upon; a machine that
-// loses power may (nothing is forced to the disk). What a kill cut off at the end is no entry, nor is one of
-// which a bit changed. When the disk refuses an entry, or others deleted or truncated the file, the journal
-// is given up and removed, and the node goes on without one.
+// The file consists of records (bus/files/journal_file.h). Entries are handed to the kernel before anything
+// that depends on them is published, so a killed process loses nothing that another node has acted upon; a
+// machine that loses power may (nothing is forced to the disk). An entry that a kill cut off at the end is
+// ignored, and so is one with a changed bit that cannot be corrected. When the disk refuses an entry, or
+// another process deleted or truncated the file, the journal is abandoned and removed, and the node continues
+// without one.
 //
-// Bounded: once a file spans `kept` of simulation time, it becomes `path`.1 (in the place of the one before)
-// and another begins with what is carried over: the last input of each flow of `keep_last` (of the latest
-// eight sessions of a channel, and of four channels for each of kMaxVehicles), and the inputs on `keep_all`
-// (the latest 1000). So at least `kept` is there, and twice that at most.
+// The size is bounded. Once a file spans `kept` of simulation time, it is renamed to `path`.1 (replacing the
+// previous one), and a new file begins with the entries that are carried over: the last input of each flow of
+// `keep_last` (at most the latest eight sessions of a channel, and four channels for each of kMaxVehicles),
+// and the inputs on `keep_all` (the latest 1000). The journal therefore covers at least `kept` and at most
+// twice that.
 #pragma once
 
 #include <cstddef>
@@ -36,11 +38,11 @@ struct JournalledMessage {
   enum class Kind : std::uint8_t {
     kInput,
     kOutput,
-    kStep,    // that took no input
-    kDigest,  // first in a file: what the run is, as `at`
+    kStep,    // a step without inputs
+    kDigest,  // first entry of a file: digest of the run, stored in `at`
   };
   Kind kind = Kind::kInput;
-  SimTime at;  // simulation time of the step that took it, or made it
+  SimTime at;  // simulation time of the step that took the input or made the output
   std::string channel;
   std::vector<std::uint8_t> bytes;
 };
@@ -52,36 +54,36 @@ class MessageJournal {
     SimDuration kept;  // above 0
     std::vector<Family> keep_last;
     std::vector<std::string> keep_all;  // channels
-    // Of all that the steps depend on: what was written with another one is not inherited.
+    // Digest of everything that the steps depend on; entries written with another digest are not inherited.
     std::uint64_t digest = 0;
   };
-  // Reads what an earlier incarnation left at `rule.path`. Throws InvalidArgument when it cannot be written,
-  // is another file, or another process has it.
+  // Reads the entries that an earlier incarnation left at `rule.path`. Throws InvalidArgument when the file
+  // cannot be written, is not a journal, or is used by another process.
   explicit MessageJournal(Rule rule);
   MessageJournal(const MessageJournal&) = delete;
   MessageJournal& operator=(const MessageJournal&) = delete;
 
-  // What the earlier incarnation left, by time; moved out, once.
+  // Entries of the earlier incarnation, by time. Moved out; call once.
   std::vector<JournalledMessage> take_inherited() { return std::move(inherited_); }
 
-  // Whether a journal was there that is not inherited.
+  // True when a journal of another run was found; it is not inherited.
   bool is_of_another_run() const { return is_of_another_run_; }
-  // Whether the last input of each flow of the channel is kept.
+  // True when the last input of each flow of the channel is kept.
   bool keeps_last(std::string_view channel) const;
-  // Bytes of the earlier incarnation's files that were no whole entry; flipped bits that were set right
-  // (journal_file.h).
+  // Bytes in the earlier incarnation's files that were no complete entry, and flipped bits that were
+  // corrected (journal_file.h).
   std::size_t bytes_damaged() const { return bytes_damaged_; }
   std::size_t bits_mended() const { return bits_mended_; }
-  // The disk refused an entry; nothing more is written.
+  // True when the disk refused an entry; nothing more is written.
   bool is_given_up() const { return file_ == nullptr; }
 
   // Keeps a received message in memory until the step that takes it.
   void add_input(std::string_view channel, const void* data, std::size_t size);
-  // Writes the inputs added since, as taken at `now`; before them the latest step without any, if it came
-  // after what was written last: what it did, it did before it knew them.
+  // Writes the inputs added since the last call, as taken at `now`. If the latest step had no inputs and came
+  // after the last entry, it is written first, because it did not know these inputs.
   void write_inputs(SimTime now);
   void write_output(SimTime now, std::string_view channel, std::vector<std::uint8_t> bytes);
-  // Another run: forgets everything but the inputs added since the last step.
+  // Another run has begun: discards everything except the inputs added since the last step.
   void clear();
 
  private:
@@ -100,8 +102,8 @@ class MessageJournal {
   SimTime file_begins_ = SimTime::never();
   std::optional<SimTime> idle_step_;
   std::vector<JournalledMessage> inherited_, inputs_;
-  std::map<std::string, std::vector<JournalledMessage>>
-      kept_last_;  // by channel: of each session, the latest last
+  // By channel: the last input of each session, the latest at the end.
+  std::map<std::string, std::vector<JournalledMessage>> kept_last_;
   std::deque<JournalledMessage> kept_all_;
 };
 

@@ -17,7 +17,7 @@ namespace {
 constexpr SimDuration kStatusPeriod = SimDuration::from_milliseconds(1000);
 constexpr SimDuration kLatenessReported = SimDuration::from_milliseconds(60'000);
 
-// A message that was published: channel, session and sequence of its flow, bytes.
+// A published message: channel, session and sequence of its flow, bytes.
 using Published = std::tuple<std::string, std::int64_t, std::int64_t, Bytes>;
 }  // namespace
 
@@ -95,7 +95,7 @@ void Node::check_run(const Now& now) {
   bus_.log().info("resumed", "from_t=" + std::to_string(from.seconds()));
 }
 
-// Publishes what `publish_all` does, after the state that follows from it is on disk.
+// Publishes the messages of `publish_all` after the state that results from it is on disk.
 void Node::commit(const Now& now, const std::function<void()>& publish_all) {
   publish_after_journal(now, publish_all);
   on_committed();
@@ -118,12 +118,12 @@ void Node::publish_after_journal(const Now& now, const std::function<void()>& pu
   const bool has_more = on_wants_commit();
   if (outputs.empty() && !has_more) return;
   write_journal(now.sim);
-  bus_.counters().sent -= static_cast<std::int64_t>(outputs.size());  // counted when they were collected
+  bus_.counters().sent -= static_cast<std::int64_t>(outputs.size());  // were counted when collected
   for (const auto& [channel, bytes] : outputs) bus_.publish_bytes(channel, bytes.data(), bytes.size());
 }
 
-// The last message of each flow stays available for repair: the journal keeps those of all flows that it was
-// told of.
+// The last message of each flow must stay available for repair; a record holds those of all flows that
+// changed since the previous record.
 void Node::write_journal(SimTime now) {
   const bool is_whole = journal_->wants_whole();
   Archive published;

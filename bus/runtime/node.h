@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A node: the thin adapter between the bus and a pure core. Handlers store; a step computes and publishes.
+// Node: the thin adapter between the bus and a model without side effects. Handlers store messages; a step
+// computes and publishes.
 //
 // A node never reads a clock. Its runner (run_node, LockstepRunner, a test) dispatches LCM, queries when the
-// node is due, and calls step with the time. Results depend on simulation time; steady time is for the
-// process alone: time-outs of requests, STATUS. Under lockstep the two are the same.
+// node is due, and calls step() with the time. Results depend only on simulation time. Steady time serves the
+// process: time-outs of requests, STATUS. In lockstep the two are the same.
 #pragma once
 
 #include <algorithm>
@@ -28,20 +29,20 @@
 
 namespace halocline::bus {
 
-// The instant of a step: simulation time, and the process' steady time (since its start, never set back).
+// Instant of a step: simulation time, and the process's steady time (since its start, never decreasing).
 struct Now {
   SimTime sim;
   SimTime steady;
   bool sim_known = true;  // false until the process has learnt the simulation time; sim is 0 then
-  // The simulation time by the process' source. Later than `sim` while the node catches up: others may be
-  // there already.
+  // Simulation time by the process's time source. Later than `sim` while the node catches up; other nodes may
+  // already be there.
   SimTime clock = SimTime::at_once();
   SimTime latest() const { return std::max(sim, clock); }
 };
 
-// When a node is next to be stepped: at the earlier of the two. SimTime::at_once() while work is waiting that
-// does not depend on simulation time (answering a query). A node that is due at a steady time is stepped then
-// also before simulation time is known (Now::sim_known).
+// Time of a node's next step: the earlier of the two. SimTime::at_once() while work is waiting that does not
+// depend on simulation time (the answer to a query). A node that is due at a steady time is stepped then even
+// if simulation time is unknown (Now::sim_known).
 struct Due {
   SimTime sim = SimTime::never();
   SimTime steady = SimTime::never();
@@ -51,7 +52,7 @@ class Node {
  public:
   using ChannelTest = std::function<bool(std::string_view channel)>;
 
-  // Subscriptions are made by the derived constructors; nothing is published before the first step.
+  // Derived constructors make the subscriptions; nothing is published before the first step.
   Node(lcm::LCM& lcm, NodeIdentity identity) : bus_(lcm, std::move(identity)) {}
   virtual ~Node() = default;
   Node(const Node&) = delete;
@@ -60,40 +61,39 @@ class Node {
   const std::string& name() const { return bus_.identity().name; }
   const BusCounters& counters() const { return bus_.counters(); }
 
-  // For a node on a bus that loses datagrams, once, before its first step (Bus::enable_repair).
+  // For a node on a bus that loses datagrams: call once, before its first step (Bus::enable_repair).
   void enable_repair() { bus_.enable_repair(); }
   bool has_repair() const { return bus_.flow_repair() != nullptr; }
-  // Keeps its state in `journal` from now on, and first takes up what an earlier incarnation left there: it
-  // goes on from that state, with its numbers. Once, after enable_repair(), before anything is received; of a
-  // node that was made with the session in the journal. Throws InvalidArgument when the state is another
-  // node's.
+  // Keeps the node's state in `journal` from now on, after restoring the state that an earlier incarnation
+  // left there: the node continues from that state, with its sequence numbers. Call once, after
+  // enable_repair() and before anything is received, for a node that was made with the session in the
+  // journal. Throws InvalidArgument when the state is another node's.
   //
-  // What a step publishes goes out once the state that follows from it is on disk (output commit: Elnozahy,
-  // Alvisi, Wang and Johnson 2002, "A survey of rollback-recovery protocols in message-passing systems",
-  // section 2.4). So the next incarnation contradicts nothing that was received of this one; what this one
-  // received since its last step is lost, as if it had been killed before.
+  // The messages of a step are published after the state that follows from it was written (output commit:
+  // Elnozahy, Alvisi, Wang and Johnson 2002, "A survey of rollback-recovery protocols in message-passing
+  // systems", section 2.4). The next incarnation therefore contradicts none of this one's messages. Messages
+  // received since the last step are lost, as if the node had been killed before it received them.
   void keep_state_in(std::unique_ptr<StateJournal> journal);
-  // Messages handled from now on were received at this steady time. `is_behind`: more are waiting than were
-  // handled, so that it requests no repairs, which would come on top.
+  // Messages handled from now on were received at this steady time. `is_behind`: more messages are waiting
+  // than were handled, so the node requests no repairs, which would add to them.
   void set_steady(SimTime steady, bool is_behind = false) {
     bus_.set_steady(steady);
     is_behind_ = is_behind;
   }
-  // Results that go out more than `limit` after their instant, by this clock, are late.
+  // Sets the clock of lateness: results published more than `limit` after their instant are late.
   void set_clock(LatenessWatch::Clock clock, SimDuration limit) {
     bus_.lateness().set_clock(std::move(clock), limit);
   }
-  // Test for messages that are missing and may still be repaired.
+  // True when messages are missing that may still be repaired.
   bool misses_messages() const { return bus_.num_missing() > 0; }
-  // True of a node whose results depend on all that others have published up to their instant: after a halt
-  // of its process it goes on once what it missed has been repaired.
+  // True for a node whose results depend on everything that others have published up to their instant. After
+  // a halt of its process it continues once the missing messages have been repaired.
   virtual bool waits_for_repair() const { return false; }
-  // So many CLOCKs of a second conductor, and leaps of the first without a witness, were refused since the
-  // last call.
+  // Adds the number of CLOCKs refused since the last call: those of a second conductor, and unconfirmed leaps
+  // of the first.
   void count_refused_clocks(std::int64_t count);
   Stage stage() const { return bus_.identity().stage; }
-  // Its subscriptions, what it receives by them, and the destination of its messages, for a runner that
-  // delivers in LCM's place (bus.h).
+  // Subscriptions, reception and destination of messages, for a runner that delivers in LCM's place (bus.h).
   const std::vector<Subscribed>& subscribed() const { return bus_.subscribed(); }
   std::vector<std::size_t> subscribed_to(std::string_view channel) const {
     return bus_.subscribed_to(channel);
@@ -106,49 +106,49 @@ class Node {
   void set_route(Bus::Route route) { bus_.set_route(std::move(route)); }
 
   Due due() const;
-  // When it is due in lockstep, where steady time is simulation time.
+  // Returns when the node is due in lockstep, where steady time is simulation time.
   SimTime lockstep_due() const;
-  // In lockstep: it publishes nothing before this on channels for which `matters`, unless it receives
-  // something of others than services (lockstep_schedule.h); later than when it is due where it steps without
-  // publishing on them.
+  // Returns the node's lookahead in lockstep: it publishes nothing before this time on channels for which
+  // `matters` is true, unless it receives a message that is not a service's (lockstep_schedule.h). It is
+  // later than the due time if the node steps without publishing on these channels.
   SimTime quiet_until(const ChannelTest& matters) const;
-  // due() keeps what it was until a message that may advance it, or a call of the runner; this says that
-  // something else has changed it.
+  // Invalidates the cached due(), which otherwise changes only with a message that may advance it, or a call
+  // of the runner. Call it when something else has changed the due time.
   void note_due_changed() { known_due_.reset(); }
-  // A file descriptor that is readable when the node has something to do besides messages and its due time;
-  // -1: none. A runner in real time watches it and calls note_due_changed().
+  // Returns a file descriptor that is readable when the node has work besides messages and its due time; -1:
+  // none. A runner in real time watches it and calls note_due_changed().
   virtual int ready_file() const { return -1; }
-  // Rethrows what a handler threw; computes and publishes all that is due; then STATUS when a second has
-  // passed.
+  // Rethrows what a handler threw; computes and publishes everything that is due; then publishes STATUS if a
+  // second has passed.
   void step(const Now& now);
   // Another run has begun at `now`.
   void restart(const Now& now);
-  // The last step: publishes what remains, then a final STATUS.
+  // Last step: publishes remaining messages, then a final STATUS.
   void stop(const Now& now);
-  // After stop(), on a bus that loses datagrams: announces the last number of each flow where `announces`,
-  // answers who misses any, and requests what it misses itself. Returns whether somebody requested anything
-  // since the last call.
+  // Repairs after stop(), on a bus that loses datagrams: announces the last number of each flow if
+  // `announces`, answers repair requests, and requests what the node itself misses. Returns true if anybody
+  // has requested a message since the last call.
   bool repair_after_stop(const Now& now, bool announces);
-  // Whether it misses something that it may not end without.
+  // True when the node misses messages without which it must not end.
   virtual bool wants_repair() const { return false; }
 
  protected:
   virtual Due on_due() const = 0;
-  // As quiet_until(), but for STATUS; a channel of a family is tested by any of its names. at_once(): when it
-  // is due.
+  // As quiet_until(), except for STATUS; a channel of a family may be tested by any of its names. at_once():
+  // the node has no lookahead beyond its due time.
   virtual SimTime on_quiet_until(const ChannelTest& /*matters*/) const { return SimTime::at_once(); }
   virtual void on_step(const Now& now) = 0;
   virtual void on_stop(const Now& /*now*/) {}
-  // Simulation time jumped back: another run has begun. Discard what was received of the old one.
+  // Simulation time jumped back: another run has begun. Discard the messages received in the old one.
   virtual void on_restart(const Now& /*now*/) {}
-  // What the next incarnation needs in order to go on from here, saved and loaded. After loading the first
-  // step may be any time later.
+  // Saves and loads the state from which the next incarnation continues. The first step after loading may be
+  // at any later time.
   virtual void on_archive(Archive& /*a*/) {}
-  // True where a step that published nothing has changed what the journal is to hold before on_committed().
+  // True if a step that published nothing has changed state that the journal must hold before on_committed().
   virtual bool on_wants_commit() { return false; }
-  // After a step: what follows from it is on disk. For what a node sends by other ways than the bus.
+  // Called after a step whose resulting state is on disk, for output that does not go over the bus.
   virtual void on_committed() {}
-  // One line for a person, for STATUS.
+  // Returns one line of text for STATUS.
   virtual std::string status_text() const = 0;
 
   Bus& bus() { return bus_; }
@@ -166,17 +166,17 @@ class Node {
   const Due& known_due() const;
 
   Bus bus_;
-  mutable std::optional<Due> known_due_;  // on_due(), until that may have changed
+  mutable std::optional<Due> known_due_;  // cached on_due(), until it may have changed
   mutable std::int64_t wakeups_at_due_ = 0;
   SimTime next_status_, next_lateness_report_;  // steady
   std::int64_t status_sequence_ = 0;
   bool is_behind_ = false;
   std::int64_t requests_seen_ = 0;  // by repair_after_stop()
   std::unique_ptr<StateJournal> journal_;
-  bool has_journal_ = true;              // the disk takes it
-  Archive saved_;                        // what went to the journal last
-  std::uint64_t published_saved_ = 0;    // messages whose flows are in the journal (FlowHistory::published)
-  std::optional<SimTime> resumed_from_;  // until the first step
+  bool has_journal_ = true;              // false once the disk refused a record
+  Archive saved_;                        // state in the last journal record
+  std::uint64_t published_saved_ = 0;    // value of FlowHistory::published() at the last journal record
+  std::optional<SimTime> resumed_from_;  // set until the first step
 };
 
 }  // namespace halocline::bus

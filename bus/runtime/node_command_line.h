@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line that all node programs share.
+// Command line common to all node programs.
 #pragma once
 
 #include <cstdint>
@@ -17,27 +17,27 @@
 
 namespace halocline::bus {
 
-// The settings of the command line and the scenario file.
+// Settings from the command line and the scenario file.
 struct NodeRun {
   NodeIdentity identity;
   Scenario scenario;
-  std::shared_ptr<ConfigFile> file;  // null without one
+  std::shared_ptr<ConfigFile> file;  // null if none is given
   std::string lcm_url;               // empty: the default
   std::string sync_url;
   TimeSourceKind time_source = TimeSourceKind::kConductor;
   LogLevel log_level = LogLevel::kInfo;
-  std::string journal;              // where the node keeps its state; empty: nowhere
+  std::string journal;              // path of the node's state journal; empty: none
   std::uint64_t config_digest = 0;  // of the version and the effective configuration
 };
 
-// Empty when the command line only requested output (--help, --example, --interface, --version,
+// Returns nothing when the command line only requested output (--help, --example, --interface, --version,
 // --print-config), which was printed. Throws InvalidArgument for a wrong command line and ConfigErrors for a
 // wrong file.
 [[nodiscard]] std::optional<NodeRun> parse_node_command_line(int argc, char** argv,
                                                              const NodeProgram& program);
 
-// "i/n" of an option, part i of n, as settings of two keys of the scenario. Throws InvalidArgument that names
-// what is allowed.
+// Converts the value "i/n" of an option (part i of n) to settings of two keys of the scenario. Throws
+// InvalidArgument that names the permitted values.
 std::vector<std::string> part_settings(const std::string& option, const std::string& value,
                                        const std::string& index_key, const std::string& count_key);
 

@@ -33,7 +33,7 @@ namespace {
 // Set in a signal handler, read by any thread.
 std::atomic<bool> stop_signal_seen = false, interrupt_seen = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
-// Ends the process when it has not ended by itself 0.9 s after the first signal.
+// Deadline that ends the process if it is still running 0.9 s after the first signal.
 std::atomic<bool> has_deadline = false;
 std::atomic<int> exit_code_at_deadline = 0;
 timer_t deadline_timer;
@@ -45,7 +45,7 @@ void on_stop_signal(int number) {
   timer_settime(deadline_timer, 0, &once, nullptr);
 }
 
-// Calls only what a signal handler may.
+// Calls only async-signal-safe functions.
 void on_deadline(int) {
   constexpr std::string_view kWords = "stopped in the middle of a step\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, kWords.data(), kWords.size());
@@ -63,23 +63,23 @@ void stop_by_deadline(int exit_code) {
   has_deadline = timer_create(CLOCK_MONOTONIC, &event, &deadline_timer) == 0;
 }
 
-// Longest sleep: a stop requested by other means than a signal is seen within this.
+// Longest sleep; a stop requested by other means than a signal is noticed within this time.
 constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(100);
 constexpr SimDuration kMemoryPeriod = SimDuration::from_milliseconds(60'000);
-// Messages dispatched between two steps at most, so that a flood cannot keep a node from its steps.
+// Maximum number of messages dispatched between two steps, so that a flood cannot keep a node from its steps.
 constexpr int kMaxMessagesPerTurn = 2000;
 
-// Handles what the bus has delivered when a stop is requested: until it is silent for a moment, since LCM's
-// own thread hands over the messages of the socket one by one. Other nodes may never be silent: for 0.3 s at
-// most.
+// Handles delivered messages when a stop is requested, until the bus has been silent for a moment, as LCM's
+// own thread passes on the messages of the socket one by one. Other nodes may never be silent, so it takes at
+// most 0.3 s.
 void dispatch_until_silent(lcm::LCM& lcm) {
   const SimTime end = steady_now() + SimDuration::from_milliseconds(300);
   while (steady_now() < end && lcm.handleTimeout(100) > 0) {
   }
 }
 
-// Repair after the last step: where a datagram of the last messages was lost, they would be lost with their
-// publisher. Until nobody has requested anything for kQuiet, or `end`.
+// Repairs after the last step: without it, lost datagrams of the last messages could not be repaired. Lasts
+// until nobody has requested anything for kQuiet, or until `end`.
 void repair_after_stop(lcm::LCM& lcm, Node& node, Now now, SimTime end) {
   constexpr SimDuration kQuiet = SimDuration::from_milliseconds(250);
   SimTime quiet_since = steady_now(), next = quiet_since;
@@ -92,31 +92,31 @@ void repair_after_stop(lcm::LCM& lcm, Node& node, Now now, SimTime end) {
   }
 }
 
-// A signal ends it.
+// Sleeps; a signal ends the sleep.
 void sleep_for(SimDuration duration) {
   if (duration <= SimDuration()) return;
   const timespec time{0, duration.nanoseconds()};
   nanosleep(&time, nullptr);
 }
 
-// Gives what bursts left free back to the system once a minute, so that memory is what the node needs.
+// Returns free memory to the system once a minute, so that the process holds only what the node needs.
 void give_back_memory(SimTime steady, SimTime& due) {
   if (steady < due) return;
   due = steady + kMemoryPeriod;
   malloc_trim(0);
 }
 
-// The steady time of the next step; at_once() for a node that is due at once.
+// Returns the steady time of the next step; at_once() for a node that is due at once.
 SimTime wake_time(const Node& node, const TimeSource& time) {
   const Due due = node.due();
   return due.sim == SimTime::at_once() ? due.sim : std::min(due.steady, time.steady_at(due.sim));
 }
 
-// Processor time of the process, all threads; POSIX counts microseconds.
+// Returns the processor time of the process, all threads; POSIX counts microseconds.
 SimDuration processor_time() { return SimDuration::from_microseconds(std::clock()); }
 
-// The time of a node's steps. It catches up with its source by slices, between which the node handles
-// messages and the process signals.
+// Time of a node's steps. It catches up with its source by slices, between which the node handles messages
+// and the process handles signals.
 class NodeTime {
  public:
   NodeTime(Node& node, TimeSource& source) : node_(node), source_(source) {}
@@ -155,7 +155,7 @@ class NodeTime {
   }
 
  private:
-  // A step took so long: the next slice is halved or doubled towards kAim.
+  // Halves or doubles the next slice so that a step takes about kAim, given the duration of the last step.
   void adapt_slice(SimDuration took) {
     constexpr SimDuration kAim = SimDuration::from_milliseconds(100);
     constexpr SimDuration kShortest = SimDuration::from_milliseconds(10);
@@ -173,7 +173,7 @@ class NodeTime {
   std::int64_t refused_ = 0;
 };
 
-// In lockstep a node is on a bus of its own, and its identity is the same in every run.
+// In lockstep a node has a bus of its own, and its identity is the same in every run.
 int run_in_lockstep(const NodeRun& run, const NodeProgram& program) {
   lcm::LCM memq("memq://");
   const NodeIdentity identity{run.identity.name, session_of(run.scenario.seed, run.identity.name),
@@ -193,13 +193,12 @@ int run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& l
   NodeIdentity identity = run.identity;
   if (!run.journal.empty()) {
     journal = std::make_unique<StateJournal>(run.journal, run.config_digest);
-    if (journal->inherited()) identity.session = journal->inherited()->session;  // its flows go on
+    if (journal->inherited()) identity.session = journal->inherited()->session;  // continues its flows
   }
   const NodeProgram::Context context{*lcm,  identity,       run.scenario,      run.sync_url,
                                      false, run.file.get(), run.config_digest, url};
   if (program.run_otherwise && program.run_otherwise(context)) return 0;
-  ReceiveFilter filter(*lcm, url,
-                       accepted_hosts(run.scenario.accept, url));  // before anything is subscribed to
+  ReceiveFilter filter(*lcm, url, accepted_hosts(run.scenario.accept, url));  // before any subscription
   const auto time = program.make_time_source ? program.make_time_source(context)
                                              : make_time_source(run.time_source, *lcm, run.identity.name,
                                                                 wall_now() - (steady_now() - SimTime()));
@@ -240,7 +239,7 @@ void catch_stop_signals() {
   action.sa_handler = on_stop_signal;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  struct sigaction before {};  // of a terminal that is closed; nohup ignores it
+  struct sigaction before {};  // SIGHUP of a closed terminal; nohup ignores it
   sigaction(SIGHUP, nullptr, &before);
   if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
 }
@@ -249,10 +248,10 @@ bool stop_requested() { return stop_signal_seen; }
 
 bool interrupt_requested() { return interrupt_seen; }
 
-// The signals are let in only while sleeping, so that none slips by between the check and the sleep.
+// Signals are unblocked only while sleeping, so that none is missed between the check and the sleep.
 Readable wait_for_bus(lcm::LCM& lcm, SimTime wake, int other_file) {
   const SimDuration left = std::min(std::max(wake, steady_now()) - steady_now(), kLongestSleep);
-  std::array<pollfd, 2> files{{{lcm.getFileno(), POLLIN, 0}, {other_file, POLLIN, 0}}};  // below 0: ignored
+  std::array<pollfd, 2> files{{{lcm.getFileno(), POLLIN, 0}, {other_file, POLLIN, 0}}};  // negative: ignored
   sigset_t blocked, before;
   sigemptyset(&blocked);
   sigaddset(&blocked, SIGINT);
@@ -298,7 +297,7 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
   MessageBatches batches;
   SimTime memory_due = steady_now() + kMemoryPeriod;
   bool is_behind = false;
-  SimTime emptied = steady_now();  // when nothing waited on the bus
+  SimTime emptied = steady_now();  // time at which no message was waiting
   while (!should_stop()) {
     if (filter != nullptr) filter->follow(&node.receives(), time.receives());
     const SimTime wake = node_time.wake();

@@ -25,7 +25,7 @@
 namespace halocline::bus {
 namespace {
 
-constexpr std::size_t kMaxInstructions = 2048;  // of channels; the kernel takes 4096 together
+constexpr std::size_t kMaxInstructions = 2048;  // limit for channels; the kernel's is 4096 in all
 
 std::uint32_t number_at(std::string_view text, std::size_t at, std::size_t bytes) {
   std::uint32_t value = 0;
@@ -33,8 +33,9 @@ std::uint32_t number_at(std::string_view text, std::size_t at, std::size_t bytes
   return value;
 }
 
-// Passes datagrams whose channel is `text` with its 0; where there is no 0, its last step jumps for those
-// whose channel begins so. Others fall through.
+// Appends a comparison that passes datagrams whose channel is `text` with its terminating 0. If `text` has no
+// 0, the last statement is a jump, taken for channels that begin with `text`. Other datagrams continue after
+// it.
 void append_comparison(std::string_view text, FilterProgram& program) {
   FilterProgram steps;
   const auto end = static_cast<std::uint32_t>(kShortChannelAt + text.size());
@@ -65,7 +66,7 @@ bool is_bound_to(int socket, std::uint16_t port) {
          address.sin_family == AF_INET && ntohs(address.sin_port) == port;
 }
 
-// Sockets of the process that are bound to the port. LCM does not tell its own.
+// Returns the sockets of the process that are bound to the port; LCM does not reveal its own.
 std::vector<int> sockets_at(std::uint16_t port) {
   std::vector<int> found;
   std::error_code error;
@@ -79,12 +80,12 @@ std::vector<int> sockets_at(std::uint16_t port) {
 std::vector<int> receiving_sockets(lcm::LCM& lcm, const std::string& url) {
   const auto port = port_of(url);
   if (!port || !url.starts_with("udpm://")) return {};
-  lcm.getFileno();  // begins to receive
+  lcm.getFileno();  // makes LCM open its socket
   return sockets_at(*port);
 }
 
-// For short messages: returns where the channel is one of these or none of them, and goes on at its end
-// where it begins with one. Empty where every channel has to pass.
+// Filter for short messages: passes those whose channel is in `expressions`, drops those that match nothing,
+// and continues after its end for those that begin with a prefix. Empty if every channel has to pass.
 FilterProgram channel_program(const std::multiset<std::string>& expressions) {
   std::set<std::string> texts;
   for (const std::string& expression : expressions) {
@@ -105,10 +106,10 @@ FilterProgram channel_program(const std::multiset<std::string>& expressions) {
   return program.size() <= kMaxInstructions ? program : FilterProgram();
 }
 
-// Goes on behind itself for accepted hosts, and leaves out the others. Empty for any host.
+// Filter that continues after its end for accepted hosts and drops others. Empty if any host is accepted.
 FilterProgram host_program(const AcceptedHosts& hosts) {
   constexpr std::uint32_t kPacketType = SKF_AD_OFF + SKF_AD_PKTTYPE, kInterface = SKF_AD_OFF + SKF_AD_IFINDEX;
-  constexpr std::uint32_t kSource = SKF_NET_OFF + 12;  // of the IP header
+  constexpr std::uint32_t kSource = SKF_NET_OFF + 12;  // source address in the IP header
   if (hosts.any) return {};
   FilterProgram program;
   std::vector<std::size_t> ways_on;
@@ -118,7 +119,7 @@ FilterProgram host_program(const AcceptedHosts& hosts) {
     program.push_back(filter_statement(BPF_JMP | BPF_JA, 0));
   };
   program.push_back(filter_statement(BPF_LD | BPF_W | BPF_ABS, kPacketType));
-  go_on_if(PACKET_LOOPBACK);  // multicast of this host's
+  go_on_if(PACKET_LOOPBACK);  // multicast of this host
   program.push_back(filter_statement(BPF_LD | BPF_W | BPF_ABS, kInterface));
   go_on_if(if_nametoindex("lo"));
   for (const AcceptedHosts::Range& range : hosts.ranges) {
@@ -131,7 +132,7 @@ FilterProgram host_program(const AcceptedHosts& hosts) {
   return program;
 }
 
-// "10.0.3.7" or "10.0.3.0/24".
+// Parses "10.0.3.7" or "10.0.3.0/24".
 AcceptedHosts::Range range_of(const std::string& word) {
   constexpr std::size_t kMaxBits = 32;
   const std::string trimmed = word.substr(0, word.find_last_not_of(' ') + 1);
@@ -152,7 +153,7 @@ AcceptedHosts::Range range_of(const std::string& word) {
 }  // namespace
 
 AcceptedHosts accepted_hosts(const std::string& text, const std::string& url) {
-  const std::size_t ttl = url.find("ttl=");  // 0 where it is not given
+  const std::size_t ttl = url.find("ttl=");  // LCM's default is 0
   const bool leaves_host = ttl != std::string::npos && !url.substr(ttl).starts_with("ttl=0");
   if (text == "any" || (text.empty() && leaves_host)) return {};
   AcceptedHosts hosts{.any = false, .ranges = {}};
@@ -175,7 +176,7 @@ ReceiveFilter::ReceiveFilter(lcm::LCM& lcm, const std::string& url, AcceptedHost
   const std::vector<int> sockets = receiving_sockets(lcm, url);
   const FilterProgram for_all = receive_program({".*"}, hosts_);
   const bool is_network =
-      url.starts_with("udpm://") && lcm.getFileno() >= 0;  // else there is nothing to receive
+      url.starts_with("udpm://") && lcm.getFileno() >= 0;  // otherwise there is nothing to receive
   bool is_attached = !sockets.empty() || !is_network;
   for (const int socket : sockets) is_attached = attach_filter(socket, for_all) && is_attached;
   if (!is_attached) warn_of_missing_filter();
@@ -195,9 +196,10 @@ void ReceiveFilter::follow(const Subscriptions* first, const Subscriptions* seco
   attach(expressions);
 }
 
-// The kernel grants a socket some memory for filters (net.core.optmem_max, 20 kB before Linux 6.7), of
-// which the one before takes its part until it is replaced: by one that drops everything, for some
-// microseconds. Where channels are too many, LCM itself discards what nobody wants.
+// The kernel grants a socket some memory for filters (net.core.optmem_max, 20 kB before Linux 6.7), and the
+// previous filter occupies part of it until it is replaced. If the new filter does not fit, the previous one
+// is replaced first by a filter that drops everything, for some microseconds. If there are too many channels,
+// LCM itself discards unwanted messages.
 void ReceiveFilter::attach(const std::multiset<std::string>& expressions) {
   const FilterProgram program = receive_program(expressions, hosts_);
   if (attach_filter(socket_, program)) return;

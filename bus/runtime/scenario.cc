@@ -54,7 +54,7 @@ void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   vehicle.battery = battery;
 }
 
-// Names folders and files.
+// The name is used for folders and files.
 bool is_valid_scenario_name(std::string_view name) {
   constexpr std::size_t kLongest = 64;
   const auto allowed = [](char c) {
@@ -83,7 +83,7 @@ void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {
   });
 }
 
-// The keys belong to the bathymetry service. They are looked at here so that whoever records the
+// The keys belong to the bathymetry service. They are visited here so that a program that records the
 // configuration knows the files that they name.
 void look_at_rasters(ConfigVisitor& v) {
   FilePath path;
@@ -101,11 +101,12 @@ void look_at_rasters(ConfigVisitor& v) {
           nested.section("raster", "", look);
         });
   };
-  // Their owner says whether they count.
+  // The bathymetry service decides whether these keys apply.
   v.when(false, "the bathymetry service", [&] { v.section("terrain", "", look_in); });
 }
 
-// Two vehicles with one name would publish on one channel; with one id, they would be one to all others.
+// Two vehicles with the same name would publish on the same channel; with the same id, other vehicles could
+// not tell them apart.
 class VehicleChecks {
  public:
   void check(ConfigVisitor& v, const std::vector<VehicleEntry>& vehicles, std::size_t index) {
@@ -173,7 +174,7 @@ void visit(ConfigVisitor& v, Scenario& s) {
             [&](ConfigVisitor& section) { visit_ocean(section, s.ocean); });
   if (!v.writing()) {
     look_at_rasters(v);
-    // The key is the channel server's.
+    // The key belongs to the channel server.
     v.section("channel_server", "", [&](ConfigVisitor& section) {
       section.shared_with_others();
       seconds(section, "state_lag_s", s.state_lag, {0, 10, "s", ""});

@@ -23,14 +23,15 @@ constexpr std::string_view kHeader = "HALOCLINE STATE2";
 constexpr std::uint64_t kGrowth = 4, kLeastFileBytes = 64 << 10;
 constexpr std::uint64_t kMaxParts = 1 << 20;
 
-// A record holds a head, the state without its parts, the list of parts, their bytes, and the additions.
+// A record holds a head, the state without its parts, the list of parts, the bytes of the parts, and the
+// additions.
 struct Head {
-  std::uint64_t check_sum = 0;  // of all that follows
+  std::uint64_t check_sum = 0;  // of all bytes after it
   std::uint64_t digest = 0, number = 0;
   std::int64_t session = 0;
   SimTime at;
   std::uint64_t is_whole = 0;
-  std::array<std::uint64_t, 4> sizes = {};  // of what follows the head, bytes
+  std::array<std::uint64_t, 4> sizes = {};  // of the pieces after the head, bytes
 
   std::uint64_t size_of_body() const {
     std::uint64_t sum = 0;
@@ -45,7 +46,7 @@ View bytes_of(std::span<const T> values) {
   return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size_bytes()};
 }
 
-// XXH3, each piece with the hash of those before as its seed.
+// XXH3; each piece is hashed with the hash of the previous pieces as its seed.
 std::uint64_t check_sum(const Head& head, std::span<const View> body) {
   std::uint64_t sum = xxh3(bytes_of(std::span(&head, 1)).subspan(sizeof head.check_sum));
   for (const View piece : body) sum = xxh3(piece, sum);
@@ -57,7 +58,7 @@ struct Record {
   std::array<View, 4> body;
 };
 
-// The record at the beginning of `file`; empty where no whole one is.
+// Returns the record at the beginning of `file`; nothing if there is no complete one.
 std::optional<Record> read_record(View file) {
   Record record;
   if (file.size() < sizeof record.head) return std::nullopt;
@@ -95,11 +96,12 @@ void take(const Record& record, StateJournal::Saved& saved) {
 }
 
 struct Found {
-  std::uint64_t number = 0;  // of the last record
+  std::uint64_t number = 0;  // number of the last record
   StateJournal::Saved saved;
 };
 
-// What the records of a file come to. Behind them may be older ones, of what the file held before.
+// Combines the records of a file. They may be followed by older ones, left over from the previous use of the
+// file.
 std::optional<Found> read(View file, std::uint64_t digest) {
   file = file.subspan(std::min(file.size(), kJournalHeaderBytes));
   std::optional<Found> found;
@@ -172,8 +174,8 @@ bool StateJournal::write(std::int64_t session, SimTime at, const Archive& state,
   return true;
 }
 
-// What follows from the state that could not be written is published: no earlier one may be taken up. The
-// files are opened anew, as others may have deleted them.
+// Results of the state that could not be written are published, so no earlier state may be resumed. The files
+// are opened again, as another process may have deleted them.
 void StateJournal::forget() {
   for (int& file : files_) {
     if (file < 0) continue;

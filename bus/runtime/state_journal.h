@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The latest state of a node on disk, from which its next incarnation goes on when this one was killed.
+// State journal: the latest state of a node on disk, from which a restarted node continues.
 //
-// Two files, `path`.0 and `path`.1. A file holds a header (bus/files/journal_file.h) and records, each with a
-// number and a check sum: first a whole one, then what has changed since the record before. When a file has
-// grown to four times its whole record, the other one is begun anew. A kill in the middle of a write leaves
-// all records before it: either those of the same file, or the other file whole. What is written is handed to
-// the kernel before write() returns, so that a killed process loses nothing that it acted upon; a machine
-// that loses power may (nothing is forced to the disk).
+// There are two files, `path`.0 and `path`.1. A file holds a header (bus/files/journal_file.h) and records,
+// each with a number and a check sum: first a complete state, then the changes since the previous record.
+// When a file has grown to four times its complete record, the other file is rewritten. A kill in the middle
+// of a write leaves all previous records intact: either those of the same file, or the complete other file. A
+// record is handed to the kernel before write() returns, so a killed process loses nothing that it acted
+// upon; a machine that loses power may (nothing is forced to the disk).
 #pragma once
 
 #include <array>
@@ -25,30 +25,31 @@ class StateJournal {
  public:
   using Bytes = std::vector<std::uint8_t>;
   struct Saved {
-    std::int64_t session = 0;  // of the node
+    std::int64_t session = 0;  // session of the node
     SimTime at;                // simulation time
     Bytes state;
-    std::vector<Bytes> parts;  // of the state, for Archive
-    Bytes additions;           // of all records since the whole one, one after the other
+    std::vector<Bytes> parts;  // parts of the state, for Archive
+    Bytes additions;           // additions of all records since the complete one, concatenated
   };
 
-  // `digest` of all that the state's meaning depends on: what was saved with another one is not inherited.
-  // Throws InvalidArgument when the files cannot be written, are others, or another process has them.
+  // `digest` is that of everything on which the meaning of the state depends; a state saved with another
+  // digest is not inherited. Throws InvalidArgument when the files cannot be written, are not state journals,
+  // or are used by another process.
   StateJournal(std::string path, std::uint64_t digest);
   ~StateJournal();
   StateJournal(const StateJournal&) = delete;
   StateJournal& operator=(const StateJournal&) = delete;
 
-  // An earlier incarnation left files without a record that can be taken up.
+  // True when an earlier incarnation left files without a usable record.
   bool is_damaged() const { return is_damaged_; }
-  // What an earlier incarnation wrote last.
+  // Last record of an earlier incarnation.
   const std::optional<Saved>& inherited() const { return inherited_; }
 
-  // Whether the next record has to hold all parts of the state, and all additions that are to be kept.
+  // True when the next record has to hold all parts of the state, and all additions that are to be kept.
   bool wants_whole() const { return end_ == 0 || end_ >= max_bytes_; }
-  // `state` is saved with its parts apart (Archive::begin_with_parts). False when the disk refuses it, or
-  // when others deleted or truncated a file: nothing is inherited then, until the next record, a whole one,
-  // is written; the files are made anew.
+  // Saves `state` with its parts separate (Archive::begin_with_parts). Returns false when the disk refuses
+  // the record, or another process deleted or truncated a file. Nothing can be inherited then until the next
+  // record, a complete one, is written; the files are created again.
   [[nodiscard]] bool write(std::int64_t session, SimTime at, const Archive& state,
                            std::span<const std::uint8_t> additions);
 
@@ -59,9 +60,9 @@ class StateJournal {
   std::string path_;
   std::uint64_t digest_, number_ = 0;
   std::array<int, 2> files_ = {-1, -1};
-  std::size_t current_ = 1;  // of the files
-  std::uint64_t end_ = 0,
-                max_bytes_ = 0;  // of the current file; 0: it has no whole record of this incarnation
+  std::size_t current_ = 1;  // index of the current file
+  // Sizes of the current file; end_ is 0 if it has no complete record of this incarnation.
+  std::uint64_t end_ = 0, max_bytes_ = 0;
   bool is_damaged_ = false;
   std::optional<Saved> inherited_;
 };

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
-// The failure of the lowest index.
+// Exception of the lowest index.
 class FirstFailure {
  public:
   void note(std::size_t index) {
@@ -38,7 +38,7 @@ class FirstFailure {
 
 struct ThreadPool::Arena : tbb::task_arena {
   explicit Arena(int threads) : task_arena(threads) {
-    // Else oneTBB warns of, and starts, no more threads than there are cores.
+    // By default oneTBB warns about, and does not start, more threads than there are cores.
     static const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, kMostThreads);
   }
 };

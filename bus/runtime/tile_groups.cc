@@ -26,12 +26,12 @@ namespace {
 
 constexpr std::string_view kScheme = "udpm://";
 
-// Received in a run by the vehicle's own programs, and by those that take every message.
+// Families that only the vehicle's own programs receive, and programs that receive every message.
 constexpr std::array kFamiliesInTiles{channels::kLinks,   channels::kSensors, channels::kDvl,
                                       channels::kGps,     channels::kSonar,   channels::kUsbl,
                                       channels::kBattery, channels::kCommand, channels::kEstimate};
 
-// Of the group of udpm://GROUP:PORT, host byte order.
+// Returns the address of the group of udpm://GROUP:PORT, host byte order.
 std::optional<std::uint32_t> address_of(const std::string& url) {
   in_addr group{};
   if (!url.starts_with(kScheme)) return std::nullopt;

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Multicast groups of tiles of the sea: what only the programs of one vehicle receive reaches only the hosts
-// that run them.
+// Multicast groups of tiles of the sea: messages that only the programs of one vehicle receive reach only the
+// hosts that run them.
 //
-// With tile_m of [bus], the families of kFamiliesInTiles are published on the group of the tile that the
-// vehicle starts in. Tile (i, j) is that of floor(start / tile_m), north and east; its group is number 1 + 8
-// (i mod 8) + (j mod 8), on the port of the bus, and has the address of the bus' group plus that number:
-// tiles that lie eight apart share one. All else is published on the group of the bus, number 0, and so is
-// what belongs to vehicles that the scenario does not name. A channel never changes its group, so sessions,
-// gaps and repairs are as on one group.
+// With tile_m of [bus], the families of kFamiliesInTiles are published on the group of the tile in which the
+// vehicle starts. Tile (i, j) has i = floor(start_north / tile_m) and j = floor(start_east / tile_m). Its
+// group has the number
 //
-// Every program receives the group of the bus, and those of the channels that it subscribes to; whoever
-// subscribes to a whole family receives all. Groups are joined for the host: LCM 1.3.1 gives each of its
-// programs every group of its port that any program has joined (receive_filter.h leaves out what it does not
-// subscribe to). LCM 1.5 receives one group alone, and is refused.
+//   1 + 8 (i mod 8) + (j mod 8)
+//
+// and its address is that of the bus' group plus this number, on the port of the bus: tiles eight apart share
+// a group. All other channels, and those of vehicles that the scenario does not name, are published on the
+// group of the bus, number 0. A channel never changes its group, so sessions, gaps and repairs are as on a
+// single group.
+//
+// Every program receives the group of the bus, and those of the channels that it subscribes to; a program
+// that subscribes to a whole family receives all groups. Groups are joined for the host: LCM 1.3.1 passes
+// every group of its port that any program of the host has joined to each program (receive_filter.h drops
+// unwanted messages). LCM 1.5 receives only one group, and is refused.
 #pragma once
 
 #include <cstdint>
@@ -31,51 +35,51 @@
 
 namespace halocline::bus {
 
-// Memberships in multicast groups, of this host while it lives.
+// Memberships of this host in multicast groups, for the lifetime of the object.
 class GroupMemberships {
  public:
   GroupMemberships() = default;
   ~GroupMemberships();
   GroupMemberships(const GroupMemberships&) = delete;
   GroupMemberships& operator=(const GroupMemberships&) = delete;
-  // `address`: IPv4, host byte order. Throws NetworkError where the kernel refuses it.
+  // `address`: IPv4, host byte order. Throws NetworkError if the kernel refuses it.
   void join(std::uint32_t address);
 
  private:
-  std::vector<int> sockets_;  // each has as many as the kernel allows, 20 by default
+  std::vector<int> sockets_;  // each has as many memberships as the kernel allows, 20 by default
 };
 
 class TileGroups {
  public:
   static constexpr int kSide = 8, kCount = kSide * kSide;
 
-  // For a bus on `url`. Throws InvalidArgument unless it is udpm://GROUP:PORT and has kCount groups after its
-  // own.
+  // For a bus on `url`. Throws InvalidArgument unless it is udpm://GROUP:PORT and kCount multicast addresses
+  // follow its own.
   TileGroups(std::string url, const Scenario& scenario);
 
-  // Of a channel; a repair is of the group of what is repaired.
+  // Returns the group of a channel; a repair has the group of the repaired channel.
   int group_of(std::string_view channel) const;
-  // Those of the tiles whose channels any of the expressions of LCM matches.
+  // Returns the groups of the tiles whose channels match any of the LCM expressions.
   std::set<int> groups_of(const std::vector<Subscribed>& subscribed) const;
   std::string url_of(int group) const;
 
-  // To be published on. `bus`: that of group 0.
+  // Returns the LCM instance to publish on. `bus`: that of group 0.
   lcm::LCM& carrier_of(std::string_view channel, lcm::LCM& bus);
-  // The host receives these from now on. Throws NetworkError.
+  // The host receives these groups from now on. Throws NetworkError.
   void join(const std::set<int>& groups);
-  // All, whatever the scenario: for a program that shows every message of any run. Of a URL without a group
-  // it joins none.
+  // Joins all groups, whatever the scenario, for a program that shows every message of any run. Joins none if
+  // the URL has no group.
   static void join_all(const std::string& url, GroupMemberships& memberships);
 
  private:
   std::string url_;
-  std::uint32_t address_;  // of group 0, host byte order
+  std::uint32_t address_;  // address of group 0, host byte order
   std::map<std::string, int, std::less<>> group_of_vehicle_;
-  std::map<int, std::unique_ptr<lcm::LCM>> carriers_;  // opened when they are first published on
+  std::map<int, std::unique_ptr<lcm::LCM>> carriers_;  // opened when first published on
   GroupMemberships memberships_;
 };
 
-// Throws NetworkError where `lcm`, on `url`, receives its own group alone.
+// Throws NetworkError if `lcm`, on `url`, receives only its own group.
 void require_every_group(lcm::LCM& lcm, const std::string& url);
 
 }  // namespace halocline::bus

@@ -10,10 +10,10 @@ namespace halocline::bus {
 namespace {
 
 constexpr SimDuration kSampleMemory = SimDuration::from_milliseconds(1000);
-// Messages of one moment reach us in any order within far less than this; a log started anew jumps by more.
+// Messages of one moment arrive in any order, but within far less than this; a restarted log jumps by more.
 constexpr SimDuration kJumpBack = SimDuration::from_milliseconds(10'000);
 
-// Saturating: far instants (never, a slow rate) must not overflow.
+// Saturates, so that distant instants (never, a slow rate) do not overflow.
 SimTime to_steady(double seconds) {
   constexpr double kLimit = 9e9;
   return std::abs(seconds) < kLimit ? SimTime::from_seconds(seconds)
@@ -46,7 +46,7 @@ SimTime ConductorTime::received() const {
   return steady_ - std::clamp(*wall_ - bus_.received_at(), SimDuration(), longest_wait_);
 }
 
-// A conductor that keeps no numbers is known by its time alone; one without a session may begin anew in it.
+// Without sequence numbers only the time orders CLOCKs; a conductor without a session may restart in it.
 bool ConductorTime::goes_on(const Heard& before, const sim_clock_t& clock) {
   const bool is_numbered = clock.sequence != 0 || before.clock.sequence != 0;
   return is_numbered ? clock.sequence > before.clock.sequence : clock.utime >= before.clock.utime;
@@ -62,13 +62,13 @@ bool ConductorTime::agree(const Heard& before, const sim_clock_t& clock, SimTime
   const double utime_s =
       (SimTime::from_utime(clock.utime) - SimTime::from_utime(before.clock.utime)).seconds();
   const double leap_s = utime_s - (received - before.received).seconds() * rate;
-  const SimDuration ahead = rate > 0 ? kLeapAhead : kLeap;  // in lockstep it goes by CLOCKs alone
+  const SimDuration ahead = rate > 0 ? kLeapAhead : kLeap;  // in lockstep time advances only with CLOCKs
   return leap_s >= -kLeap.seconds() * std::max(1.0, rate) && leap_s <= ahead.seconds() * std::max(1.0, rate);
 }
 
-// Whether an earlier CLOCK of its session agrees with it; otherwise it waits for one that does.
+// True if an earlier CLOCK of the session agrees with this one; otherwise this one is stored until one does.
 bool ConductorTime::is_witnessed(const sim_clock_t& clock, SimTime received) {
-  constexpr std::size_t kMaxWitnesses = 8;  // anybody can make up sessions
+  constexpr std::size_t kMaxWitnesses = 8;  // bounded, as anybody can invent sessions
   const auto earlier = std::find_if(witnesses_.begin(), witnesses_.end(),
                                     [&](const Heard& one) { return one.clock.session == clock.session; });
   if (earlier != witnesses_.end()) {
@@ -82,7 +82,7 @@ bool ConductorTime::is_witnessed(const sim_clock_t& clock, SimTime received) {
   return false;
 }
 
-// The session is heard as expected: it is followed further, and nothing else is true.
+// The accepted session was heard as expected: it stays accepted, and contradicting CLOCKs are refused.
 void ConductorTime::refuse_unexpected() {
   std::erase_if(witnesses_, [&](const Heard& one) { return one.clock.session == last_->clock.session; });
   const auto refuse = [this](std::int64_t count, std::string_view reason) {

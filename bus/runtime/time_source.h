@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sources of a process's simulation time.
 //
-// Steady time (integer nanoseconds since the process started) and wall time are parameters, never read here.
+// Steady time (integer nanoseconds since the process started) and wall time are parameters; no clock is read
+// here.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,7 @@
 
 namespace halocline::bus {
 
-// Logs once that the time is unknown: after kSilence without the messages that it is taken from.
+// Logs once that the time is unknown: after kSilence without the messages from which it is taken.
 class SilenceWarning {
  public:
   static constexpr SimDuration kSilence = SimDuration::from_milliseconds(3000);
@@ -41,27 +42,27 @@ class SilenceWarning {
 class TimeSource {
  public:
   virtual ~TimeSource() = default;
-  // Called before messages are dispatched: the steady time at which that begins, and the wall time (Unix),
-  // against which LCM's receive stamps give the delay of each message; without it they count as received now.
-  // `longest_wait`: since all had been dispatched before, so that none has waited for longer.
+  // Call before messages are dispatched. `steady` is the steady time at that moment. `wall` is the Unix time,
+  // from which LCM's receive stamps give the delay of each message; without it, messages count as received
+  // now. `longest_wait` is the time since no message was waiting, so that none has waited for longer.
   void set_steady(SimTime steady, std::optional<SimTime> wall = {}, SimDuration longest_wait = kLongestWait) {
     steady_ = steady;
     wall_ = wall;
     longest_wait_ = std::max(longest_wait, kLongestWait);
   }
-  // Simulation time at `steady`; empty while none is known yet. Never goes back unless restarted().
+  // Returns the simulation time at `steady`; nothing while it is unknown. Never decreases unless restarted().
   virtual std::optional<SimTime> now(SimTime steady) = 0;
-  // The steady time at which simulation time will reach `sim`; never() where that is unknown.
+  // Returns the steady time at which simulation time will reach `sim`; never() if that is unknown.
   virtual SimTime steady_at(SimTime sim) const = 0;
-  // True once after simulation time jumped back: another run has begun, state of the old one is void.
+  // True once after simulation time jumped back: another run has begun, and the state of the old one is void.
   [[nodiscard]] virtual bool restarted() { return false; }
-  // How many messages it refused so far because they contradict the time that it follows.
+  // Returns how many messages were refused because they contradict the time of the followed source.
   virtual std::int64_t num_refused() const { return 0; }
-  // What it receives by itself; null: nothing.
+  // Returns the subscriptions of the time source itself; null: none.
   virtual const Subscriptions* receives() const { return nullptr; }
 
  protected:
-  // Longest delay between the network and a handler that is credited to a message of a process that was not
+  // Limit on the delay between network and handler that is assumed for a message, unless the process was
   // halted.
   static constexpr SimDuration kLongestWait = SimDuration::from_milliseconds(100);
   SimTime steady_;
@@ -69,21 +70,24 @@ class TimeSource {
   SimDuration longest_wait_ = kLongestWait;
 };
 
-// Follows the CLOCK of a conductor, and coasts at its last rate when the conductor falls silent.
+// Time of a conductor's CLOCK; extrapolated at its last rate when the conductor falls silent.
 //
-// Each CLOCK carries a simulation time and a rate, and is received after an unknown delay; so the smallest
-// (steady - utime / rate) of the last second is the best estimate of the offset between the clocks.
+// Each CLOCK carries a simulation time and a rate, and is received after an unknown delay. The best estimate
+// of the offset between the clocks is therefore the smallest one of the last second:
 //
-// Anybody may publish CLOCK. A session is taken up when two of its CLOCKs agree: the second tells the time
-// that the first lets expect, to kLeap behind and kLeapAhead ahead (of simulated or of steady time, whichever
-// is longer). It stays until nothing as expected has come of it for kSilence. CLOCKs of other sessions, and
-// of its own that leap or have another rate, are refused until then, and count as refused once it is heard
-// again. Within a session numbers and times rise: an old CLOCK that comes again changes nothing. A restarted
-// conductor goes on from the time of the others, who coast until they take it up.
+//   offset = min(steady - utime / rate),    simulation time = (steady - offset) rate
+//
+// Anybody may publish CLOCK. A session is accepted when two of its CLOCKs agree: the second shows the time
+// expected from the first, within kLeap behind and kLeapAhead ahead (of simulated or steady time, whichever
+// is longer). It stays accepted until no CLOCK as expected has come from it for kSilence. Until then CLOCKs
+// of other sessions, and CLOCKs of its own that leap or change the rate, are not used; they are counted as
+// refused once the session is heard again. Within a session numbers and times rise, so a repeated old CLOCK
+// changes nothing. A restarted conductor continues from the time of the other processes, which extrapolate
+// until they accept it.
 class ConductorTime : public TimeSource {
  public:
   static constexpr SimDuration kSilence = SimDuration::from_milliseconds(3000);
-  // Time that has gone ahead cannot be taken back, so little is believed.
+  // A forward step of the time cannot be undone, so the tolerance ahead is small.
   static constexpr SimDuration kLeap = SimDuration::from_milliseconds(60'000),
                                kLeapAhead = SimDuration::from_milliseconds(5'000);
 
@@ -94,13 +98,13 @@ class ConductorTime : public TimeSource {
   std::int64_t num_refused() const override { return bus_.counters().rivals; }
   const Subscriptions* receives() const override { return &bus_.receives(); }
 
-  // A CLOCK that was received at `received` (steady).
+  // Processes a CLOCK that was received at `received` (steady).
   void on_clock(const sim_clock_t& clock, SimTime received);
 
  private:
   struct Sample {
     SimTime received;  // steady
-    double offset_s;   // received - utime / rate, seconds
+    double offset_s;   // received - utime / rate, s
   };
   struct Heard {
     sim_clock_t clock;
@@ -112,25 +116,25 @@ class ConductorTime : public TimeSource {
   bool is_witnessed(const sim_clock_t& clock, SimTime received);
   void refuse_unexpected();
   void take(const sim_clock_t& clock, SimTime received);
-  // When the message being handled was received (steady); bounded, as the wall clock may have been set
-  // meanwhile.
+  // Returns when the current message was received (steady). The delay is bounded, as the wall clock may have
+  // been set meanwhile.
   SimTime received() const;
 
   Bus bus_;
   SilenceWarning silence_;
   double rate_ = 0;
-  std::optional<Heard> last_;    // of the session that is followed
-  std::deque<Heard> witnesses_;  // the latest of each session that nothing has agreed with yet
-  std::int64_t num_others_ = 0, num_leaps_ = 0;  // CLOCKs of other sessions, and leaps, since the last one
+  std::optional<Heard> last_;                    // last CLOCK of the accepted session
+  std::deque<Heard> witnesses_;                  // latest CLOCK of each session, not confirmed yet
+  std::int64_t num_others_ = 0, num_leaps_ = 0;  // CLOCKs of other sessions, and leaps, since last_
   std::deque<Sample> samples_;
   std::optional<SimTime> paused_at_;
   SimTime latest_ = SimTime::at_once();
   bool restarted_ = false;
 };
 
-// The greatest utime received in a STATE or SEND: for a lone channel server beside a replayed log. Stands
-// still between messages. A utime more than ten seconds before the greatest one means that a log was started
-// anew.
+// Time from the highest utime received in a STATE or SEND: for a lone channel server next to a replayed log.
+// It stands still between messages. A utime more than ten seconds before the highest one means that a log was
+// restarted.
 class MessageTime : public TimeSource {
  public:
   MessageTime(lcm::LCM& lcm, const std::string& process_name);
@@ -148,11 +152,11 @@ class MessageTime : public TimeSource {
   bool restarted_ = false;
 };
 
-// Simulation time is the wall clock's Unix time: for a lone channel server beside real vehicles that stamp
-// so.
+// Simulation time is the wall clock's Unix time: for a lone channel server next to real vehicles that use it
+// for their time stamps.
 class WallTime : public TimeSource {
  public:
-  // Unix time, microseconds, at steady time 0.
+  // `utime_at_start`: Unix time at steady time 0, us.
   explicit WallTime(std::int64_t utime_at_start) : start_(SimTime::from_utime(utime_at_start)) {}
   std::optional<SimTime> now(SimTime steady) override { return start_ + (steady - SimTime()); }
   SimTime steady_at(SimTime sim) const override {
@@ -163,12 +167,12 @@ class WallTime : public TimeSource {
   SimTime start_;
 };
 
-// kLockstep is no TimeSource: the process takes turns that the conductor grants (lockstep_process.h).
+// kLockstep has no TimeSource: the process takes turns that the conductor grants (lockstep_process.h).
 enum class TimeSourceKind { kConductor, kMessages, kWall, kLockstep };
-// "conductor", "messages", "wall" or "lockstep"; throws InvalidArgument that lists them otherwise.
+// Accepts "conductor", "messages", "wall" or "lockstep"; throws InvalidArgument that lists them otherwise.
 TimeSourceKind time_source_from_name(std::string_view name);
-// For process `name` on a bus that loses datagrams; `wall_at_start`: Unix time at steady time 0. kLockstep:
-// as kWall.
+// Makes the time source of process `name` on a bus that loses datagrams. `wall_at_start`: Unix time at steady
+// time 0. kLockstep gives the same as kWall.
 std::unique_ptr<TimeSource> make_time_source(TimeSourceKind kind, lcm::LCM& lcm, const std::string& name,
                                              SimTime wall_at_start);
 
