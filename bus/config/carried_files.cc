@@ -29,8 +29,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxLine = 1000;       // of a text; longer lines go as base 64
-constexpr std::size_t kBytesOfBase64 = 750;  // of a line of it
+// Limit for a line of text; files with longer lines are written as base 64.
+constexpr std::size_t kMaxLine = 1000;
+constexpr std::size_t kBytesOfBase64 = 750;  // bytes in one line of base 64
 
 std::string hash_text(std::uint64_t hash) {
   std::array<char, 17> text{};
@@ -38,7 +39,7 @@ std::string hash_text(std::uint64_t hash) {
   return text.data();
 }
 
-// In pieces, each hashed with the hash before as its seed.
+// Hashes a file in pieces; each piece is hashed with the hash of the previous ones as its seed.
 std::string hash_of_file(const std::string& place) {
   std::ifstream file(place, std::ios::binary);
   std::vector<char> piece(1u << 20);
@@ -51,7 +52,7 @@ std::string hash_of_file(const std::string& place) {
   return hash_text(hash);
 }
 
-// A large file is hashed once in a process.
+// A large file is hashed only once in a process, unless it changes.
 std::string known_hash_of_file(const std::string& place, std::uint64_t bytes) {
   static std::mutex mutex;
   static std::map<std::tuple<std::string, std::uint64_t, std::int64_t>, std::string> known;
@@ -105,7 +106,8 @@ std::string base64_lines_of(const std::string& bytes) {
   return array_of("base64", lines);
 }
 
-// Files beside a raster that belong to it, by their endings; and a description of one that names others.
+// True if files next to the raster belong to it, by their endings, or if it is a description that names other
+// files.
 bool has_companions(const fs::path& raster) {
   if (raster.extension() == ".vrt") return true;
   static constexpr std::array kOfStem{".prj", ".hdr", ".tfw", ".wld", ".bpw", ".jgw", ".pgw", ".clr", ".stx"};
@@ -122,7 +124,7 @@ const FileOrigin* origin_of(const FilePath& path) {
   return static_cast<const FileOrigin*>(path.origin().get());
 }
 
-// Content to carry: the file as it is, but for the names of files in one that was read.
+// Returns the content to carry: the file unchanged, except for the file names in a TOML file that was read.
 std::string content_of(const std::string& place, const FilePath& path, CarriedFiles& files) {
   const FileOrigin* origin = origin_of(path);
   const bool names_files = origin != nullptr && origin->document && !origin->document->files.empty();
@@ -140,8 +142,7 @@ std::string joined(const toml::array& lines, std::string_view between) {
   return text;
 }
 
-}  // namespace
-
+// Unpacks one table [[file]].
 void unpack(const toml::table& table, UnpackedFiles& files) {
   const std::string name = text_in(table, "name"), xxh3_text = text_in(table, "xxh3");
   if (const toml::array* lines = table["lines"].as_array()) {
@@ -218,7 +219,7 @@ std::string CarriedFiles::name_of(const FilePath& path, FileNames names) {
   if (which_ == Which::kUnpacked && !is_unpacked) return place;
   if (const auto known = names_.find(place); known != names_.end()) return known->second;
   const std::string name = names_[place] = new_name(place);
-  tables_[name] = "";  // taken, also while the files that it names are met
+  tables_[name] = "";  // reserves the name while the files that it names are visited
   tables_[name] = table_of(name, place, path, names);
   return name;
 }

@@ -18,7 +18,7 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-// 15 degrees rather than 14.999999999999998 where both are the same angle in radians.
+// Returns 15 degrees rather than 14.999999999999998 if both are the same angle in radians.
 double readable_degrees(double radians) {
   constexpr double kScale = 1e9;
   const double rounded = std::round(to_degrees(radians) * kScale) / kScale;
@@ -64,7 +64,7 @@ void report_refusal(ConfigVisitor& v, std::string_view key, const std::function<
 }
 
 void degrees(ConfigVisitor& v, std::string_view key, double& radians, const NumberRule& rule_in_degrees) {
-  // Only what the file gives is converted, so that a default survives to the last bit.
+  // Only a value from the file is converted, so that a default is preserved to the last bit.
   double value_deg = readable_degrees(radians);
   const double before = value_deg;
   v.number(key, value_deg, rule_in_degrees);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Describes a configuration struct once, to be read from TOML, printed, and explained in an example.
+// Description of a configuration struct, written once, from which it is read from TOML, printed, and
+// explained in an example.
 //
 // Each `*_config.h` declares a plain struct with defaults and a function
 //
-//   void visit(ConfigVisitor& v, MyConfig& c) { v.number("wind_mps", c.wind_mps, {0, 60, "m/s", "10 m above
-//   the sea"}); }
+//   void visit(ConfigVisitor& v, MyConfig& c) {
+//     v.number("wind_mps", c.wind_mps, {0, 60, "m/s", "10 m above the sea"});
+//   }
 //
 // A reader fills the struct and collects every error (wrong type, impossible value, unknown key) with file,
-// line, key and what is allowed; a writer prints the effective configuration, or an example with comments.
-// Configuration holds degrees, hours and kilohertz only where its key says so; the struct is SI: convert in
-// visit.
+// line, key and the permitted values. A writer prints the effective configuration, or an example with
+// comments. The struct is in SI units; configuration keys use degrees, hours or kilohertz only if their name
+// says so, and visit() converts them.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +33,7 @@
 
 namespace halocline::bus {
 
-// What a number may be. Both ends are allowed values.
+// Permitted range of a number; both ends are included.
 struct NumberRule {
   double lowest;
   double highest;
@@ -43,53 +45,55 @@ class ConfigVisitor {
  public:
   virtual ~ConfigVisitor() = default;
 
-  // Each visits one key of the current table; `value` holds the default on entry.
+  // Each function visits one key of the current table; `value` holds the default on entry.
   virtual void number(std::string_view key, double& value, const NumberRule& rule) = 0;
   virtual void integer(std::string_view key, std::int64_t& value, const NumberRule& rule) = 0;
   virtual void boolean(std::string_view key, bool& value, std::string_view meaning) = 0;
-  // `allowed` empty: any text.
+  // `allowed` lists the permitted texts; empty: any text.
   virtual void text(std::string_view key, std::string& value, const std::vector<std::string>& allowed,
                     std::string_view meaning) = 0;
-  // A file: given relative to the file in which the key stands, or on the command line to the working
-  // directory. What a key names is read from FilePath::place() wherever the program runs.
+  // A file, given relative to the folder of the configuration file, or on the command line to the working
+  // directory. It is read from FilePath::place(), wherever the program runs.
   virtual void file(std::string_view key, FilePath& value, FileNames names, std::string_view meaning) = 0;
-  // Several, with blanks between.
+  // Several files, separated by blanks.
   virtual void files(std::string_view key, std::vector<FilePath>& values, FileNames names,
                      std::string_view meaning) = 0;
-  // An array of exactly three numbers, or of any count.
+  // An array of exactly three numbers, and one of any number of them.
   virtual void vector3(std::string_view key, Vec3& value, const NumberRule& rule) = 0;
   virtual void numbers(std::string_view key, std::vector<double>& values, const NumberRule& rule) = 0;
   // An array of arrays of three numbers (waypoints).
   virtual void points(std::string_view key, std::vector<Vec3>& values, const NumberRule& rule) = 0;
-  // A table within the current one.
+  // A table within the current table.
   virtual void section(std::string_view key, std::string_view meaning,
                        const std::function<void(ConfigVisitor&)>& body) = 0;
-  // An array of tables: `resize(n)` makes room, `item(v, i)` visits the i-th. When written, `count` items
-  // are.
+  // An array of tables: `resize(n)` makes room, `item(v, i)` visits the i-th. On writing, `count` items are
+  // written.
   virtual void list(std::string_view key, std::string_view meaning, std::size_t count,
                     const std::function<void(std::size_t)>& resize,
                     const std::function<void(ConfigVisitor&, std::size_t)>& item) = 0;
-  // True when the scenario gives this key; always true when writing.
+  // True when the scenario gives this key; always true on writing.
   virtual bool given(std::string_view key) const = 0;
-  // True when configuration is written: values that hold are to be visited, whatever `given` says.
+  // True when a configuration is written: all effective values are to be visited, whatever `given` returns.
   virtual bool writing() const = 0;
-  // Reports that the key's value is impossible in a way that no rule covers; for checks across keys.
+  // Reports that the key's value is impossible for a reason that no rule covers, for instance in relation to
+  // another key.
   virtual void problem(std::string_view key, std::string_view what_is_allowed) = 0;
-  // This table also holds keys that other programs read: unknown ones are not errors here.
+  // This table also holds keys that other programs read: unknown keys are no errors here.
   virtual void shared_with_others() = 0;
 
-  // Visits keys of the current table that count only with some other choice: `counts` says whether that is
-  // made, and `choice` names it as the file would make it, "kind = \"raster\"". A key that does not count is
-  // read and checked all the same, warned of where the file gives it, and left out where the effective
-  // configuration is written.
+  // Visits keys of the current table that apply only with some other choice: `counts` is true if that choice
+  // is made, and `choice` names it as in the file, "kind = \"raster\"". A key that does not apply is still
+  // read and checked; a warning is issued if the file gives it, and it is left out of the effective
+  // configuration.
   void when(bool counts, std::string_view choice, const std::function<void()>& body);
 
  protected:
-  // The choice that the keys visited now lack; empty where they count. Visitors of tables within pass it on.
+  // Choice that is missing for the keys visited now; empty if they apply. Visitors of inner tables pass it
+  // on.
   std::string missing_choice_;
 };
 
-// An integer of another width through ConfigVisitor::integer.
+// Visits an integer of another width through ConfigVisitor::integer().
 template <class Integer>
 void integer_as(ConfigVisitor& v, std::string_view key, Integer& value, const NumberRule& rule) {
   std::int64_t wide = static_cast<std::int64_t>(value);
@@ -97,7 +101,7 @@ void integer_as(ConfigVisitor& v, std::string_view key, Integer& value, const Nu
   value = static_cast<Integer>(wide);
 }
 
-// An enumeration by name; `names[i]` belongs to static_cast<Enum>(i).
+// Visits an enumeration by name; `names[i]` belongs to static_cast<Enum>(i).
 template <class Enum>
 void choice(ConfigVisitor& v, std::string_view key, Enum& value, const std::vector<std::string>& names,
             std::string_view meaning) {
@@ -108,7 +112,7 @@ void choice(ConfigVisitor& v, std::string_view key, Enum& value, const std::vect
   }
 }
 
-// Visits keys that count only where the enumeration `key`, visited before by choice() with the same names, is
+// Visits keys that apply only if the enumeration `key`, visited before by choice() with the same names, has
 // one of `values`.
 template <class Enum>
 void when_one_of(ConfigVisitor& v, std::string_view key, Enum value, const std::vector<std::string>& names,
@@ -120,7 +124,7 @@ void when_one_of(ConfigVisitor& v, std::string_view key, Enum value, const std::
   v.when(std::find(values.begin(), values.end(), value) != values.end(), choice + "\"", body);
 }
 
-// The names of all values of an enumeration that has a to_name, for `choice`.
+// Returns the names of all values of an enumeration that has a to_name(), for choice().
 template <class Enum, std::size_t count>
 std::vector<std::string> names_of(const std::array<Enum, count>& values) {
   std::vector<std::string> names;
@@ -128,24 +132,24 @@ std::vector<std::string> names_of(const std::array<Enum, count>& values) {
   return names;
 }
 
-// A duration, in seconds in the file (its key ends in _s).
+// Visits a duration, which is in seconds in the file (its key ends in _s).
 void seconds(ConfigVisitor& v, std::string_view key, SimDuration& value, const NumberRule& rule_in_seconds);
 
-// A file that `key` names and that cannot be read becomes an error with the reason.
+// Reports an error, with the reason, when the file that `key` names cannot be read.
 void require_readable(ConfigVisitor& v, std::string_view key, const FilePath& path);
 
-// What `attempt` refuses (InvalidArgument) becomes an error of the file, with the line of `key`, beside all
-// others.
+// Calls `attempt`, and reports an InvalidArgument that it throws as an error of the file, with the line of
+// `key`.
 void report_refusal(ConfigVisitor& v, std::string_view key, const std::function<void()>& attempt);
 
-// An angle, in degrees in the file (its key ends in _deg), in radians in the struct.
+// Visits an angle, in degrees in the file (its key ends in _deg), in radians in the struct.
 void degrees(ConfigVisitor& v, std::string_view key, double& radians, const NumberRule& rule_in_degrees);
 
-// Likewise an array of angles.
+// Visits an array of such angles.
 void degrees(ConfigVisitor& v, std::string_view key, std::vector<double>& radians,
              const NumberRule& rule_in_degrees);
 
-// Everything that is wrong with a configuration, one line each: "file:line: key: what; allowed is ...".
+// All errors of a configuration, one line each: "file:line: key: what; allowed is ...".
 class ConfigErrors : public InvalidArgument {
  public:
   explicit ConfigErrors(std::vector<std::string> lines);
@@ -155,16 +159,16 @@ class ConfigErrors : public InvalidArgument {
   std::vector<std::string> lines_;
 };
 
-struct ConfigDocument;  // the parsed TOML and what was found wrong with it
+struct ConfigDocument;  // the parsed TOML and its errors
 
-// A parsed scenario file with overrides from the command line.
+// Parsed scenario file with overrides from the command line.
 class ConfigFile {
  public:
   // Throws ConfigErrors when the file cannot be read or is no TOML. Each override is "section.key=value" with
-  // value in TOML; "vehicle.0.key=value" reaches into an array of tables.
+  // a TOML value; "vehicle.0.key=value" addresses an array of tables.
   static ConfigFile load(const std::string& path, const std::vector<std::string>& overrides = {});
-  // A file that another configuration names; it is carried along with the files that it names in turn, and
-  // its warnings become those of the other.
+  // Loads a file that another configuration names. It is carried along together with the files that it names
+  // itself, and its warnings are added to those of the other configuration.
   static ConfigFile load_named(const FilePath& path);
   static ConfigFile parse(const std::string& text, const std::string& name_for_errors,
                           const std::vector<std::string>& overrides = {});
@@ -172,26 +176,28 @@ class ConfigFile {
   ConfigFile(ConfigFile&&) noexcept;
   ConfigFile& operator=(ConfigFile&&) noexcept;
 
-  // Visits the whole document as one table. May be called several times, for several structs; errors add up.
+  // Visits the whole document as one table. May be called several times, for several structs; errors
+  // accumulate.
   void read(const std::function<void(ConfigVisitor&)>& body);
-  // Throws ConfigErrors with everything that any read() found wrong; also, when `whole_file`, every key that
-  // no read() visited. Without it, only unknown keys of sections that were read and not shared are errors.
+  // Throws ConfigErrors with all errors of the read() calls, and, with `whole_file`, with every key that no
+  // read() visited. Without it, unknown keys are errors only in sections that were read and are not shared.
   void check(bool whole_file);
 
-  // What shows only once several sections, or what they name, are known. `key` is the whole path of a key,
-  // given or not: "vehicle.0.mission.speed_mps"; `value` is what holds, shown where the file does not give
-  // the key. An error is thrown by the next check_findings, beside all others; warnings are kept.
+  // Findings that need several sections, or the files that they name. `key` is the complete path of a key,
+  // given or not: "vehicle.0.mission.speed_mps"; `value` is the effective value, shown if the file does not
+  // give the key. An error is thrown by the next check_findings(), together with all others; warnings are
+  // kept.
   void refuse(const std::string& key, const std::string& value, const std::string& what_is_allowed);
   void warn(const std::string& key, const std::string& value, const std::string& what_to_know);
-  // Throws ConfigErrors with all that was refused so far.
+  // Throws ConfigErrors with all errors refused so far.
   void check_findings() const;
-  // "file:line: key is value; ...", in the order found.
+  // Texts "file:line: key is value; ...", in the order found.
   const std::vector<std::string>& warnings() const;
 
   const std::string& path() const;
-  // The document with its overrides as TOML: keys in alphabetical order, no comments, without the keys
-  // `left_out` ("section.key"); and with the files that it names (carried_files.h), so that it reads the same
-  // anywhere.
+  // Returns the document with its overrides as TOML: keys in alphabetical order, no comments, without the
+  // keys `left_out` ("section.key"); and with the files that it names (carried_files.h), so that it reads the
+  // same on any host.
   std::string to_toml(const std::vector<std::string>& left_out = {}) const;
 
  private:
@@ -199,8 +205,9 @@ class ConfigFile {
   std::shared_ptr<ConfigDocument> document_;
 };
 
-// The configuration as TOML: every key that counts with its value, or every key with unit, range and meaning;
-// files by their absolute places, or carried along (`to_portable_toml`).
+// Returns the configuration as TOML: every key that applies, with its value; with_comments every key, with
+// unit, range and meaning. to_toml() names files by their absolute place; to_portable_toml() carries them
+// along.
 std::string to_toml(const std::function<void(ConfigVisitor&)>& body, bool with_comments);
 std::string to_portable_toml(const std::function<void(ConfigVisitor&)>& body);
 

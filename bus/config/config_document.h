@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parsed TOML behind a ConfigFile and the reader that fills structs from it. Only config_*.cc include
-// this: it is what keeps toml++ out of every other file.
+// The parsed TOML behind a ConfigFile, and the reader that fills structs from it. Only config_*.cc include
+// this header, which keeps toml++ out of all other files.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@
 
 namespace halocline::bus {
 
-// The name of overrides in errors.
+// Name of overrides in error messages.
 inline constexpr std::string_view kCommandLine = "command line";
 
 struct ConfigDocument {
@@ -30,60 +30,60 @@ struct ConfigDocument {
   toml::table root;
   std::vector<std::string> errors;
   std::vector<std::string> warnings;
-  std::set<const toml::node*> read;                             // values that have been read
-  std::set<const toml::node*> counting;                         // those of them that counted for some read
-  std::vector<std::pair<const toml::node*, std::string>> idle;  // and that did not, each with its warning
-  std::set<const toml::table*> entered;                         // tables that a read entered
-  std::set<const toml::table*> shared;  // tables whose other keys are read by other programs
-  // Files that keys name, by the key's value.
+  std::set<const toml::node*> read;      // values that have been read
+  std::set<const toml::node*> counting;  // read values that applied to some read
+  // Read values that did not apply, with their warnings.
+  std::vector<std::pair<const toml::node*, std::string>> idle;
+  std::set<const toml::table*> entered;  // tables that a read entered
+  std::set<const toml::table*> shared;   // tables whose other keys are read by other programs
+  // Files that a key names.
   struct Files {
     std::vector<FilePath> paths;
     FileNames names = FileNames::kFiles;
   };
   std::map<const toml::node*, Files> files;
-  std::shared_ptr<UnpackedFiles> unpacked;  // that the configuration carries; null for none
-  // Keys that some read looked for, by the table they stand in ("vehicle.modem."; items of a list share one).
+  std::shared_ptr<UnpackedFiles> unpacked;  // carried by the configuration; null: none
+  // Keys that any read visited, by their table ("vehicle.modem."; items of a list share one).
   std::map<std::string, std::set<std::string, std::less<>>> known;
 
-  // "file:line", or "command line" for an override.
+  // Returns "file:line", or "command line" for an override.
   std::string place_of(const toml::node& node) const;
   [[nodiscard]] bool is_override(const toml::node& node) const;
   std::string folder() const;
-  // The file that the key of `node` names, with its place. Twice for one key: the same origin.
+  // Returns the file that the key of `node` names, with its place. Two calls for one key give the same
+  // origin.
   FilePath resolved(const toml::node& node, const std::string& given, FileNames names);
-  // Takes the tables [[file]] out of the document. Throws ConfigErrors for what cannot be one.
+  // Removes the tables [[file]] from the document and unpacks them. Throws ConfigErrors for an invalid one.
   void unpack_files();
-  // Kept once, however often it is found.
+  // Repeated texts are kept once.
   void add_error(const std::string& error);
   void add_warning(const std::string& warning);
 };
 
-// The document as TOML, keys in alphabetical order, without the keys `left_out` ("section.key"); files by
-// their names in `files`.
+// Returns the document as TOML, keys in alphabetical order, without the keys `left_out` ("section.key");
+// files are named as in `files`.
 std::string to_text(const ConfigDocument& document, const std::vector<std::string>& left_out,
                     CarriedFiles& files);
 
-// Adds what one table [[file]] holds. Throws where it cannot be one.
-void unpack(const toml::table& table, UnpackedFiles& files);
-
-// A number and a text as TOML has them.
+// Returns a number and a text in TOML notation.
 std::string exact(double value);
 std::string toml_quoted(const std::string& value);
 
-// A value as in errors; a long one is cut.
+// Returns a value as in error messages; a long one is shortened.
 std::string value_text(const toml::node& node);
 
-// A name as in errors without the numbers of list items: "vehicle[0].modem." is "vehicle.modem.".
+// Removes the indices of list items from a name: "vehicle[0].modem." becomes "vehicle.modem.".
 std::string without_indices(const std::string& name);
 
-// "; did you mean KEY?" for a key that no program reads, `prefix` naming its table as in errors; empty when
-// no known key is near (known_keys.cc).
+// Returns "; did you mean KEY?" for a key that no program reads, `prefix` naming its table as in error
+// messages; empty if no known key is similar (known_keys.cc).
 std::string suggestion_for(const ConfigDocument& document, const std::string& prefix, std::string_view key);
 
-// Fills structs from one table of the document; `prefix` names the table in errors ("environment.").
+// Reader that fills structs from one table of the document; `prefix` names the table in errors
+// ("environment.").
 class ConfigReader : public ConfigVisitor {
  public:
-  // `missing_choice` is that of a table that does not count as a whole, and has been warned of.
+  // `missing_choice` is set for a table that does not apply as a whole, for which a warning was issued.
   ConfigReader(ConfigDocument& document, toml::table& table, std::string prefix,
                const std::string& missing_choice = "");
 
@@ -113,7 +113,7 @@ class ConfigReader : public ConfigVisitor {
 
  private:
   toml::node* find(std::string_view key);
-  // The node of a key that names files, and its text; null where it is not given, or no text.
+  // Returns the node of a key that names files, and its text; null if it is not given, or not a text.
   const toml::node* find_files(std::string_view key, std::string& given, std::string_view meaning);
   void note(std::string_view key) const;
   void note_use(const toml::node& node, std::string_view key);

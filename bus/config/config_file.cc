@@ -27,11 +27,13 @@ std::string parse_error_text(const std::string& where, const toml::parse_error& 
   return text.str();
 }
 
-// The parts of a dotted key that are read. toml++ nests a table for each and frees them by recursion; with
-// its 256 values within values this bounds the stack. The keys of a scenario have at most five.
+// Maximum number of parts of a dotted key. toml++ nests a table for each part and frees them by recursion;
+// together with its limit of 256 values within values this bounds the stack. The keys of a scenario have at
+// most five parts.
 constexpr int kMaxKeyParts = 32;
 
-// Behind the string that opens at `at`: a quote, or three for one of many lines.
+// Returns the position after the string that opens at `at` with one quote, or with three for a string of
+// several lines.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string three(3, quote);
@@ -40,7 +42,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
     if (quote == '"' && text[i] == '\\') {
       ++i;
     } else if (long_string && text.substr(i, 3) == three) {
-      // It may end with two quotes of its own.
+      // The string may end with two quotes of its own.
       return std::min(text.find_first_not_of(quote, i), text.size());
     } else if (!long_string && (text[i] == quote || text[i] == '\n')) {
       return i + (text[i] == quote ? 1 : 0);
@@ -49,7 +51,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-// The line of the first key with more than kMaxKeyParts parts; 0 when there is none.
+// Returns the line of the first key with more than kMaxKeyParts parts; 0 if there is none.
 std::ptrdiff_t line_of_deep_key(std::string_view text) {
   int parts = 1;
   for (std::size_t i = 0; i < text.size();) {
@@ -80,7 +82,7 @@ toml::table parsed_table(const std::string& text, std::string_view name) {
   return toml::parse(text, name);
 }
 
-// A member of a table by key, of an array by index; null when there is none.
+// Returns the member of a table by key, or of an array by index; null if there is none.
 toml::node* child_of(toml::node& parent, std::string_view key) {
   if (toml::table* table = parent.as_table()) return table->get(key);
   toml::array* array = parent.as_array();
@@ -90,14 +92,14 @@ toml::node* child_of(toml::node& parent, std::string_view key) {
                                     : nullptr;
 }
 
-// Joins `from` into `into` key by key. Only tables are descended into; anything else replaces.
+// Merges `from` into `into` key by key, recursively for tables; any other value is replaced.
 void merge(toml::node& into, toml::table& from, const std::string& override_text) {
   for (auto&& [key, value] : from) {
     toml::node* target = child_of(into, key.str());
     if (target != nullptr && value.is_table() && !target->is_value()) {
       merge(*target, *value.as_table(), override_text);
     } else if (toml::table* table = into.as_table()) {
-      // Moved, because a copy forgets that it came from the command line.
+      // The value is moved, because a copy loses its origin, the command line.
       value.visit([&, name = key.str()](auto& given) { table->insert_or_assign(name, std::move(given)); });
     } else {
       throw ConfigErrors(
@@ -106,7 +108,7 @@ void merge(toml::node& into, toml::table& from, const std::string& override_text
   }
 }
 
-// "section.key=word" with the word in quotes; empty where what follows is no plain word.
+// Returns "section.key=word" with the word in quotes; empty if the value is not a plain word.
 std::string with_quoted_word(const std::string& text) {
   const auto equals = text.find('=');
   const auto first = equals == std::string::npos ? equals : text.find_first_not_of(" \t", equals + 1);
@@ -116,7 +118,7 @@ std::string with_quoted_word(const std::string& text) {
   return is_one_line(word) ? text.substr(0, equals + 1) + toml_quoted(word) : "";
 }
 
-// What is no TOML is a text, so that a shell needs no quotes within quotes: modem.profile=janus.
+// A value that is not TOML is taken as a text, so that a shell needs no nested quotes: modem.profile=janus.
 toml::table parsed_override(const std::string& text) {
   try {
     return parsed_table(text, kCommandLine);
@@ -168,7 +170,7 @@ void collect_unknown(ConfigDocument& document, const toml::table& table, const s
   }
 }
 
-// "vehicle.0.modem" as in errors: "vehicle[0].modem".
+// Converts "vehicle.0.modem" to the form of error messages, "vehicle[0].modem".
 std::string with_brackets(const std::string& key) {
   std::string name;
   std::istringstream parts(key);
@@ -183,8 +185,8 @@ std::string with_brackets(const std::string& key) {
   return name;
 }
 
-// "file:line: key is value; remark". The place is that of the innermost table that the file has on the way to
-// a key that it does not give.
+// Returns "file:line: key is value; remark". For a key that the file does not give, the line is that of the
+// innermost table on the way to it.
 std::string finding(ConfigDocument& document, const std::string& key, const std::string& value,
                     const std::string& remark) {
   toml::node* node = &document.root;
@@ -199,7 +201,7 @@ std::string finding(ConfigDocument& document, const std::string& key, const std:
          (node != nullptr ? value_text(*node) : value + " by default") + "; " + remark;
 }
 
-// Warnings of the files in TOML that have been read.
+// Adds the warnings of the TOML files that have been read.
 void add_warnings_of_files(ConfigDocument& document) {
   for (const auto& [node, files] : document.files) {
     for (const FilePath& path : files.paths) {

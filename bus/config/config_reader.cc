@@ -33,7 +33,7 @@ std::string allowed_text(const NumberRule& rule) {
   return text;
 }
 
-// toml++ writes large floats with all their digits.
+// Converts a value to text; toml++ would write large floats with all their digits.
 std::string whole_value_text(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (const auto* number = node.as_floating_point()) return exact(number->get());
@@ -194,7 +194,7 @@ void ConfigReader::text(std::string_view key, std::string& value, const std::vec
   if (node == nullptr) return;
   std::string names;
   for (const std::string& name : allowed) names += (names.empty() ? "" : ", ") + name;
-  // A word of the command line may look like a number or a date.
+  // A word on the command line may look like a number or a date.
   const bool is_word = node->is_value() && document_.is_override(*node);
   if (!node->is_string() && !is_word)
     return fail(*node, key, "a text is needed" + (names.empty() ? "" : ", allowed are " + names));
@@ -282,7 +282,7 @@ void ConfigReader::points(std::string_view key, std::vector<Vec3>& values, const
 void ConfigReader::section(std::string_view key, std::string_view /*meaning*/,
                            const std::function<void(ConfigVisitor&)>& body) {
   toml::node* node = find(key);
-  toml::table missing;  // an absent section is an empty one, so that its keys are checked for being required
+  toml::table missing;  // an absent section is read as an empty one, so that its required keys are checked
   toml::table* table = node != nullptr ? node->as_table() : &missing;
   if (table == nullptr) return fail(*node, key, "a table [" + prefix_ + std::string(key) + "] is needed");
   ConfigReader reader(document_, *table, prefix_ + std::string(key) + ".", missing_choice_);

@@ -22,8 +22,8 @@
 
 namespace halocline::bus {
 
-// The shortest decimal that reads back as the same double; always with a point or exponent, as TOML wants for
-// floats.
+// Returns the shortest decimal that reads back as the same double; always with a point or exponent, as TOML
+// requires for floats.
 std::string exact(double value) {
   char text[40];
   for (int digits = 1; digits <= 17; ++digits) {
@@ -40,7 +40,7 @@ std::string toml_quoted(const std::string& value) {
   for (const char c : value) {
     const auto code = static_cast<unsigned char>(c);
     if (c == '\\' || c == '"') text += '\\';
-    if (code < 0x20 || code == 0x7f) {  // control characters: TOML takes them by their code alone
+    if (code < 0x20 || code == 0x7f) {  // control characters: TOML accepts only their code
       char escape[8];
       std::snprintf(escape, sizeof escape, "\\u%04X", unsigned{code});
       text += escape;
@@ -61,7 +61,7 @@ class DocumentPrinter {
                   CarriedFiles& files)
       : document_(document), left_out_(left_out.begin(), left_out.end()), files_(files) {}
 
-  // Values first, as TOML wants it.
+  // Prints values before sections, as TOML requires.
   void print(const toml::table& table, const std::string& path, std::ostream& out) {
     for (const auto& [key, value] : table) {
       if (!is_section(value) && !left_out_.contains(path + std::string(key.str())))
@@ -84,7 +84,7 @@ class DocumentPrinter {
 
  private:
   static bool is_section(const toml::node& node) { return node.is_table() || node.is_array_of_tables(); }
-  // A section of which everything is left out.
+  // True if every key of the section is left out.
   bool is_left_out(const toml::table& section, const std::string& name) const {
     return !section.empty() && std::all_of(section.begin(), section.end(), [&](const auto& entry) {
       return left_out_.contains(name + "." + std::string(entry.first.str()));
@@ -130,15 +130,15 @@ class DocumentPrinter {
 
 // ---- structs that are written
 
-// A table as it will be written. Several bodies may visit one table (each program its keys of [[vehicle]]):
-// the first visit of a key, a section or an item makes it, later ones add what they know.
+// A table to be written. Several bodies may visit one table (each program its keys of [[vehicle]]): the first
+// visit of a key, a section or an item creates it, later visits add further keys.
 struct Table {
   std::string header;  // comment and [path] line; empty for the document itself
-  std::vector<std::pair<std::string, std::string>> lines;  // key, and its whole line
-  std::vector<std::string> order;                          // of sections and lists
+  std::vector<std::pair<std::string, std::string>> lines;  // key, and its complete line
+  std::vector<std::string> order;                          // order of sections and lists
   std::map<std::string, std::vector<std::unique_ptr<Table>>, std::less<>> tables;
 
-  // The i-th table under `key`, made when it is missing.
+  // Returns the i-th table under `key`, and creates it if it is missing.
   Table& table(const std::string& key, std::size_t i, const std::string& table_header) {
     if (!tables.contains(key)) order.push_back(key);
     auto& list = tables[key];
@@ -154,7 +154,7 @@ struct Table {
     }
     lines.emplace_back(key, std::move(line));
   }
-  // TOML wants a table's own keys before its sub-tables.
+  // TOML requires a table's own keys before its sub-tables.
   void print(std::ostream& out) const {
     out << header;
     for (const auto& [key, line] : lines) out << line;
@@ -166,7 +166,7 @@ struct Table {
 
 class Writer : public ConfigVisitor {
  public:
-  // With comments every key is written; without them those that count.
+  // With comments every key is written; without them only those that apply.
   Writer(Table& table, std::string path, bool with_comments, CarriedFiles& files)
       : table_(table), path_(std::move(path)), with_comments_(with_comments), files_(files) {}
 
@@ -232,7 +232,7 @@ class Writer : public ConfigVisitor {
   void shared_with_others() override {}
 
  private:
-  // Keys that are left out carry nothing along.
+  // Files of keys that are left out are not carried.
   std::string name_of(const FilePath& path, FileNames names) {
     return is_left_out() ? "" : files_.name_of(path, names);
   }

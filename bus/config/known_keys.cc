@@ -10,8 +10,8 @@
 namespace halocline::bus {
 namespace {
 
-// Letters inserted, left out, replaced, or swapped with their neighbour (optimal string alignment; Damerau
-// 1964).
+// Edit distance: letters inserted, left out, replaced, or swapped with their neighbour (optimal string
+// alignment; Damerau 1964).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, above(b.size() + 1), row(b.size() + 1);
   std::iota(above.begin(), above.end(), std::size_t{0});
@@ -29,7 +29,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return above[b.size()];
 }
 
-// A slip of the hand, not another word: one edit in three letters.
+// Limit between a typing error and another word: one edit in three letters.
 std::size_t most_edits(std::string_view key) { return std::max<std::size_t>(1, key.size() / 3); }
 
 }  // namespace
@@ -45,7 +45,7 @@ std::string without_indices(const std::string& name) {
   return plain;
 }
 
-// First among the keys of the same table, by edits; else the same key where it stands in another table.
+// Looks for the nearest key in the same table first, then for the same key in another table.
 std::string suggestion_for(const ConfigDocument& document, const std::string& prefix, std::string_view key) {
   const auto question = [](const std::string& name) { return "; did you mean " + name + "?"; };
   std::size_t least = most_edits(key) + 1;
