@@ -19,7 +19,7 @@ namespace {
 using View = std::span<const std::uint8_t>;
 
 constexpr std::uint32_t kWord = 0x484c5231;  // "HLR1"
-constexpr std::size_t kSumAt = 9;            // behind word, kind and length
+constexpr std::size_t kSumAt = 9;            // offset, after word, kind and length
 
 void put(std::uint64_t value, int bytes, std::vector<std::uint8_t>& to) {
   for (int shift = 8 * bytes - 8; shift >= 0; shift -= 8)
@@ -34,7 +34,7 @@ std::uint64_t get(View bytes, std::size_t at, std::size_t count) {
 
 std::uint64_t check_sum(View head, View body) { return xxh3(body, xxh3(head.first(kSumAt))); }
 
-// The record that begins `bytes`; empty where no whole one does.
+// Returns the record at the beginning of `bytes`; nothing if there is no complete one.
 std::optional<View> whole_record(View bytes) {
   constexpr std::size_t kHead = JournalFile::kHeadBytes;
   if (bytes.size() < kHead || get(bytes, 0, 4) != kWord) return std::nullopt;
@@ -44,8 +44,7 @@ std::optional<View> whole_record(View bytes) {
   return bytes.first(kHead + length);
 }
 
-// The records that begin in `bytes`, one after the other up to where none is whole; returns the bytes that
-// they take.
+// Takes the complete records at the beginning of `bytes`, one after the other. Returns their size in bytes.
 std::size_t take_whole(View bytes, std::vector<JournalFile::Record>& records) {
   std::size_t at = 0;
   while (const auto record = whole_record(bytes.subspan(at))) {
@@ -55,17 +54,17 @@ std::size_t take_whole(View bytes, std::vector<JournalFile::Record>& records) {
   return at;
 }
 
-// Where the next whole record begins in `bytes`; their end where there is none.
+// Returns the position of the next complete record in `bytes`; their end if there is none.
 std::size_t next_whole(View bytes) {
   std::size_t at = 0;
   while (at < bytes.size() && !whole_record(bytes.subspan(at))) ++at;
   return at;
 }
 
-// Whether the first `size` bytes are a whole record once one of their bits is flipped, which is done then.
-// That another bit than the flipped one fits the check sum of 64 bits has the chance of 8 size / 2^64.
+// Tries to make the first `size` bytes a complete record by flipping one bit; returns true, with the bit
+// flipped, if this succeeds. The probability that a wrong bit fits the 64-bit check sum is 8 size / 2^64.
 bool mend(std::span<std::uint8_t> bytes, std::size_t size) {
-  constexpr std::size_t kLargest = 65'536;  // 2^19 check sums of it take seconds
+  constexpr std::size_t kLargest = 65'536;  // its 2^19 check sums take seconds
   if (size > kLargest) return false;
   for (std::size_t bit = 0; bit < 8 * size; ++bit) {
     std::uint8_t& byte = bytes[bit / 8];
@@ -85,13 +84,13 @@ bool lock(int file) {
   return fcntl(file, F_SETLK, &all) == 0;
 }
 
-// Whether the file is as its only writer left it: others neither deleted nor truncated it.
+// True if the file is as its only writer left it: neither deleted nor truncated by others.
 bool is_untouched(int file, std::size_t size) {
   struct stat status {};
   return fstat(file, &status) == 0 && status.st_nlink > 0 && static_cast<std::size_t>(status.st_size) >= size;
 }
 
-// Empty where the file may be used.
+// Returns an empty string if the file can be used, otherwise the problem.
 std::string problem_with(int file, std::string_view header) {
   if (file < 0) return std::strerror(errno);
   struct stat status {};

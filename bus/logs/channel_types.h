@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The message type of a channel, for programs that read all channels of a log.
+// Maps a channel to its message type, for programs that read all channels of a log.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@ inline bool is_on(std::string_view channel, const bus::Family& family) {
   return channel.starts_with(family.prefix) && is_valid_name(channel.substr(family.prefix.size()));
 }
 
-// The channel whose message a REPAIR channel carries; any other as it is.
+// Returns the channel whose message a REPAIR channel carries; any other channel unchanged.
 inline std::string_view without_repair(std::string_view channel) {
   constexpr std::string_view kRepair = bus::channels::kRepair.prefix;
   while (channel.starts_with(kRepair)) channel.remove_prefix(kRepair.size());
   return channel;
 }
 
-// Calls `f.template operator()<Message>()` with the type of `channel` (of the channel repaired, for REPAIR);
-// returns false for any other channel.
+// Calls `f.template operator()<Message>()` with the message type of `channel` (of the repaired channel, for
+// REPAIR); returns false for an unknown channel.
 template <class Function>
 bool with_type_of(std::string_view channel, Function&& f) {
   return bus::any_channel([&]<class Message>(const auto& ours) {
@@ -35,10 +35,11 @@ bool with_type_of(std::string_view channel, Function&& f) {
   });
 }
 
-// The channel's family: what comes before the dot of a family's channel, the whole name otherwise.
+// Returns the part of a channel before its dot; the whole name if it has none.
 inline std::string_view family_of(std::string_view channel) { return channel.substr(0, channel.find('.')); }
 
-// Decodes bytes as bus::Bus does, without counting or reporting; false when they are not a valid Message.
+// Decodes bytes as bus::Bus does, without counting or reporting; returns false when they are not a valid
+// Message.
 template <class Message>
 [[nodiscard]] bool decode_checked(const std::vector<std::uint8_t>& bytes, Message& message) {
   return bus::decode(bytes, message).empty();

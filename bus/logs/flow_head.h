@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The place of a message in its flow, read from its bytes: for programs that record or count messages and
-// decode none.
+// Reads the position of a message in its flow from its bytes, for programs that record or count messages
+// without decoding them.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace halocline::bus {
 
-// The messages of a channel that are numbered.
+// Properties of the numbered messages of a channel.
 struct FlowType {
-  std::int64_t fingerprint = 0;    // LCM's, of the channel's type; 0: no flow
-  bool is_packet_to_send = false;  // a SEND, numbered and repeated by its sender as it likes
+  std::int64_t fingerprint = 0;    // LCM's fingerprint of the channel's type; 0: not numbered
+  bool is_packet_to_send = false;  // a SEND, numbered and repeated as its sender chooses
 };
 FlowType flow_type_of(std::string_view channel);
 
-// Empty for a message of another type, and for one of a publisher that numbers none.
+// Returns nothing for a message of another type, and for a publisher that does not number its messages.
 std::optional<FlowHead> flow_head(const FlowType& type, std::span<const std::uint8_t> message);
 
 }  // namespace halocline::bus

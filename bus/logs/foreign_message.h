@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decodes messages that a vehicle of others may have left incomplete: a vehicle_id or source_id of 0, an
-// orientation of all zeros (it becomes level and towards north).
+// Decodes messages of third-party vehicles, which may be incomplete: a vehicle_id or source_id of 0, or an
+// orientation of all zeros, which is replaced by level and facing north.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace halocline::clients {
 
 struct ForeignMessage {
-  std::string problem;  // as bus::decode has it; empty: none
+  std::string problem;  // as bus::decode() returns it; empty: none
   bool orientation_filled = false;
   bool is_sound() const { return problem.empty(); }
 };
@@ -26,7 +26,7 @@ inline bool fill_orientation(vehicle_state_t& state) {
   return true;
 }
 
-// All but the above is checked as bus::decode does. An id of 0 stays.
+// Everything else is checked as in bus::decode(). An id of 0 is kept.
 template <class Message>
 [[nodiscard]] ForeignMessage decode_foreign(std::span<const std::uint8_t> bytes, Message& message) {
   ForeignMessage result;

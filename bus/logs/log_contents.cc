@@ -18,7 +18,7 @@ namespace halocline::clients {
 namespace {
 
 constexpr double kNanosecondsPerMicrosecond = 1000, kTolerance = 0.1;
-constexpr std::int64_t kShortest_us = 100'000;  // span of times that tells a unit
+constexpr std::int64_t kShortest_us = 100'000;  // time span from which a unit can be told
 constexpr std::size_t kMaxNamed = 10;
 
 template <class Message>
@@ -29,7 +29,7 @@ concept HasUtime = requires(const Message& message) {
 std::string_view name_of(std::string_view channel) { return channel; }
 std::string_view name_of(const bus::Family& family) { return family.prefix; }
 
-// Whether the channel is named as those of one of our types are, up to its dot.
+// True if the part of the channel before its dot is that of a message type of Halocline.
 bool is_of_a_family(std::string_view channel) {
   return bus::any_channel([&]<class Message>(const auto& ours) {
     return family_of(name_of(ours)) == family_of(without_repair(channel));
@@ -44,7 +44,7 @@ std::string events_text(std::int64_t count) {
   return std::to_string(count) + (count == 1 ? " event" : " events");
 }
 
-// "STATE.a (600 events), STATE.b (600 events)".
+// Returns text such as "STATE.a (600 events), STATE.b (600 events)".
 std::string list_of(const std::vector<std::pair<std::string, std::int64_t>>& channels) {
   std::string text;
   for (std::size_t i = 0; i < std::min(channels.size(), kMaxNamed); ++i)

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Events of a log that cannot be read as what their channels say, and accepted packets without outcomes
-// (packet_account.h).
+// Checks the contents of a log: finds events that cannot be read as the type of their channel, and accepted
+// packets without outcomes (packet_account.h).
 //
-// On a channel of ours an event of another fingerprint is of another version; one that does not decode, or
-// holds what its type does not allow, is invalid, unless that is what vehicles of others leave out
-// (foreign_message.h). A channel of one of our families whose vehicle is no name (core/names.h) is misnamed.
-// Events on all other channels are other programs' and no fault, unless there are no others.
+// On a channel of Halocline, an event with another fingerprint belongs to another version. An event that does
+// not decode, or has values that its type does not permit, is invalid, except for the fields that third-party
+// vehicles may leave out (foreign_message.h). A channel of a Halocline family whose vehicle name is invalid
+// (core/names.h) is misnamed. Events on all other channels belong to other programs and are no fault, unless
+// the log holds nothing else.
 //
-// Clocks. Stamps and times are microseconds. Where, from the first to the last event of a channel, stamps run
-// a thousand times as fast as the times in the messages, and are a thousand times as great, they are
-// nanoseconds; the other way round the times are.
+// Stamps and times are in microseconds. If, from the first to the last event of a channel, the stamps run a
+// thousand times as fast as the times in the messages, and are a thousand times as large, the stamps are in
+// nanoseconds; in the opposite case the times are.
 #pragma once
 
 #include <cstddef>
@@ -33,29 +34,30 @@ class LogContents {
     std::int64_t stamp_us = 0;
     std::string_view channel;
     std::span<const std::uint8_t> data;
-    std::size_t file = 0;  // of the log
+    std::size_t file = 0;  // index in the files of the log
     std::int64_t offset = 0;
   };
-  // The events of the log in its order.
+  // Counts an event; call it for the events of the log in order.
   void count(const Event& event);
 
-  // What is wrong, each a sentence without its full stop; empty for a log that is read whole. `files`: of the
-  // log.
+  // Returns the faults, each a sentence without its full stop; empty for a log that can be read completely.
+  // `files`: names of the files of the log.
   std::vector<std::string> problems(const std::vector<std::string>& files) const;
   PacketAccount::Missing missing() const { return packets_.missing(); }
 
  private:
   struct Channel {
     using Read = void (LogContents::*)(Channel& channel, const Event& event);
-    Read read = nullptr;  // null: none of ours
+    Read read = nullptr;  // null: not a channel of Halocline
     bool is_misnamed = false;
     std::int64_t events = 0, other_version = 0, invalid = 0, timed = 0;
-    std::string first_problem;  // of the invalid
+    std::string first_problem;  // of the invalid events
     std::size_t first_file = 0;
     std::int64_t first_offset = 0;
-    std::int64_t first_stamp_us = 0, last_stamp_us = 0, first_utime = 0, last_utime = 0;  // of the timed
+    // First and last of the timed events.
+    std::int64_t first_stamp_us = 0, last_stamp_us = 0, first_utime = 0, last_utime = 0;
   };
-  using Counted = std::pair<std::string, std::int64_t>;  // a channel's events
+  using Counted = std::pair<std::string, std::int64_t>;  // channel and number of events
 
   Channel& channel_of(std::string_view name);
   template <class Message>

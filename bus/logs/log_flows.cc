@@ -13,9 +13,9 @@
 namespace halocline::clients {
 namespace {
 
-constexpr std::size_t kMostMissing = 10'000;  // of one flow; beyond these the oldest are only counted
+constexpr std::size_t kMostMissing = 10'000;  // limit for one flow; older ones are only counted
 
-// Elsewhere several sessions are no surprise: shards, clients.
+// Channels on which several sessions are unusual; elsewhere they are normal (shards, clients).
 bool has_one_publisher(std::string_view channel) {
   const auto is_of = [&](const bus::Family& family) { return channel.starts_with(family.prefix); };
   const auto& held = bus::SessionWatch::kHeld;
@@ -49,7 +49,7 @@ void LogFlows::Flow::take(std::int64_t sequence) {
 LogFlows::Channel& LogFlows::channel_of(std::string_view name) {
   auto found = channels_.find(name);
   if (found == channels_.end()) {
-    const bus::FlowType type = bus::flow_type_of(name);  // packets are numbered by their senders as they like
+    const bus::FlowType type = bus::flow_type_of(name);  // a SEND is numbered as its sender chooses
     found =
         channels_.emplace(std::string(name), Channel{.type = type.is_packet_to_send ? bus::FlowType() : type})
             .first;

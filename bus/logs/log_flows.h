@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a log lacks, by the (session, sequence) of its messages: each publisher numbers its messages on a
+// Finds the messages that a log lacks, from (session, sequence): each publisher numbers its messages on a
 // channel 0, 1, 2, ...
 //
-// A number between two that are there, and not there itself, is missing. What a publisher sent before the
-// first and after the last is not known. A flow whose numbers and stamps go back begins anew: the log holds
-// two runs of the same sessions.
+// A number between two recorded ones that was not recorded itself is missing. Messages that a publisher sent
+// before the first and after the last recorded one are unknown. A flow whose numbers and time stamps go back
+// starts again: the log holds two runs with the same sessions.
 #pragma once
 
 #include <cstddef>
@@ -26,16 +26,16 @@ namespace halocline::clients {
 
 class LogFlows {
  public:
-  // An event of the log, in its order; on REPAIR.<channel> it fills a gap. What is no message of a flow is
-  // ignored.
+  // Counts an event; call it for the events of the log in order. An event on REPAIR.<channel> fills a gap; a
+  // message that belongs to no flow is ignored.
   void count(std::string_view channel, std::span<const std::uint8_t> data);
 
   struct OfChannel {
     std::string channel;
     std::int64_t messages = 0, missing = 0;  // `missing` saturates
-    std::size_t sessions = 0;                // where a channel has one publisher at a time; otherwise 1
+    std::size_t sessions = 0;                // counted if a channel has one publisher at a time; otherwise 1
   };
-  // The channels of which messages are missing, or that have several sessions, by name.
+  // Returns the channels that lack messages or have several sessions, by name.
   std::vector<OfChannel> remarkable() const;
   std::int64_t missing() const;
   bool begins_anew() const { return begins_anew_; }
@@ -44,7 +44,7 @@ class LogFlows {
   struct Flow {
     std::int64_t first = 0, last = 0, last_utime = 0;
     std::set<std::int64_t> missing;  // the latest kMostMissing
-    std::int64_t given_up = 0;       // missing, and forgotten
+    std::int64_t given_up = 0;       // number of older missing messages
     void take(std::int64_t sequence);
     void note_missing(std::int64_t from, std::int64_t end);
   };
@@ -60,8 +60,8 @@ class LogFlows {
   bool begins_anew_ = false;
 };
 
-// A line about what is missing, and one about the channels with several sessions; none for a whole log of one
-// run.
+// Writes a line about missing messages, and one about the channels with several sessions; none for a complete
+// log of one run.
 void report_flows(std::ostream& out, const LogFlows& flows);
 
 }  // namespace halocline::clients

@@ -14,11 +14,11 @@
 namespace halocline::bus {
 namespace {
 
-constexpr std::int64_t kHeaderBytes = 28;  // word, number, stamp, two lengths
+constexpr std::int64_t kHeaderBytes = 28;  // sync word, number, time stamp, two lengths
 
 void remove_earlier_series(const std::string& path) {
   for (const std::string& part : parts_of_log(path)) {
-    std::error_code stays;  // then it would be read as a part of this log
+    std::error_code stays;  // a remaining file would be read as a part of this log
     require(std::filesystem::remove(part, stays), "cannot replace " + part + ", a part of an earlier log");
   }
 }
@@ -53,7 +53,7 @@ bool LogParts::flush() {
   return !std::exchange(is_refused_, false);
 }
 
-// A device stays as it is.
+// A device cannot be truncated and stays unchanged.
 void LogParts::take_back() {
   failed_ = true;
   std::FILE* file = file_->getFilePtr();
@@ -75,7 +75,7 @@ void LogParts::rotate_before(SimTime stamp, std::int64_t bytes) {
   if (stamp >= part_ends_) part_ends_ = next_on_grid(stamp, rotation_.part_time);
   close();
   if (!open_part(part_ + 1, LogStart::kReplace)) failed_ = is_refused_ = true;
-  std::error_code stays;  // no reason to stop a run
+  std::error_code stays;  // ignored: no reason to stop a run
   if (rotation_.parts_kept > 0 && part_ >= rotation_.parts_kept)
     std::filesystem::remove(part_of_log(path_, part_ - rotation_.parts_kept), stays);
 }

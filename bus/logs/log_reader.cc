@@ -28,7 +28,7 @@ struct Mapping {
   LogBytes bytes;
 };
 
-// An empty file cannot be mapped; it holds nothing.
+// Maps a file. An empty file cannot be mapped and gives an empty mapping.
 Mapping map_file(const std::string& path) {
   const std::string why = why_unreadable(path);
   require(why.empty(), "cannot read the log " + path + ": " + why);

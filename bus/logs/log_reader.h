@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads LCM logs event by event, whatever state they are in: sound events are read, the rest is reported with
+// Reads LCM logs event by event, whatever their state: intact events are returned, damage is reported with
 // its place.
 //
-// What is an event and what is damage: log_scan.h. A log that a recorder rotated (bus/logs/log_recorder.h) is
-// a series of files: run.lcm, run.0001.lcm, run.0002.lcm, ...; opening run.lcm reads all of it that is there,
-// also when the oldest were deleted. Any other logs may be read as one by giving several paths. Files are
-// mapped one at a time, so memory does not grow with the log; one that shrinks while it is read ends the
-// program.
+// log_scan.h defines intact and damaged events. A log that a recorder rotated (bus/logs/log_recorder.h) is a
+// series of files: run.lcm, run.0001.lcm, run.0002.lcm, ... Opening run.lcm reads all files that exist, even
+// if the oldest were deleted. Any other logs can be read as one by giving several paths. Files are mapped one
+// at a time, so memory does not grow with the log; a file that shrinks while it is read ends the program.
 #pragma once
 
 #include <cstdint>
@@ -24,16 +23,16 @@ namespace halocline::clients {
 
 struct LoggedEvent {
   std::int64_t number = 0;
-  std::int64_t stamp_us = 0;  // simulation time in our own logs, the wall clock in lcm-logger's
+  std::int64_t stamp_us = 0;  // simulation time in Halocline's logs, wall clock in lcm-logger's
   std::string channel;
   std::vector<std::uint8_t> data;
-  std::size_t file = 0;     // which of LogReader::files()
-  std::int64_t offset = 0;  // of its first byte in that file
+  std::size_t file = 0;     // index in LogReader::files()
+  std::int64_t offset = 0;  // position of its first byte in that file
 };
 
-// Bytes of one file that belong to no event.
+// Bytes of a file that belong to no event.
 struct BadStretch {
-  std::size_t file = 0;  // which of LogReader::files()
+  std::size_t file = 0;  // index in LogReader::files()
   std::int64_t offset = 0, bytes = 0;
   bool cut_short = false;  // the file ends within an event
 };
@@ -42,22 +41,21 @@ class LogReader {
  public:
   static constexpr std::size_t kMaxStretchesKept = 10'000;
 
-  // Throws InvalidArgument for a file that cannot be read, for one that is no LCM log, and where all of them
-  // hold no event.
+  // Throws InvalidArgument for a file that cannot be read, for a file that is no LCM log, and if none of the
+  // files holds an event.
   explicit LogReader(const std::string& path) : LogReader(std::vector<std::string>{path}) {}
   explicit LogReader(const std::vector<std::string>& paths);
 
-  // False at the end of the last file.
+  // Reads the next event; returns false at the end of the last file.
   [[nodiscard]] bool next(LoggedEvent& event);
 
   const std::vector<std::string>& files() const { return files_; }
-  // What was met so far, in order; not more than kMaxStretchesKept.
+  // Damage found so far, in order; at most kMaxStretchesKept.
   const std::vector<BadStretch>& bad_stretches() const { return bad_; }
-  std::int64_t bytes_skipped() const {
-    return bytes_skipped_;
-  }                                                 // that belonged to no event; cut events' apart
+  // Bytes that belonged to no event, without those of events that were cut off.
+  std::int64_t bytes_skipped() const { return bytes_skipped_; }
   bool truncated() const { return truncated_; }     // a file ends within an event
-  std::int64_t bytes() const { return bytes_; }     // of the files begun so far
+  std::int64_t bytes() const { return bytes_; }     // of the files opened so far
   const LogFlows& flows() const { return flows_; }  // of the events read so far
   const LogContents& contents() const { return contents_; }
 
@@ -77,16 +75,17 @@ class LogReader {
   bool truncated_ = false;
 };
 
-// The files of the series that begins with `path`, in order; `path` alone where there is no other.
+// Returns the files of the series that begins with `path`, in order; only `path` if there is no other.
 std::vector<std::string> series_of(const std::string& path);
 
-// "FILE, byte OFFSET".
+// Returns "FILE, byte OFFSET".
 std::string place_of(const LogReader& log, const LoggedEvent& event);
 
-// Writes a line about each bad stretch that was met so far (the first twenty, and how many more), what of the
-// log cannot be read (log_contents.h) and what it lacks (log_flows.h). True when the log was sound and whole:
-// then there is none, unless the log holds several sessions. Every program that reads a log calls this once
-// it has read it all; what it computed is then of a part of the run, so its exit code is 1.
+// Writes a line about each damaged stretch found so far (the first twenty, and the number of others), about
+// contents that cannot be read (log_contents.h) and about missing messages (log_flows.h). Returns true when
+// the log was intact and complete; then nothing is written, unless the log holds several sessions. Every
+// program that reads a log calls this at the end, and exits with 1 if it returns false, because its results
+// are then those of a part of the run.
 bool report_damage(std::ostream& out, const LogReader& log);
 
 }  // namespace halocline::clients

@@ -12,7 +12,7 @@ LogRecorder::LogRecorder(const std::string& path, const LogRotation& rotation, L
 LogRecorder::~LogRecorder() {
   try {
     close();
-  } catch (const std::runtime_error&) {  // of a run that failed otherwise
+  } catch (const std::runtime_error&) {  // the run has failed for another reason
   }
 }
 

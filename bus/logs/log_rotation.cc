@@ -15,7 +15,7 @@ namespace {
 
 struct Unit {
   std::string_view name;
-  double bytes, seconds;  // one of the two
+  double bytes, seconds;  // one of them is 0
 };
 constexpr std::array<Unit, 6> kUnits{
     {{"kB", 1e3, 0}, {"MB", 1e6, 0}, {"GB", 1e9, 0}, {"min", 0, 60}, {"s", 0, 1}, {"h", 0, 3600}}};

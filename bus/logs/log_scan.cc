@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> kWord{0xED, 0xA1, 0xDA, 0x01};
 constexpr std::size_t kWordBytes = kWord.size(), kHeaderBytes = kWordBytes + 24;
-constexpr std::size_t kLongestChannel = 63;  // LCM's own limit
-constexpr std::int64_t kLastStamp_us =
-    3'155'760'000'000'000;  // a century: sums of times within it cannot overflow
+constexpr std::size_t kLongestChannel = 63;  // limit of LCM
+// A century: sums of times within it cannot overflow.
+constexpr std::int64_t kLastStamp_us = 3'155'760'000'000'000;
 
 std::uint64_t big_endian(LogBytes bytes, std::size_t at, std::size_t count) {
   std::uint64_t value = 0;
@@ -28,7 +28,7 @@ bool word_at(LogBytes log, std::size_t at) {
          std::equal(kWord.begin(), kWord.end(), log.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-// The next word that begins in [from, end); `end` when there is none.
+// Returns the position of the next sync word that begins in [from, end); `end` if there is none.
 std::size_t find_word(LogBytes log, std::size_t from, std::size_t end) {
   const std::size_t stop = std::min(log.size(), end + kWordBytes - 1);
   while (from + kWordBytes <= stop) {
@@ -41,7 +41,7 @@ std::size_t find_word(LogBytes log, std::size_t from, std::size_t end) {
   return end;
 }
 
-// The event whose word stands at `at`, when its header is plausible.
+// Returns the event whose sync word is at `at`, if its header is plausible.
 std::optional<EventPlace> plausible_at(LogBytes log, std::size_t at,
                                        std::int64_t last_stamp = kLastStamp_us) {
   if (!word_at(log, at) || log.size() - at < kHeaderBytes) return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<EventPlace> plausible_at(LogBytes log, std::size_t at,
   return is_one_line(event.channel) ? std::optional(event) : std::nullopt;
 }
 
-// The first plausible event that begins within the data of `outer`, or in its last bytes.
+// Returns the first plausible event that begins within the data of `outer`, or in its last bytes.
 std::optional<EventPlace> first_within(LogBytes log, const EventPlace& outer) {
   const std::size_t end = outer.offset + outer.size;
   for (std::size_t at = find_word(log, outer.offset + kWordBytes, end); at < end;
@@ -70,7 +70,7 @@ std::optional<EventPlace> first_within(LogBytes log, const EventPlace& outer) {
   return std::nullopt;
 }
 
-// Events from `first` on, each behind the one before, end exactly at `end`.
+// True if events from `first` on, each directly after the previous one, end exactly at `end`.
 bool fill_exactly(LogBytes log, const EventPlace& first, std::size_t end) {
   std::size_t at = first.offset;
   while (at < end) {
@@ -89,7 +89,7 @@ bool is_sound(LogBytes log, const EventPlace& event) {
   return followed && !(inner->number - 1 == event.number && fill_exactly(log, *inner, end));
 }
 
-// Whether the last bytes of a log are the beginning of an event.
+// True if the last bytes of a log are the beginning of an event.
 bool begins_like_an_event(LogBytes rest) {
   const std::size_t size = std::min(rest.size(), kWordBytes);
   return size > 0 &&

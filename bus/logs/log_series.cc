@@ -10,9 +10,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kDigits = 4;  // at least; names of later parts grow
+constexpr std::size_t kDigits = 4;  // minimum; names of later parts are longer
 
-// The number between `stem` and `extension` of a part's name; 0 when it is none.
+// Returns the number between `stem` and `extension` in a part's name; 0 if it is not a part.
 int part_number(const std::string& name, const std::string& stem, const std::string& extension) {
   const std::size_t around = stem.size() + 1 + extension.size();
   if (name.size() < around + kDigits || name.size() > around + 9) return 0;

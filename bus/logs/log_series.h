@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of the files of a log that is rotated: run.lcm first, then run.0001.lcm, run.0002.lcm, ... beside it.
+// File names of a rotated log: run.lcm first, then run.0001.lcm, run.0002.lcm, ... in the same folder.
 #pragma once
 
 #include <string>
@@ -7,13 +7,14 @@
 
 namespace halocline::bus {
 
-// `part` 0 is `path` itself.
+// Returns the file name of a part; part 0 is `path` itself.
 std::string part_of_log(const std::string& path, int part);
 
-// The name of the first part, `path` itself where it is no later one; that part may have been deleted.
+// Returns the name of the first part, which may have been deleted; `path` itself if it is not a later part.
 std::string first_part_of_log(const std::string& path);
 
-// All parts but the first that are there, by number. Gaps do not matter: the oldest may have been deleted.
+// Returns all existing parts except the first, by number. Gaps are permitted, as the oldest may have been
+// deleted.
 std::vector<std::string> parts_of_log(const std::string& path);
 
 }  // namespace halocline::bus

@@ -8,12 +8,16 @@
 namespace halocline::clients {
 namespace {
 
-constexpr std::int64_t kBegun_us = 1'000'000;    // before a departure, well above any state lag
+constexpr std::int64_t kBegun_us = 1'000'000;    // before a departure, much longer than any state lag
 constexpr std::int64_t kSilence_us = 2'500'000;  // between two STATEs, half the default state timeout
 constexpr std::int64_t kRounding_us = 1;
 constexpr std::int64_t kAnotherRun_us = 10'000'000;
-// Delay of the sound between the vehicles that are furthest apart: water at its slowest, paths half as long
-// again, and a second for what comes after the first path and the steps of the programs.
+// Upper bound on the delay between the vehicles that are furthest apart:
+//
+//   delay = kDetour distance / kSlowestSound + kMargin
+//
+// with the slowest sound speed in water, paths half as long again as the distance, and a second for later
+// arrivals and the steps of the programs.
 constexpr double kSlowestSound_mps = 1400, kDetour = 1.5, kMargin_s = 1;
 constexpr double kLongestDelay_s = 120;  // 170 km: one wrong STATE does not excuse all packets
 
@@ -106,7 +110,8 @@ std::shared_ptr<const PacketAccount::Ids> PacketAccount::vehicles_there(std::int
   return there_;
 }
 
-// Of these some may have no modem, or be gone by then: only what has one and goes on counts.
+// Some of the vehicles present may have no modem, or disappear later: only those with a modem and later
+// STATEs count.
 PacketAccount::Ids PacketAccount::receivers_of(const Packet& packet, std::int64_t departure_us) const {
   Ids ids;
   for (const auto& [name, v] : vehicles_) {
@@ -117,7 +122,8 @@ PacketAccount::Ids PacketAccount::receivers_of(const Packet& packet, std::int64_
   return ids;
 }
 
-// Without a word on modems everybody may have one, without STATEs anybody may be there.
+// In a log without messages about modems every vehicle may have one; in a log without STATEs any vehicle may
+// be present.
 bool PacketAccount::has_possible_receiver(const Packet& packet) const {
   const bool has_states = least_ned_m_[0] <= greatest_ned_m_[0];
   return !has_states || std::any_of(packet.there->begin(), packet.there->end(), [&](std::int32_t id) {

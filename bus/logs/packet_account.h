@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Accepted transmissions of a log, and whether each has its outcomes.
+// Account of the accepted transmissions of a log: checks that each has its outcomes.
 //
 // Rule (packet_medium.h): a transmission that a RECEIPT accepts has an OUTCOME at every vehicle with a modem
-// that was there at its departure, but the sender. A vehicle was there when its STATEs had begun a second
-// before the departure, had gone on until then without a silence, and go on after it; it has a modem when it
-// sends, receives or has LINKS in the log. That is fewer than the server knows, so that no whole log is
-// blamed. Packets that may still have been on their way at the end of the log are left out: their time is the
-// packet's duration, and the longest delay of an outcome that the log holds or that its vehicles are apart.
-// So are those that a vehicle with a battery had queued: it may have run out. Where CLOCK goes back by more
-// than ten seconds another run begins, and the one before is judged by itself.
+// that was present at its departure, except the sender. A vehicle was present if its STATEs had begun at
+// least a second before the departure, had continued until then without a silence, and continue after it. It
+// has a modem if it sends, receives or has LINKS in the log. This finds fewer vehicles than the server knows,
+// so that no complete log is reported as faulty.
+//
+// Packets that may still have been under way at the end of the log are left out. Their time is the packet's
+// duration plus a delay: the longest one of an outcome in the log, or that of the distance between its
+// vehicles if longer. Packets that a vehicle with a battery had queued are left out, too, as its battery may
+// have run out. If CLOCK goes back by more than ten seconds, another run begins, and the previous one is
+// judged separately.
 #pragma once
 
 #include <compare>
@@ -30,10 +33,11 @@ namespace halocline::clients {
 class PacketAccount {
  public:
   PacketAccount() = default;
-  PacketAccount(PacketAccount&&) = default;  // packets point to vehicles, which stay where they are
+  PacketAccount(PacketAccount&&) = default;  // packets point to vehicles, which do not move
   PacketAccount& operator=(PacketAccount&&) = default;
 
-  // Messages in the order of the log; `vehicle` is the name that the channel has. Repetitions change nothing.
+  // Processes a message; call it in the order of the log. `vehicle` is the name in the channel. Repeated
+  // messages change nothing.
   void take(std::string_view vehicle, const vehicle_state_t& state);
   void take(std::string_view vehicle, const vehicle_battery_t& battery);
   void take(std::string_view vehicle, const modem_send_t& send);
@@ -44,10 +48,10 @@ class PacketAccount {
 
   struct Missing {
     std::int64_t accepted = 0;          // packets
-    std::int64_t under_way = 0;         // of these, perhaps, at the end of the log
+    std::int64_t under_way = 0;         // of these, perhaps still under way at the end of the log
     std::int64_t without_outcome = 0;   // of the others
-    std::int64_t lack_some = 0;         // of the others: packets that have outcomes, but not at every vehicle
-    std::int64_t outcomes_lacking = 0;  // of these packets
+    std::int64_t lack_some = 0;         // of the others: packets with outcomes, but not at every vehicle
+    std::int64_t outcomes_lacking = 0;  // missing outcomes of these packets
     bool any() const { return without_outcome > 0 || lack_some > 0; }
   };
   Missing missing() const;
@@ -59,7 +63,7 @@ class PacketAccount {
     std::int64_t since_us = 0, last_us = 0;  // of its STATEs without a silence
     bool has_state = false, has_battery = false, has_sent = false;
   };
-  // One transmission of one sender.
+  // Identifies one transmission of one sender.
   struct Name {
     std::int64_t session = 0, sequence = 0, departure_us = 0;
     auto operator<=>(const Name&) const = default;
@@ -67,12 +71,12 @@ class PacketAccount {
   struct Packet {
     const Vehicle* sender = nullptr;
     double duration_s = 0;
-    std::shared_ptr<const Ids> there;  // at its departure, as far as the log had come
+    std::shared_ptr<const Ids> there;  // present at its departure, as far as the log was read
   };
   struct Outcomes {
     std::int32_t source_id = 0;
     Ids receivers;
-    std::int64_t several = 0;  // receivers that one outcome sums up
+    std::int64_t several = 0;  // number of receivers in a common outcome
   };
 
   Vehicle& vehicle(std::string_view name, std::int32_t id);
@@ -84,13 +88,13 @@ class PacketAccount {
   double longest_delay_s() const;
 
   std::map<std::string, Vehicle, std::less<>> vehicles_;
-  std::set<std::int32_t> with_modem_;  // of OUTCOMEs and LINKS
+  std::set<std::int32_t> with_modem_;  // from OUTCOMEs and LINKS
   std::map<std::pair<Name, const Vehicle*>, Packet> packets_;
   std::map<Name, std::vector<Outcomes>> outcomes_;  // by source
   std::shared_ptr<const Ids> there_;                // the latest; most packets share it
   std::int64_t end_us_ = INT64_MIN;
   std::optional<std::int64_t> clock_us_;
-  Missing settled_;  // of the runs before
+  Missing settled_;  // result of earlier runs in the log
   double longest_delay_s_ = 0;
   double least_ned_m_[3] = {1e9, 1e9, 1e9}, greatest_ned_m_[3] = {-1e9, -1e9, -1e9};
 };

@@ -10,12 +10,12 @@ namespace halocline::bus {
 namespace {
 
 constexpr std::uint32_t kShortWord = 0x4c433032, kFragmentWord = 0x4c433033;  // "LC02", "LC03"
-constexpr std::uint32_t kMaxChannelBytes = 64;                                // with the 0 at its end
-// Offsets in a datagram, behind 8 bytes of UDP (liblcm, udpm_util.h: lcm2_header_long_t).
+constexpr std::uint32_t kMaxChannelBytes = 64;                                // with the terminating 0
+// Offsets in a datagram, including 8 bytes of UDP header (liblcm, udpm_util.h: lcm2_header_long_t).
 constexpr std::uint32_t kWordAt = 8, kSizeAt = 16, kOffsetAt = 20, kNumberAt = 24, kCountAt = 26,
                         kPartAt = 28;
-constexpr std::uint32_t kMaxPartBytes = 65'487;  // 65 507 of a UDP datagram less LCM's header
-// Places in the filter's memory.
+constexpr std::uint32_t kMaxPartBytes = 65'487;  // 65 507 of a UDP datagram minus LCM's header
+// Indices of the filter's scratch memory.
 constexpr std::uint32_t kRoom = 0, kPayload = 1, kChannelBytes = 2;
 
 class Assembler {
@@ -27,7 +27,7 @@ class Assembler {
   void load_word(std::uint32_t at) { add(BPF_LD | BPF_W | BPF_ABS, at); }
   void load_half(std::uint32_t at) { add(BPF_LD | BPF_H | BPF_ABS, at); }
   void load_length() { add(BPF_LD | BPF_W | BPF_LEN); }
-  // Drops the datagram where the accumulator compares so with `value`, or with the index register.
+  // Drops the datagram if the comparison of the accumulator with `value`, or with the index register, holds.
   void drop_if(unsigned comparison, std::uint32_t value) {
     program_.push_back(filter_jump(comparison, value, 0, 1));
     add(BPF_RET | BPF_K, kFilterDrops);
@@ -36,7 +36,8 @@ class Assembler {
     drop_if(comparison, 0);
     program_[program_.size() - 2].code |= BPF_X;
   }
-  // Jumps to where land() is called with what this returns, always or where the accumulator is `value`.
+  // Appends a jump to the place where land() is called with the return value. leap() always jumps, leap_if()
+  // only if the accumulator is `value`.
   std::size_t leap() {
     add(BPF_JMP | BPF_JA);
     return program_.size() - 1;
@@ -52,12 +53,13 @@ class Assembler {
   FilterProgram program_;
 };
 
-// Drops what the header shows, and leaves the bytes up to the size's end and those of the payload in memory.
+// Drops datagrams with an invalid fragment header. Stores the bytes between offset and size of the message in
+// kRoom, and those of the payload in kPayload.
 void check_header(Assembler& to) {
   to.load_length();
   to.add(BPF_ALU | BPF_SUB | BPF_K, kPartAt);
   to.add(BPF_ST, kPayload);
-  to.load_half(kCountAt);  // fails, and so drops, where the header is not whole
+  to.load_half(kCountAt);  // drops the datagram if the header is incomplete
   to.add(BPF_ALU | BPF_MUL | BPF_K, kMaxPartBytes);
   to.add(BPF_MISC | BPF_TAX);
   to.load_word(kSizeAt);
@@ -77,11 +79,12 @@ void check_header(Assembler& to) {
   to.drop_if_x(BPF_JGE);
 }
 
-// Looks for the channel's end from the index register on; its bytes with the 0 are in the accumulator then.
+// Searches for the end of the channel, from the index register on; leaves the channel's length, with the 0,
+// in the accumulator.
 void find_channel_end(Assembler& to) {
   std::vector<std::size_t> found;
   for (std::uint32_t i = 0; i < kMaxChannelBytes; ++i) {
-    to.add(BPF_LD | BPF_B | BPF_IND, i);  // fails, and so drops, behind the datagram's end
+    to.add(BPF_LD | BPF_B | BPF_IND, i);  // drops the datagram at its end
     to.add({filter_jump(BPF_JEQ, 0, 0, 2)});
     to.add(BPF_LD | BPF_W | BPF_IMM, i + 1);
     found.push_back(to.leap());
@@ -99,7 +102,7 @@ void check_payload(Assembler& to) {
   to.add(BPF_MISC | BPF_TAX);
   to.load_half(kCountAt);
   to.add({filter_jump(BPF_JEQ | BPF_X, 0, 1, 0)});
-  to.add(BPF_RET | BPF_K, kFilterPasses);  // not the last
+  to.add(BPF_RET | BPF_K, kFilterPasses);  // not the last fragment
   to.add(BPF_LDX | BPF_W | BPF_MEM, kRoom);
   to.add(BPF_LD | BPF_W | BPF_MEM, kPayload);
   to.add({filter_jump(BPF_JEQ | BPF_X, 0, 0, 1)});

@@ -11,7 +11,7 @@
 namespace halocline::bus {
 namespace {
 
-// Bins end at 2^(1/8), 2^(2/8), ... times this; the first has all below.
+// Upper limits of the bins are 2^(n/8) kFirst_s, n = 0, 1, 2, ...; the first bin has everything below.
 constexpr double kFirst_s = 1e-4, kBinsPerOctave = 8;
 
 }  // namespace
@@ -61,7 +61,7 @@ Lateness LatenessWatch::summary(SimTime steady) {
       count += slot.bins[bin];
     }
   }
-  // The first bin by whose end the share of all is reached.
+  // Upper limit of the first bin at which the cumulative share is reached.
   const auto quantile_s = [&](double share) {
     const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(count)));
     std::size_t bin = 0;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lateness of a node's results: the simulation time by CLOCK when a message goes out, less the
-// message's own utime. A node that was stopped, or that computes for longer than it has, is late by that
-// measure whatever time it has reached itself.
+// Lateness of a node's results: the simulation time by CLOCK when a message is published, minus the message's
+// own utime. By this measure a node that was halted, or that computes for too long, is late whatever time it
+// has reached itself.
 //
-// Quantiles over the last minute are those of a histogram whose bins are 2^(1/8) wide: too great by 9 % at
-// most. The greatest is exact.
+// Quantiles over the last minute are those of a histogram with bins 2^(1/8) wide, so they are at most 9 % too
+// large. The maximum is exact.
 //
-// Pure: `steady` is the caller's steady time, never set back. Memory is constant.
+// The class has no side effects: `steady` is the caller's steady time, which never decreases. Memory is
+// constant.
 #pragma once
 
 #include <array>
@@ -19,19 +20,19 @@
 
 namespace halocline::bus {
 
-// Seconds of simulated time, 0 and up; 0 while nothing was published.
+// Lateness in seconds of simulated time, 0 and up; 0 while nothing was published.
 struct Lateness {
   double p50_s = 0, p99_s = 0, max_s = 0;
 };
 
 class LatenessWatch {
  public:
-  // Simulation time by CLOCK at this moment, empty while unknown. From now on what goes out more than `limit`
-  // after its instant is late; 0: nothing is.
+  // Returns the simulation time by CLOCK, nothing while it is unknown. After set_clock(), a message published
+  // more than `limit` after its instant is late; with 0, none is.
   using Clock = std::function<std::optional<SimTime>()>;
   void set_clock(Clock clock, SimDuration limit);
   SimDuration limit() const { return limit_; }
-  // A result that was due at `instant` goes out. True when it is late.
+  // Records that a result due at `instant` is published. Returns true when it is late.
   bool note(SimTime steady, SimTime instant);
   void add(SimTime steady, SimDuration lateness);
   // Quantiles and maximum of the last minute.
@@ -46,7 +47,7 @@ class LatenessWatch {
     double max_s = 0;
   };
   static std::size_t bin_of(double seconds);
-  static double end_of(std::size_t bin);  // seconds
+  static double end_of(std::size_t bin);  // upper limit, s
 
   Clock clock_;
   SimDuration limit_;

@@ -14,7 +14,7 @@ SimDuration PublicationPace::wait_before(std::size_t bytes, SimTime steady) {
   bytes_ = std::min(bytes_ + passed_s * kBytesPerS, kBurstBytes);
   const double size = static_cast<double>(bytes);
   SimDuration wait;
-  // A message larger than the bucket leaves as soon as it is full.
+  // A message larger than the bucket is sent as soon as the bucket is full.
   if (messages_ < 1 || bytes_ < std::min(size, kBurstBytes)) {
     wait = SimDuration::from_seconds(
         std::max((kBurstMessages - messages_) / kMessagesPerS, (kBurstBytes - bytes_) / kBytesPerS));

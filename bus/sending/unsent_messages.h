@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the network refused to take (no route, an interface that is down), in order, until it takes it.
+// Queue of messages that the network refused (no route, an interface that is down), in order, until it
+// accepts them.
 //
-// Bounded: after kKept, or beyond kMaxBytes, the oldest are forgotten; of flows they can still be repaired
-// (flow_repair.h).
+// The queue is bounded: messages older than kKept are dropped, and the oldest ones beyond kMaxBytes. Messages
+// of flows can still be repaired (flow_repair.h).
 #pragma once
 
 #include <cstddef>
@@ -21,15 +22,15 @@ class UnsentMessages {
  public:
   static constexpr SimDuration kKept = SimDuration::from_milliseconds(10'000);
   static constexpr SimDuration kRetry = SimDuration::from_milliseconds(20);
-  static constexpr std::size_t kMaxBytes = 4u << 20;  // and the last message whatever its size
+  static constexpr std::size_t kMaxBytes = 4u << 20;  // the last message is kept whatever its size
 
   bool is_empty() const { return messages_.empty(); }
   void keep(SimTime steady, std::string_view channel, const void* data, std::size_t size);
-  // Returns whether the network took it.
+  // Returns true if the network accepted the message.
   using Send = std::function<bool(const std::string& channel, const void* data, std::size_t size)>;
-  // Sends the oldest, and the next as long as the network takes them.
+  // Sends the oldest message, and the following ones as long as the network accepts them.
   void send(SimTime steady, const Send& send);
-  // When send() is to be called again; never() while there is none.
+  // Time at which to call send() again; never() if the queue is empty.
   SimTime next_due() const { return messages_.empty() ? SimTime::never() : next_due_; }
 
  private:
