@@ -21,17 +21,17 @@ namespace {
 
 constexpr std::string_view kAllChannels = ".*";
 
-// Messages a subscription may hold between two looks at the bus. LCM's default of 30 drops the newest of a
-// burst.
+// Capacity of the queue that LCM keeps for a subscription between two calls of handle(). LCM's default of 30
+// drops the newest messages of a burst.
 constexpr int kQueueCapacity = 20'000;
 
-// What kind of refusal this is: the channel and the field, whatever value it held.
+// Returns the kind of a refusal: the channel and the field, without the value.
 std::string kind_of(std::string_view channel, std::string_view reason) {
   return std::string(channel) + " " + std::string(reason.substr(0, reason.find(" is ")));
 }
 
-// Channels of results, whose utime is the instant at which they were due: not of requests, which name the
-// instant from which they hold, nor of what repairs the bus.
+// True for channels of results, whose utime is the instant at which they were due. False for requests, whose
+// utime is the instant from which they hold, and for the messages of bus repair.
 bool is_result(std::string_view channel) {
   constexpr std::array kFamilies{
       channels::kState,    channels::kSensors,    channels::kDvl,         channels::kGps,
@@ -50,7 +50,7 @@ struct Bus::Subscription {
   RawHandler handler;
   Wakeup wakeup;
   lcm::Subscription* lcm_subscription = nullptr;
-  std::string expression{};  // while it is subscribed
+  std::string expression{};  // set while it is subscribed
 
   void handle(std::string_view channel, const void* data, std::size_t size) const {
     if (wakeup == Wakeup::kMayAdvanceDue) ++bus->counters_.wakeups;
@@ -74,7 +74,7 @@ struct Bus::Subscription {
 
   // LCM takes no const handler. NOLINTNEXTLINE(readability-make-member-function-const)
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    if (bus->failure_) return;  // one failure ends the node; nothing more is handled on its way out
+    if (bus->failure_) return;  // one failure ends the node; further messages are not handled
     try {
       std::string_view received_on = channel;
       bus->received_at_ = SimTime::from_utime(buffer->recv_utime);
@@ -87,12 +87,12 @@ struct Bus::Subscription {
   }
 };
 
-// Subscriptions to single channels of one family. LCM compares each new channel with every subscription, so
-// many of them share one of LCM's.
+// Subscriptions to single channels of one family. LCM compares each new channel with every subscription;
+// therefore many of them share one LCM subscription.
 struct Bus::ChannelGroup {
   std::unordered_map<std::string, std::vector<const Subscription*>, TextHash, std::equal_to<>> by_channel;
   std::vector<Subscription*> all;
-  std::unique_ptr<Subscription> shared;  // to the whole family; null: each has its own
+  std::unique_ptr<Subscription> shared;  // subscribes to the whole family; null: each has its own
 };
 
 Bus::Bus(lcm::LCM& lcm, NodeIdentity identity)
@@ -117,7 +117,7 @@ void Bus::rethrow_if_failed() {
 
 void Bus::refuse(std::string_view channel, std::string_view reason) {
   ++counters_.refused;
-  constexpr std::size_t kKindsKept = 1000;  // of refusals; a hostile publisher must not grow our memory
+  constexpr std::size_t kKindsKept = 1000;  // of refusals; bounds memory against a hostile publisher
   const std::string kind = kind_of(channel, reason);
   if (refusals_.size() >= kKindsKept && !refusals_.contains(kind)) return;
   const std::int64_t count = ++refusals_[kind];
@@ -145,7 +145,7 @@ void Bus::publish_bytes(std::string_view channel, const void* data, std::size_t 
 }
 
 bool Bus::send(const std::string& channel, const void* data, std::size_t size) {
-  constexpr std::size_t kLongestChannel = 63;  // LCM's
+  constexpr std::size_t kLongestChannel = 63;  // limit of LCM
   require(channel.size() <= kLongestChannel, "channel " + printable(channel) + " is longer than LCM allows");
   lcm::LCM& carrier = route_ ? route_(channel) : lcm_;
   return carrier.publish(channel, data, static_cast<unsigned int>(size)) == 0;
@@ -173,8 +173,8 @@ void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handle
   add_subscription(regular_expression, std::move(handler), wakeup).begin(lcm_, regular_expression);
 }
 
-// A program for one vehicle keeps subscriptions of its own, so that LCM drops the messages of others as they
-// arrive.
+// A program with few vehicles keeps separate subscriptions, so that LCM drops the messages of other vehicles
+// on arrival.
 void Bus::subscribe_channel(std::string_view channel, RawHandler handler, Wakeup wakeup) {
   constexpr std::size_t kSharedFrom = 8;
   const std::string_view prefix = channel.substr(0, channel.find('.') + 1);
@@ -240,8 +240,9 @@ void Bus::refuse_rival(std::string_view channel, std::int64_t session) {
                       ", a rival's: another is publisher until it has been silent for 1 s");
 }
 
-// A copy of an old message is looked for before rivals are: it tells nothing of who publishes now.
-// A recorder judges a message once, as bytes, and records rivals, too.
+// An old message is recognised before the duplicate-publisher check, because it says nothing about who
+// publishes now. A recorder examines a message once, as raw bytes, and records messages of duplicate
+// publishers too.
 bool Bus::takes(std::string_view channel, const FlowHead& head, bool as_bytes) {
   if (follows_all_ && !as_bytes) return true;
   const auto& [session, sequence, utime, receiver, is_packet] = head;
@@ -271,8 +272,9 @@ void Bus::enable_repair() {
   subscribe<flow_heartbeat_t>(
       channels::kHeartbeat,
       [this](std::string_view node, const flow_heartbeat_t& heartbeat) { on_heartbeat(node, heartbeat); });
-  // A STATUS claims its node's name (session_watch.h), also of programs without heartbeats. Where this
-  // program subscribes to it, that subscription judges it: judged twice it would be its own duplicate.
+  // A STATUS claims its node's name (session_watch.h), also for programs without heartbeats. If this program
+  // itself subscribes to the channel, that subscription checks it: checked twice, the message would count as
+  // its own duplicate.
   const auto claim = [this](std::string_view channel, const void* data, std::size_t size) {
     node_status_t status;
     if (subscriptions_to(channel).size() == 1) (void)accept(channel, data, size, status);
@@ -295,7 +297,7 @@ void Bus::on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat)
     return;
   }
   if (!sessions_.on_heartbeat(steady_, node, heartbeat.session)) {
-    // Flows that begin meanwhile are requested from their start when it is believed.
+    // Flows that begin meanwhile are requested from their start once this publisher is accepted.
     repair_->on_heartbeat(steady_, node, heartbeat, [](std::string_view) { return false; });
     return refuse_rival(channels::kHeartbeat.of(node), heartbeat.session);
   }

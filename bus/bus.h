@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Typed publish and subscribe on an lcm::LCM, safe against what a bus may carry.
+// Bus endpoint of one node: typed publish and subscribe on an lcm::LCM, robust against anything a bus may
+// carry.
 //
-// A message that does not decode, or holds what cannot be (message_codec.h), is counted, reported with its
-// channel and reason (the 1st, 10th, 100th, ... of a kind), and ignored. A gap in a publisher's (session,
-// sequence) is counted and repaired after enable_repair(). An exception that a handler throws never crosses
-// LCM's C frames: rethrow_if_failed() throws it.
+// A message that does not decode, or whose values are impossible (message_codec.h), is counted, reported with
+// its channel and reason (the 1st, 10th, 100th, ... of a kind), and ignored. A gap in a publisher's sequence
+// numbers (session, sequence) is counted, and repaired after enable_repair(). An exception that a handler
+// throws never crosses LCM's C frames: rethrow_if_failed() throws it.
 //   Bus bus(lcm, {"channel-server", session});
-//   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s)
-//   { ... });
+//   bus.subscribe<vehicle_state_t>(channels::kState,
+//                                  [&](std::string_view vehicle, const vehicle_state_t& s) { ... });
 //
-// One Bus belongs to one node; several may share an lcm::LCM, which outlives them, and must with memq. Not
-// thread-safe.
+// One Bus belongs to one node. Several may share an lcm::LCM, which must outlive them; with memq they have to
+// share one. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -59,8 +60,8 @@ class Bus {
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  // Encodes and publishes. What the network refuses is counted, reported, and sent again by whatever is
-  // called next (unsent_messages.h).
+  // Encodes and publishes. A message that the network refuses is counted, reported, and sent again by the
+  // next publish() or repair() (unsent_messages.h).
   template <class Message>
   void publish(std::string_view channel, const Message& message);
   template <class Message>
@@ -69,59 +70,61 @@ class Bus {
   void subscribe(const Family& family, FamilyHandler<Message> handler,
                  Wakeup wakeup = Wakeup::kMayAdvanceDue);
 
-  // Redirects what is published to `outbox`, and nowhere else: the runner of the node delivers it. Returns
-  // the one before.
+  // Redirects every published message to `outbox` instead of LCM; the runner of the node delivers it. Returns
+  // the previous outbox.
   using Outbox = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
   Outbox set_outbox(Outbox outbox) { return std::exchange(outbox_, std::move(outbox)); }
-  // Publishes on what `route` returns, in the place of the LCM instance that it receives by.
+  // Publishes on the LCM instance that `route` returns for a channel, instead of the one that receives.
   using Route = std::function<lcm::LCM&(std::string_view channel)>;
   void set_route(Route route) { route_ = std::move(route); }
-  // All subscriptions, in the order they were made, and the places of those that match a channel.
+  // All subscriptions, in the order in which they were made, and the indices of those that match a channel.
   const std::vector<Subscribed>& subscribed() const { return subscribed_; }
   std::vector<std::size_t> subscribed_to(std::string_view channel) const;
   const Subscriptions& receives() const { return receives_; }
 
-  // Messages as bytes, for bridges and recorders: nothing is decoded, nothing counted as received.
+  // Raw messages, for bridges and recorders: they are neither decoded nor counted as received.
   using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
   void publish_bytes(std::string_view channel, const void* data, std::size_t size);
   void subscribe_to_all(RawHandler handler);
-  // The same for a recorder: of a flow each message once, under its own channel; what is missing is
-  // requested.
+  // Raw subscription for a recorder: passes on each message of a flow once, under its own channel, and
+  // requests missing messages.
   void subscribe_to_all_flows(FlowOf flow_of, RawHandler handler);
   const FlowWatch& flows() const { return flows_; }
-  SimTime received_at() const { return received_at_; }  // of the message that is handled: by LCM, Unix time
-  void set_tap(RawHandler tap) { tap_ = std::move(tap); }  // called with what is accepted, before its handler
-  // Handles a message as if LCM had dispatched it: a runner in LCM's place, or an input of an earlier
-  // incarnation of this node (message_journal.h), whose gaps are then known, and repaired. Throws what a
-  // handler throws.
+  SimTime received_at() const { return received_at_; }     // of the current message: Unix time, by LCM
+  void set_tap(RawHandler tap) { tap_ = std::move(tap); }  // gets each accepted message before its handler
+  // Handles a message as if LCM had dispatched it. Used by a runner in LCM's place, and to replay the input
+  // of an earlier incarnation of this node (message_journal.h), so that its gaps are known and repaired.
+  // Throws what a handler throws.
   void deliver(std::string_view channel, std::span<const std::uint8_t> message);
-  // Takes what an earlier incarnation published into the history that answers repair requests. After
-  // enable_repair().
+  // Adds a message published by an earlier incarnation to the history from which repair requests are
+  // answered. Call it after enable_repair().
   void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes bytes);
   const FlowRepair* flow_repair() const { return repair_.get(); }  // null before enable_repair()
-  void rethrow_if_failed();  // once, what a handler threw while LCM was dispatching
-  // For a bus that loses datagrams: repairs what is lost, drops duplicates (flow_repair.h), refuses rivals
-  // (session_watch.h) and paces bursts (publication_pace.h). Its runner calls set_steady() before LCM
-  // dispatches, and repair() by next_repair().
+  void rethrow_if_failed();  // throws once the exception of a handler that LCM had dispatched to
+  // For a bus that loses datagrams: repairs losses, drops duplicates (flow_repair.h), refuses duplicate
+  // publishers (session_watch.h) and paces bursts (publication_pace.h). The runner calls set_steady() before
+  // LCM dispatches, and repair() not later than next_repair().
   void enable_repair();
   void set_steady(SimTime steady) { steady_ = steady; }
   void repair(SimTime sim, SimTime steady, bool may_request = true);
   SimTime next_repair() const;
-  void announce_flows();                    // in the next repair(): nothing more will be published
-  void forget_flows() { flows_.forget(); }  // another run has begun: sequences may start anew
+  void announce_flows();  // sends a heartbeat in the next repair(): nothing more will be published
+  void forget_flows() { flows_.forget(); }  // another run has begun: sequences may restart
   void continue_flows(FlowWatch::Knows knows) { flows_.go_on(std::move(knows)); }  // of earlier incarnations
-  std::size_t num_missing() const { return flows_.num_missing(); }  // messages that are requested
-  LatenessWatch& lateness() { return lateness_; }                   // of the results that go out
+  std::size_t num_missing() const { return flows_.num_missing(); }  // messages missing and requested
+  LatenessWatch& lateness() { return lateness_; }  // lateness of the results that this node publishes
   const NodeIdentity& identity() const { return identity_; }
   BusCounters& counters() { return counters_; }
   const BusCounters& counters() const { return counters_; }
   EventLog& log() { return log_; }
-  void refuse(std::string_view channel, std::string_view reason);  // what a node itself finds impossible
+  // Refuses a message that the node itself finds impossible.
+  void refuse(std::string_view channel, std::string_view reason);
 
  private:
   struct Subscription;
   struct ChannelGroup;
-  // `regular_expression` matches channels; a repair on REPAIR.<channel> is handled as if received there.
+  // `regular_expression` matches channels; a message on REPAIR.<channel> is handled as if received on
+  // <channel>.
   void subscribe_raw(const std::string& regular_expression, RawHandler handler, Wakeup wakeup);
   void subscribe_channel(std::string_view channel, RawHandler handler, Wakeup wakeup);
   Subscription& add_subscription(const std::string& regular_expression, RawHandler handler, Wakeup wakeup);
@@ -146,14 +149,15 @@ class Bus {
   UnsentMessages unsent_;
   LatenessWatch lateness_;
   SimTime steady_, received_at_;
-  bool is_repair_ = false, follows_all_ = false;  // the message handled came on REPAIR.<channel>; all flows
-  std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports
+  // `is_repair_`: the current message came on REPAIR.<channel>; `follows_all_`: all flows are recorded.
+  bool is_repair_ = false, follows_all_ = false;
+  std::map<std::string, std::int64_t, std::less<>> refusals_;  // counts by kind, for rate-limited reports
   std::exception_ptr failure_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
   std::map<std::string, std::unique_ptr<ChannelGroup>, std::less<>> groups_;  // by prefix
   std::vector<Subscribed> subscribed_;
-  ChannelPatterns patterns_;                                                               // of these
-  std::map<std::string, std::vector<const Subscription*>, std::less<>> subscriptions_to_;  // by channel
+  ChannelPatterns patterns_;  // patterns of subscribed_
+  std::map<std::string, std::vector<const Subscription*>, std::less<>> subscriptions_to_;  // cache by channel
   Subscriptions receives_;
   Outbox outbox_;
   Route route_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Channels that share a prefix: STATE.<vehicle> of each vehicle.
+// Family of channels that share a prefix, for instance STATE.<vehicle>, one channel for each vehicle.
 //
-// Names are checked by is_valid_name (core/names.h) when they come from outside, so a member's name never
-// means anything to a regular expression but its dot.
+// Names from outside are checked by is_valid_name (core/names.h), so the dot is the only character of a
+// member's channel that a regular expression interprets.
 #pragma once
 
 #include <string>

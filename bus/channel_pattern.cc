@@ -13,13 +13,13 @@
 namespace halocline::bus {
 namespace {
 
-// Bytes that an expression and the automaton made of it while matching may take. Where they do not do, an
-// expression is refused, and matching goes on without an automaton, in the same order of time.
+// Memory limit of RE2 for an expression and the automaton that it builds while matching. A larger expression
+// is refused; a match that needs more falls back to RE2's slower algorithm, whose time is of the same order.
 constexpr std::int64_t kMaxExpressionBytes = 256 << 10;
 
 constexpr std::string_view kSpecial = R"(\^$.|?*+()[]{})";
 
-// The text that an expression of escaped characters matches; empty when it holds anything else.
+// Returns the text that an expression of escaped characters matches; nothing if it contains an operator.
 std::optional<std::string> literal(std::string_view expression) {
   std::string text;
   for (std::size_t i = 0; i < expression.size(); ++i) {
@@ -39,7 +39,7 @@ struct ChannelPattern::Expression {
 
   static re2::RE2::Options options() {
     re2::RE2::Options options;
-    options.set_encoding(re2::RE2::Options::EncodingLatin1);  // a byte is a character
+    options.set_encoding(re2::RE2::Options::EncodingLatin1);  // one byte is one character
     options.set_max_mem(kMaxExpressionBytes);
     options.set_never_capture(true);
     options.set_log_errors(false);

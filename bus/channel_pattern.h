@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a channel is matched by a subscription's expression, as LCM would have it: the whole channel, not a
-// part.
+// Matches channels against a subscription's expression as LCM does: the whole channel must match, not a part.
 //
-// What Bus subscribes to, escaped channels and escaped prefixes before ".*", is compared as text; any other
-// expression is one of RE2, which agrees with LCM's (GLib) in all that channels need, but has neither
-// look-around nor back-references. Whatever the expression, the time of a match is at most its length times
-// the channel's: one of a stranger (JOIN) cannot stop a process.
+// The expressions of Bus (escaped channels, and escaped prefixes followed by ".*") are compared as text. Any
+// other expression is handled by RE2, which agrees with LCM's engine (GLib) in everything that channels need,
+// but has neither look-around nor back-references. The time of a match is at most proportional to the length
+// of the expression times that of the channel, so an expression from a foreign process (JOIN) cannot stall a
+// node.
 #pragma once
 
 #include <cstddef>
@@ -18,32 +18,32 @@
 
 namespace halocline::bus {
 
-// A channel as a regular expression of LCM.
+// Returns the regular expression of LCM that matches exactly this channel.
 std::string escaped(std::string_view channel);
 
 class ChannelPattern {
  public:
-  // Throws InvalidArgument for what is no regular expression.
+  // Throws InvalidArgument for an invalid regular expression.
   explicit ChannelPattern(const std::string& expression);
   bool matches(std::string_view channel) const;
-  // The one channel that it matches; empty where there are more.
+  // Returns the only channel that the pattern matches; empty if it may match several.
   std::string_view only_channel() const { return is_prefix_ || expression_ ? "" : std::string_view(text_); }
-  // What all channels that it matches begin with, and no others; empty where there is no such text.
+  // Returns the prefix, if the pattern matches exactly the channels that begin with it; empty otherwise.
   std::string_view only_prefix() const { return is_prefix_ ? std::string_view(text_) : ""; }
 
  private:
-  std::string text_;        // the channel, or what it begins with
-  bool is_prefix_ = false;  // text_ is what it begins with
-  struct Expression;        // of RE2, whose header is left out of what all nodes include
-  std::shared_ptr<const Expression> expression_;  // where it is no text
+  std::string text_;        // the channel or the prefix
+  bool is_prefix_ = false;  // text_ is a prefix
+  struct Expression;        // wraps RE2; keeps its header out of this one, which all nodes include
+  std::shared_ptr<const Expression> expression_;  // null if text_ suffices
 };
 
-// The expressions of many subscriptions, most of them to one channel.
+// Patterns of many subscriptions, most of which match one channel only.
 class ChannelPatterns {
  public:
-  // Throws as ChannelPattern.
+  // Throws as ChannelPattern does.
   void add(const std::string& expression);
-  // The places, as they were added, of those that match: rising.
+  // Returns the indices, in the order of add(), of the patterns that match; ascending.
   std::vector<std::size_t> matching(std::string_view channel) const;
 
  private:

@@ -39,7 +39,7 @@ void FlowHistory::forget_oldest_message() {
   ++first_place_;
 }
 
-// The oldest message becomes the latest.
+// Moves the oldest message to the end of the buffer, as if it had just been published.
 void FlowHistory::renew_oldest_message() {
   Message oldest = std::move(messages_.front());
   messages_.pop_front();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Retransmission buffer of one publisher: its latest messages by flow and sequence number, from which repair
-// requests are answered. Bounded: the oldest messages of all flows make room, then the flow published on
-// longest ago; of messages older than kMaxAge only the last of each flow is kept.
+// requests are answered.
+//
+// The memory is bounded. When it is full, the oldest messages of all flows are dropped; when there are too
+// many flows, the one that has been silent for longest. Of messages older than kMaxAge only the last of each
+// flow is kept.
 #pragma once
 
 #include <cstddef>
@@ -25,48 +28,49 @@ namespace halocline::bus {
 class FlowHistory {
  public:
   static constexpr std::size_t kMaxFlows = 4 * kMaxVehicles;
-  // Flows in one listing.
+  // Maximum number of flows in one heartbeat.
   static constexpr std::size_t kMaxListed = 500;
-  // A message is answered at most once in this: as long as its receivers wait before they request it again
+  // Minimum time between two answers for one message: as long as receivers wait before they request it again
   // (flow_watch.h).
   static constexpr SimDuration kAnswerInterval = SimDuration::from_milliseconds(40);
-  // Much longer than any receiver requests a message (flow_watch.h), so that a node's memory settles within
-  // it.
+  // Much longer than any receiver requests a message (flow_watch.h); the memory of a node settles within this
+  // time.
   static constexpr SimDuration kMaxAge = SimDuration::from_milliseconds(120'000);
-  // `max_bytes` of messages are kept, and the last message whatever its size.
+  // At most `max_bytes` of messages are kept, but always the last message, whatever its size.
   explicit FlowHistory(std::size_t max_bytes) : max_bytes_(max_bytes) {}
   FlowHistory(const FlowHistory&) = delete;
   FlowHistory& operator=(const FlowHistory&) = delete;
 
-  // A message of the flow (channel, session) was published. One with a number that is kept already changes
-  // nothing.
+  // Stores a published message of the flow (channel, session). A sequence number that is already stored
+  // changes nothing.
   void keep(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message);
-  // Forgets what was kept more than kMaxAge ago, to a second; to be called every now and then. `steady` never
-  // decreases.
+  // Drops the messages that were stored more than kMaxAge ago, to within a second. Call it regularly;
+  // `steady` never decreases.
   void forget_old(SimTime steady);
-  // Whether a requested message is to be answered: it is kept, not wanted already, and was not answered
-  // within kAnswerInterval. It is wanted then.
+  // Returns true, and marks the message as wanted, when a requested message is to be answered: it is stored,
+  // not yet wanted, and was not answered within kAnswerInterval.
   bool want(std::string_view channel, std::int64_t session, std::int64_t sequence, SimTime steady);
-  // A message that was wanted and is answered now; null when it is not kept any more.
+  // Returns a wanted message, which is answered now; null if it is no longer stored.
   const Bytes* answer(std::string_view channel, std::int64_t session, std::int64_t sequence, SimTime steady);
-  // The message, or null when it is not kept (any more).
+  // Returns the message, or null if it is not stored.
   const Bytes* find(std::string_view channel, std::int64_t session, std::int64_t sequence) const;
 
   struct Flow {
     std::string channel;
-    std::int64_t session = 0, last = 0;  // the greatest number so far
+    std::int64_t session = 0, last = 0;  // highest sequence number so far
   };
-  // All flows where they are kMaxListed at most. Otherwise those that have been silent since the listing
-  // before, because the next message of a flow says more than a listing: first those listed the fewest times
-  // since their last message, then those silent longest.
+  // Returns the flows to list in the next heartbeat: all of them if there are at most kMaxListed. Otherwise
+  // only those that have been silent since the previous listing, because the next message of any other flow
+  // tells receivers more than a listing. Among these, first those listed the fewest times since their last
+  // message, then those that have been silent for longest.
   std::vector<Flow> take_listing();
   std::size_t num_flows() const { return flows_.size(); }
   std::size_t num_messages() const { return messages_.size(); }
 
-  // How many messages were published so far.
+  // Total number of messages published so far.
   std::uint64_t published() const { return published_; }
-  // The flows with a message after the first `published` ones, each with its last message, in the order of
-  // these; without those that are not kept any more.
+  // Returns the flows with a message after the first `published` ones, each with its last message, in the
+  // order of publication. Flows whose last message is no longer stored are left out.
   struct LastMessage {
     const Flow* flow = nullptr;
     const Bytes* message = nullptr;
@@ -76,20 +80,20 @@ class FlowHistory {
  private:
   struct Kept {
     Flow flow;
-    std::uint64_t published = 0;  // with its latest message
-    int listed = 0;               // times since then
-    std::map<std::int64_t, std::uint64_t>
-        places;  // of the messages that are kept, by sequence; they count from the first of all flows
+    std::uint64_t published = 0;  // value of published_ at its latest message
+    int listed = 0;               // number of listings since then
+    // Stored messages by sequence: their positions, counted from the first message of all flows.
+    std::map<std::int64_t, std::uint64_t> places;
   };
-  using Flows = std::list<Kept>;  // the one published on last is at the end
+  using Flows = std::list<Kept>;  // ordered by publication, the latest at the end
   struct Message {
-    Flows::iterator flow;  // end() of one that is forgotten
+    Flows::iterator flow;  // end() if the flow was dropped
     std::int64_t sequence = 0;
     Bytes bytes;
     SimTime answered = SimTime::at_once();  // steady
     bool is_wanted = false;
   };
-  using FlowName = std::pair<std::string_view, std::int64_t>;  // channel (of Kept), session
+  using FlowName = std::pair<std::string_view, std::int64_t>;  // channel (points into Kept), session
   struct HashOfName {
     std::size_t operator()(const FlowName& name) const {
       return std::hash<std::string_view>()(name.first) ^ std::hash<std::int64_t>()(name.second);
@@ -109,7 +113,7 @@ class FlowHistory {
   std::deque<Message> messages_;
   struct Mark {
     SimTime steady;
-    std::uint64_t place = 0;  // of the first message kept after it
+    std::uint64_t place = 0;  // position of the first message stored after it
   };
   std::deque<Mark> marks_;  // at least a second apart
 };

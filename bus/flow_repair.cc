@@ -8,7 +8,7 @@
 namespace halocline::bus {
 namespace {
 
-// The age of flows that began before this process: three years.
+// Announced age of flows that began before this process: three years.
 constexpr SimDuration kOlderThanAll = SimDuration::from_milliseconds(100'000'000'000);
 
 }  // namespace
@@ -24,7 +24,7 @@ void FlowRepair::on_request(SimTime steady, const repair_request_t& request) {
 }
 
 std::vector<FlowRepair::Answer> FlowRepair::take_answers(SimTime steady) {
-  constexpr SimDuration kPause = SimDuration::from_milliseconds(5);  // gains one answer at least
+  constexpr SimDuration kPause = SimDuration::from_milliseconds(5);  // long enough to gain one token
   static_assert(kAnswersPerS * kPause.seconds() >= 1);
   std::vector<Answer> answers;
   if (wanted_.empty() || steady < next_answer_) return answers;
@@ -50,8 +50,9 @@ bool FlowRepair::is_old(const flow_heartbeat_t& heartbeat) const {
          heartbeat.sequence <= heard->second.sequence;
 }
 
-// Test for a session with a heartbeat before this one, of another moment. A number far ahead is not noted: it
-// may be made up.
+// Records the heartbeat. True when the session was first heard at least half a heartbeat period ago, that is
+// by an earlier heartbeat and not by a copy of this one. A number far ahead is not recorded, because it may
+// be forged.
 bool FlowRepair::is_known(SimTime steady, const flow_heartbeat_t& heartbeat) {
   constexpr std::size_t kMaxSessions = 4096;
   const std::int64_t session = heartbeat.session;
@@ -103,8 +104,8 @@ std::int64_t FlowRepair::on_heartbeat(SimTime steady, std::string_view node,
     missing += watch_.on_last(steady, heartbeat.flow_channel[i], heartbeat.flow_session[i],
                               heartbeat.flow_last_sequence[i], lister);
   }
-  // Its first heartbeat makes no flow (known), so that those which it lists, if they are older than it, would
-  // seem to begin after it.
+  // The first heartbeat of a session does not create flows (known). Flows older than the heartbeat would seem
+  // to begin after it if on_all_listed() were called now.
   const bool began_now = heartbeat.sequence == 0 && (heartbeat.num_flows == 0 || heartbeat.age_us == 0);
   if ((known || began_now) && heartbeat.num_flows == heartbeat.num_flows_kept)
     watch_.on_all_listed(heartbeat.session);

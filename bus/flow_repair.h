@@ -4,14 +4,15 @@
 //
 // The publisher keeps a bounded history of its flows, announces the last sequence number of each in a
 // heartbeat, and answers repair requests on REPAIR.<channel>. The receiver compares the sequence numbers of
-// messages and heartbeats, and requests what is missing (flow_watch.h) until it is received or given up.
+// messages and heartbeats, and requests missing messages (flow_watch.h) until they are received or counted as
+// lost.
 //
-// The gaps of a publisher without this library are counted, and stay.
+// Gaps of a publisher that does not use this library are counted, but cannot be repaired.
 //
-// Requests cannot be turned against the bus. A message is answered at most once in 40 ms (flow_history.h),
-// and answers fill a token bucket (Turner 1986) that gains kAnswersPerMessage with each message published and
-// kAnswersPerS with time: enough for several receivers of a bus that loses every third datagram, and never
-// more than a small multiple of what the node publishes anyway.
+// Requests cannot be used to flood the bus. A message is answered at most once in 40 ms (flow_history.h), and
+// answers are limited by a token bucket (Turner 1986) that gains kAnswersPerMessage with each message
+// published and kAnswersPerS with time: enough for several receivers of a bus that loses every third
+// datagram, and never more than a small multiple of the node's own traffic.
 #pragma once
 
 #include <algorithm>
@@ -36,62 +37,65 @@ class FlowRepair {
  public:
   static constexpr SimDuration kHeartbeatPeriod = SimDuration::from_milliseconds(250);
   static constexpr std::size_t kHistoryBytes = 16u << 20;
-  // Of the answers in one step, and 1 message at least.
+  // Limit on the answers of one step; one message is always sent.
   static constexpr std::size_t kMaxAnswerBytes = 256u << 10;
 
   static constexpr double kAnswersPerMessage = 3, kAnswersPerS = 200, kLeastAnswers = 256,
                           kMostAnswers = 8192;
-  // Requested messages that may wait for their answers; who requested more requests again.
+  // Maximum number of requested messages that wait for their answers; further ones are dropped, as receivers
+  // repeat their requests.
   static constexpr std::size_t kMaxWanted = 8192;
 
-  // `name` and `session`: of the node whose Bus this is. `watch`: its gap detector, which must outlive this.
+  // `name` and `session` identify the node of this Bus. `watch` is its gap detector, which must outlive this
+  // object.
   FlowRepair(std::string name, std::int64_t session, FlowWatch& watch)
       : name_(std::move(name)), session_(session), history_(kHistoryBytes), watch_(watch) {}
 
-  // ---- as a publisher
+  // ---- publisher side
   void on_published(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message) {
     history_.keep(channel, session, sequence, std::move(message));
     answers_ = std::min(answers_ + kAnswersPerMessage, kMostAnswers);
   }
-  // The same by an earlier incarnation, whose flows this one continues: they are older than any receiver.
+  // Stores a message published by an earlier incarnation, whose flows this one continues. Such flows are
+  // announced as older than any receiver.
   void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message) {
     resumes_ = true;
     on_published(channel, session, sequence, std::move(message));
   }
-  // Stores what is requested and kept.
+  // Queues the requested messages that are still stored.
   void on_request(SimTime steady, const repair_request_t& request);
-  // What is to be published now, on REPAIR.<channel>; valid until the next call.
+  // Returns the messages to publish now, on REPAIR.<channel>; they are valid until the next call.
   struct Answer {
     std::string channel;
     const Bytes* message = nullptr;
   };
   std::vector<Answer> take_answers(SimTime steady);
   const FlowHistory& history() const { return history_; }
-  // take_heartbeat() schedules the next a period later.
+  // take_heartbeat() schedules the next heartbeat one period later.
   bool heartbeat_is_due(SimTime steady) const { return steady >= next_heartbeat_; }
   flow_heartbeat_t take_heartbeat(SimTime sim, SimTime steady);
-  // The next heartbeat is due at once: nothing more will be published.
+  // Makes the next heartbeat due at once: nothing more will be published.
   void hasten_heartbeat(SimTime steady) { next_heartbeat_ = std::min(next_heartbeat_, steady); }
-  // Messages that were requested and are kept, since the start.
+  // Number of requested messages that were still stored, since the start.
   std::int64_t num_requested() const { return num_requested_; }
 
-  // ---- as a receiver
-  // HEARTBEAT.<node>. Returns how many messages of the flows that `is_subscribed_to` selects are newly
-  // missing. Flows of which nothing was received are followed from the second heartbeat of a session on: a
-  // datagram by itself makes no flow.
+  // ---- receiver side
+  // Processes HEARTBEAT.<node>. Returns how many messages are newly missing of the flows that
+  // `is_subscribed_to` selects. A flow of which no message was received is tracked only from the second
+  // heartbeat of its session on, so that a single datagram cannot create a flow.
   std::int64_t on_heartbeat(SimTime steady, std::string_view node, const flow_heartbeat_t& heartbeat,
                             const std::function<bool(std::string_view channel)>& is_subscribed_to);
-  // Test for a copy of an old heartbeat: neither its number nor its time goes on. It tells nothing then, not
-  // even that its publisher lives.
+  // True for a copy of an old heartbeat: neither its number nor its time advances. It carries no information
+  // then, not even that its publisher is alive.
   bool is_old(const flow_heartbeat_t& heartbeat) const;
   std::vector<repair_request_t> take_requests(SimTime sim, SimTime steady);
-  // From now on more channels are received: what was published on them before is not missing.
+  // More channels are received from now on: messages published on them earlier are not missing.
   void on_subscribed(SimTime steady) {
     subscribed_ = steady;
     watch_.forget_listed();
   }
 
-  // When a heartbeat, an answer or a request is due.
+  // Time at which the next heartbeat, answer or request is due.
   SimTime next_due() const {
     return std::min({next_heartbeat_, watch_.next_due(), wanted_.empty() ? SimTime::never() : next_answer_});
   }
@@ -103,7 +107,7 @@ class FlowRepair {
   };
   struct Heard {
     SimTime first, last;
-    std::int64_t utime = 0, sequence = 0;  // the last one's
+    std::int64_t utime = 0, sequence = 0;  // those of the last heartbeat
   };
   bool is_known(SimTime steady, const flow_heartbeat_t& heartbeat);
 
@@ -117,7 +121,7 @@ class FlowRepair {
   bool resumes_ = false;
   std::deque<Wanted> wanted_;
   std::int64_t num_requested_ = 0;
-  double answers_ = kLeastAnswers;  // the bucket at filled_at_
+  double answers_ = kLeastAnswers;  // tokens in the bucket at filled_at_
   SimTime filled_at_, next_answer_ = SimTime::at_once();
   std::unordered_map<std::int64_t, Heard> heartbeats_of_others_;  // by session; bounded
 };

@@ -13,7 +13,8 @@ constexpr std::int64_t kGreatest = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kRepetitionReach = 64;
 constexpr SimDuration kRepetitionAge = SimDuration::from_milliseconds(1000);
 
-// Sequence numbers of a hostile publisher may lie further apart than an int64 holds: saturates.
+// Distance of two sequence numbers; saturates, as a hostile publisher's numbers may differ by more than an
+// int64 holds.
 std::int64_t distance(std::int64_t from, std::int64_t to) {
   std::int64_t step = 0;
   return __builtin_sub_overflow(to, from, &step) ? kGreatest : step;
@@ -23,7 +24,7 @@ std::int64_t before(std::int64_t sequence) {
   return sequence == std::numeric_limits<std::int64_t>::min() ? sequence : sequence - 1;
 }
 
-// Numbers further apart are a leap.
+// A larger step of the sequence number is a leap.
 constexpr auto kReach = static_cast<std::int64_t>(FlowWatch::kMaxMissing);
 
 }  // namespace
@@ -92,7 +93,8 @@ std::int64_t FlowWatch::note_missing(Publisher& publisher, SimTime steady, std::
   return count;
 }
 
-// Whether a number ahead is too far to be believed yet; the next one that goes on from there confirms it.
+// True when a number is too far ahead to be accepted yet; the next number that continues from there confirms
+// it.
 bool FlowWatch::leaps(Publisher& publisher, std::int64_t sequence) {
   const bool is_near = distance(publisher.last, sequence) - 1 <= kReach;
   const bool is_confirmed =
@@ -101,7 +103,8 @@ bool FlowWatch::leaps(Publisher& publisher, std::int64_t sequence) {
   return publisher.leap.has_value();
 }
 
-// The number is the first that was received; what was claimed of later ones is wrong.
+// Starts the flow at the first number that was received; announcements of later numbers are discarded as
+// false.
 void FlowWatch::begin_at(Publisher& publisher, std::int64_t sequence) {
   num_missing_ -= publisher.missing.size();
   publisher.missing.erase(publisher.missing.lower_bound(sequence), publisher.missing.end());
@@ -129,7 +132,7 @@ auto FlowWatch::span_with(Spans& spans, std::int64_t sequence) {
                       [&](const Span& one) { return one.first <= sequence && sequence < one.end; });
 }
 
-// Whether the number was given up; it is not any more.
+// Returns true if the number was counted as lost, and removes it from the lost ranges.
 bool FlowWatch::take_lost(Publisher& publisher, std::int64_t sequence) {
   std::vector<Span>& lost = publisher.lost;
   const auto span = span_with(lost, sequence);
@@ -196,7 +199,7 @@ FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view
              steady - publisher->heard_at < kRepetitionAge) {  // reordered with the first received
     result.newly_missing = note_missing(*publisher, steady, sequence + 1, publisher->first);
     publisher->first = sequence;
-  } else {  // it starts its sequence anew
+  } else {  // the publisher restarts its sequence
     publisher->first = publisher->last = sequence;
     publisher->utime = utime;
   }

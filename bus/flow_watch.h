@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gap detector of one receiver: follows (session, sequence) of each channel's publishers, knows which
-// messages are missing, and schedules repair requests (NACK) with exponential backoff.
+// Gap detector of one receiver: tracks (session, sequence) of each channel's publishers, knows which messages
+// are missing, and schedules repair requests (NACK) with exponential backoff.
 //
-// In a session numbers only rise: an old one that comes again is a duplicate, however old. A publisher that
-// nobody lists in heartbeats may begin its numbers anew in the same session; a lower number is believed of it
-// with a later utime alone, which no old message has.
+// Within a session numbers only rise, so an old number that is received again is a duplicate, however old it
+// is. The exception is a publisher that no heartbeat lists: it may restart its numbers in the same session. A
+// lower number is accepted from it only with a later utime, which no old message has.
 //
-// A publisher without sequence numbers sends 0 for both, and is not watched. Messages before the first one
-// received of a flow are not missing, unless the receiver has been subscribed since before the flow began: it
-// is older than the publisher, or received a heartbeat of the publisher that did not list the flow yet. A new
-// session starts without a gap: its publisher was restarted.
+// A publisher without sequence numbers sends 0 for both and is not tracked. Messages before the first one
+// received of a flow are not missing, unless the receiver was subscribed before the flow began: it is older
+// than the publisher, or it received a heartbeat of the publisher that did not list the flow yet. A new
+// session starts without a gap, because its publisher was restarted.
 //
-// Anybody may publish, so no single number is believed that leaps: one more than kMaxMissing ahead of the
-// flow changes nothing until the next message goes on from there. What was given up is received when it comes
-// after all, so whatever numbers are claimed, a flow that goes on is received. It is listed by the heartbeats
-// of one node, of all its incarnations, until these are silent for kForgottenAfter; they do not leap where
-// messages were received.
+// Anybody may publish, so a single number that leaps is not accepted: a number more than kMaxMissing ahead of
+// the flow changes nothing until the next message continues from there. A message that had been counted as
+// lost is accepted when it arrives after all. Whatever numbers are forged, the messages of a live flow are
+// therefore received. A flow is listed by the heartbeats of one node, in any of its incarnations, until these
+// have been silent for kForgottenAfter. A heartbeat cannot make a flow leap of which messages were received.
 //
-// Pure: values in, values out; `steady` is the caller's steady time, never set back.
+// The class has no side effects: values in, values out. `steady` is the caller's steady time, which never
+// decreases.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +39,7 @@
 
 namespace halocline::bus {
 
-// a + b, both 0 or more, and the greatest number where that is more.
+// Returns a + b (both 0 or more), or the maximum of the type where the sum exceeds it.
 constexpr std::int64_t saturating_sum(std::int64_t a, std::int64_t b) {
   std::int64_t sum = 0;
   return __builtin_add_overflow(a, b, &sum) ? std::numeric_limits<std::int64_t>::max() : sum;
@@ -48,47 +49,50 @@ class FlowWatch {
  public:
   // Delay of the first request for a missing message: reordered datagrams need no repair.
   static constexpr SimDuration kReorderingDelay = SimDuration::from_milliseconds(5);
-  // Between the first two requests for a message; it doubles with each.
+  // Delay between the first two requests for a message; it doubles with each request.
   static constexpr SimDuration kFirstRetry = SimDuration::from_milliseconds(40);
   static constexpr SimDuration kLongestRetry = SimDuration::from_milliseconds(640);
-  // After this a missing message is lost.
+  // A message missing for this long is counted as lost.
   static constexpr SimDuration kGivenUpAfter = SimDuration::from_milliseconds(10'000);
-  // What is silent for this, a session of a channel or who lists it, is forgotten when another comes.
+  // A session of a channel, or a lister, that is silent for this long makes room for another.
   static constexpr SimDuration kForgottenAfter = SimDuration::from_milliseconds(30'000);
-  // Missing messages of one flow, beyond which the oldest count as lost; of all, and of flows of which
-  // nothing was received yet, beyond which the newest do.
+  // Limits on missing messages. Beyond kMaxMissing in one flow the oldest are counted as lost. Beyond
+  // kMaxMissingOfAll in all flows, or kMaxMissingUnheard for flows of which nothing was received yet, the
+  // newest are.
   static constexpr std::size_t kMaxMissing = 2000, kMaxMissingOfAll = 20'000, kMaxMissingUnheard = 5000;
   static constexpr std::size_t kMaxPerRequest = 200;
-  // Channels beyond these are not watched: endless invented names must not exhaust memory.
+  // Channels beyond this limit are not tracked: an endless series of invented names must not exhaust memory.
   static constexpr std::size_t kMaxChannels = 4 * kMaxVehicles;
 
-  // How a received message fits into its flow.
+  // Relation of a received message to its flow.
   struct Classification {
-    std::int64_t newly_missing = 0;  // messages between it and the greatest sequence number before
+    std::int64_t newly_missing = 0;  // messages between it and the previous highest number
     bool fills_gap = false;          // it was missing
-    bool is_repeated = false;        // a duplicate: of the last 64 sequence numbers, within a second
+    bool is_repeated = false;        // a duplicate, or a copy of an old message
   };
-  // `is_repair`: it answers a request, perhaps of another receiver; then it either fills a gap or is a
-  // duplicate. `utime`: that of the message, microseconds.
+  // Records a message. `is_repair`: it answers a request, perhaps another receiver's; it then either fills a
+  // gap or is a duplicate. `utime`: time stamp of the message, us.
   Classification on_message(SimTime steady, std::string_view channel, std::int64_t session,
                             std::int64_t sequence, bool is_repair = false, std::int64_t utime = 0);
-  // Test for a copy of an old message of its flow: on_message() would find it repeated. Such a copy
-  // tells nothing of its publisher, not even that it lives.
+  // True for a copy of an old message of its flow, one that on_message() would find repeated. Such a copy
+  // carries no information on its publisher, not even that it is alive.
   bool is_old(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t sequence,
               std::int64_t utime) const;
 
-  // Who lists a flow. `from_its_start`: the receiver is older than the publisher, so it should have all from
-  // 0. `makes_flow`: the flow is followed although nothing of it was received yet.
+  // Source of a heartbeat that lists a flow. `from_its_start`: the receiver is older than the publisher, so
+  // it should have all messages from 0. `makes_flow`: track the flow even if none of its messages was
+  // received yet.
   struct Lister {
-    std::uint64_t node = 1;    // whose heartbeat it is: a hash of its name, not 0
-    std::int64_t session = 0;  // of the heartbeat; its flows may have others
+    std::uint64_t node = 1;    // hash of the node's name, not 0
+    std::int64_t session = 0;  // session of the heartbeat; its flows may have others
     bool from_its_start = false, makes_flow = true;
   };
-  // A heartbeat announced `last` as the last sequence number of the flow. Returns how many are newly missing.
+  // Records `last`, which a heartbeat announced as the last sequence number of the flow. Returns how many
+  // messages are newly missing.
   std::int64_t on_last(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t last,
                        const Lister& lister);
-  // A heartbeat of this session listed all flows of its node (each in on_last): any other of the session, or
-  // that it lists later, begins after now.
+  // A heartbeat of this session has listed all flows of its node (each passed to on_last). Any other flow of
+  // the session, or flow that it lists later, therefore begins after now.
   void on_all_listed(std::int64_t session);
   void forget_listed() { listed_.clear(); }
 
@@ -98,30 +102,31 @@ class FlowWatch {
     std::int64_t session = 0;
     std::vector<std::int64_t> sequences;  // ascending, 1 to kMaxPerRequest
   };
-  // The requests that are due, by channel; gives up what has been missing for longer than kGivenUpAfter.
+  // Returns the requests that are due, by channel. Messages missing for longer than kGivenUpAfter are counted
+  // as lost.
   std::vector<Request> take_due(SimTime steady);
-  // When take_due has something to do; never() while nothing is missing.
+  // Time at which take_due() next has work; never() if nothing is missing.
   SimTime next_due() const { return next_due_; }
-  // Messages given up since the start; saturates.
+  // Number of messages counted as lost since the start; saturates.
   std::int64_t lost() const { return lost_; }
-  // Messages that are missing now.
+  // Number of messages missing now.
   std::size_t num_missing() const { return num_missing_; }
-  // The channels of which messages are missing or were given up, by name.
+  // Channel with missing or lost messages; lacking() returns them in the order of their names.
   struct Lacking {
     std::string channel;
     std::int64_t messages = 0;  // saturates
-    bool is_listed = false;     // by heartbeats of its publisher
+    bool is_listed = false;     // a heartbeat of its publisher lists the flow
   };
   std::vector<Lacking> lacking() const;
-  // Sessions of channels that are remembered.
+  // Number of sessions of channels that are tracked.
   std::size_t num_flows() const { return num_flows_; }
 
-  // Goes on where an earlier incarnation of the receiver ended: whatever precedes the first number of a flow
-  // known now is not missing, and on the channels that `knows` selects all flows are known of which it
-  // received anything, so that any other is missing from its start.
+  // Continues where an earlier incarnation of the receiver ended. Messages before the first number of a flow
+  // known now are not missing. On the channels that `knows` selects, every flow is known of which anything
+  // was received, so any other flow is missing from its start.
   using Knows = std::function<bool(std::string_view channel)>;
   void go_on(Knows knows);
-  // Another run has begun: its publishers may start their sequences anew.
+  // Another run has begun: its publishers may restart their sequences.
   void forget();
 
  private:
@@ -134,28 +139,28 @@ class FlowWatch {
   };
   struct Publisher {
     std::int64_t session = 0;
-    std::int64_t first = 0, last = -1;  // nothing before first is expected; last was received, or announced
-    std::int64_t utime = std::numeric_limits<std::int64_t>::min();  // that of message `last`
+    std::int64_t first = 0, last = -1;  // no message before first is expected; last was received or announced
+    std::int64_t utime = std::numeric_limits<std::int64_t>::min();  // utime of message `last`
     SimTime heard_at;
-    bool is_heard = false;  // by more than a heartbeat
-    // The node whose heartbeats list it, 0: none. Its numbers go on for as long as its session then, and what
-    // is far behind is a duplicate.
+    bool is_heard = false;  // a message was received, not only a heartbeat
+    // Hash of the node whose heartbeats list the flow, 0 if none. A listed flow never restarts its numbers
+    // within a session, so a message far behind is a duplicate.
     std::uint64_t lister = 0;
     SimTime listed_at;
-    std::optional<std::int64_t> leap;  // the number ahead that nothing has confirmed yet
+    std::optional<std::int64_t> leap;  // number far ahead that no message has confirmed yet
     std::map<std::int64_t, Missing> missing;
-    std::vector<Span> lost;  // the latest that were given up
+    std::vector<Span> lost;  // latest ranges that were counted as lost
     std::int64_t num_lost = 0;
   };
-  static constexpr std::size_t kSpansKept = 8;  // of one flow
-  // Sessions kept per channel: of more than kSessionsKept those that are silent for kForgottenAfter make
-  // room, so that memory stays flat while programs start anew; of kMaxSessions, or while kMaxFlows are known,
-  // the one silent for longest.
+  static constexpr std::size_t kSpansKept = 8;  // ranges of lost messages of one flow
+  // Number of sessions kept per channel. Beyond kSessionsKept, sessions silent for kForgottenAfter are
+  // dropped, so that memory stays constant while programs are restarted. At kMaxSessions, or when kMaxFlows
+  // are tracked in all, the session silent for longest is dropped.
   static constexpr std::size_t kSessionsKept = 4, kMaxSessions = 128, kMaxFlows = 2 * kMaxChannels;
   bool has_no_room_for(std::string_view channel) const {
     return received_.size() >= kMaxChannels && !received_.contains(channel);
   }
-  using Publishers = std::vector<Publisher>;  // the one received last is at the end
+  using Publishers = std::vector<Publisher>;  // ordered by use, the latest at the end
 
   Publisher* find(std::string_view channel, std::int64_t session);
   static bool is_old(SimTime steady, const Publisher& publisher, std::int64_t sequence, std::int64_t utime);
@@ -174,12 +179,12 @@ class FlowWatch {
   std::unordered_map<std::string, Publishers, TextHash, std::equal_to<>> received_;  // by channel
   Knows knows_ = knows_none;
   static constexpr std::size_t kMaxListed = 4096;
-  std::unordered_set<std::int64_t> listed_;  // sessions whose flows a heartbeat has listed
+  std::unordered_set<std::int64_t> listed_;  // sessions of which a heartbeat has listed all flows
   SimTime next_due_ = SimTime::never();
   std::int64_t lost_ = 0;
-  // What sessions lacked that are remembered no more, by channel.
+  // Missing and lost messages of sessions that were dropped, by channel.
   std::map<std::string, Lacking, std::less<>> forgotten_;
-  std::size_t num_missing_ = 0, num_flows_ = 0;  // of all channels
+  std::size_t num_missing_ = 0, num_flows_ = 0;  // totals over all channels
 };
 
 }  // namespace halocline::bus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages one after the other, in the order in which they were added.
+// Batch of messages in one buffer, in the order in which they were added.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ class MessageBatch {
 
   bool empty() const { return messages_.empty(); }
   std::size_t size_bytes() const { return bytes_.size(); }  // of all messages, without their channels
-  // What was allocated stays.
+  // Keeps the allocated memory.
   void clear() {
     messages_.clear();
     bytes_.clear();
@@ -42,7 +42,7 @@ class MessageBatch {
   struct Message {
     SimTime at;
     std::string channel;
-    std::size_t end;  // of its bytes; they begin where those of the message before end
+    std::size_t end;  // end of its bytes; they begin where those of the previous message end
   };
 
   std::vector<Message> messages_;

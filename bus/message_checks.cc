@@ -89,7 +89,7 @@ class FieldChecker {
   }
 };
 
-// Without frames the modem divides the payload.
+// Without a list of frames the modem divides the payload itself.
 std::string problem_of_frames(const std::vector<std::int32_t>& frame_bytes, std::int32_t payload_size) {
   const std::int64_t sum = std::accumulate(frame_bytes.begin(), frame_bytes.end(), std::int64_t{0});
   return frame_bytes.empty() || sum == payload_size ? "" : "frame_bytes together are not payload_size";
@@ -131,7 +131,7 @@ std::string problem_between_fields(const link_search_t& m) {
   for (const eigenray_t& path : m.eigenrays) {
     if (path.delay_s < last_s) return "eigenrays are not in the order of their delays";
     last_s = path.delay_s;
-    constexpr double kLeastMps = 500, kGreatestMps = 5000;  // half and twice what water has
+    constexpr double kLeastMps = 500, kGreatestMps = 5000;  // a third and three times the speed in water
     const double speed_mps = path.path_length_m / path.delay_s;
     if (speed_mps < kLeastMps || speed_mps > kGreatestMps) return "delay_s does not fit path_length_m";
     if (!(path.amplitude > 0)) return "amplitude is 0";
@@ -167,7 +167,7 @@ std::string problem_between_fields(const terrain_tile_t& m) {
   return m.num_posts == posts ? "" : "num_posts is not tile_rows times tile_columns";
 }
 
-// What slices hold is checked when they are whole (lockstep_wire.h).
+// The content of slices is checked when they are complete (lockstep_wire.h).
 std::string problem_between_fields(const lockstep_grant_t& m) { return problem_of_slice(m); }
 std::string problem_between_fields(const lockstep_answer_t& m) { return problem_of_slice(m); }
 

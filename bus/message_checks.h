@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Validity of a decoded message. It is refused for numbers that are not finite or beyond the range that
-// lcmtypes/*.lcm gives them, enumerations without a meaning, names, lengths and times out of range, fields
-// that contradict each other.
+// Validity checks of a decoded message. A message is refused for numbers that are not finite or outside the
+// range that lcmtypes/*.lcm states, enumerators without a meaning, names, lengths and times out of range, and
+// fields that contradict each other.
 //
-// A message that fails is counted, reported with channel and reason, and ignored; never repaired, never
-// guessed. What only a model can judge (a position beyond the terrain, a modem too weak) is the business of
-// its node; so are the fields that are `unchecked` in lcmtypes, which are answered one by one.
+// An invalid message is counted, reported with channel and reason, and ignored; it is never repaired or
+// guessed. Conditions that only a model can judge (a position beyond the terrain, a source level too low) are
+// left to its node. So are the fields marked `unchecked` in lcmtypes; the node answers each faulty request.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@
 
 namespace halocline::bus {
 
-// An empty string, or the field and what it may hold. For each type of the bus.
+// Returns an empty string, or the faulty field and its permitted values. Defined for each message type.
 template <class Message>
 [[nodiscard]] std::string problem_in(const Message& message);
 
-// The part that lcmtypes/*.lcm cannot state: relations between fields. An overload for each type that has
-// some.
+// Checks relations between fields, which lcmtypes/*.lcm cannot state. The types that have such relations have
+// an overload.
 template <class Message>
 [[nodiscard]] std::string problem_between_fields(const Message&) {
   return "";

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Encodes and decodes messages of lcm-gen's types where LCM itself does not.
+// Encoder and decoder of lcm-gen's message types, with the checks that LCM itself omits.
 //
 // A decoded message is valid, or refused with the reason: its bytes fit the layout of the type
-// (wire_layout.h) and its values lie within the limits of the type (message_checks.h).
+// (wire_layout.h), and its values lie within the limits of the type (message_checks.h).
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ Bytes encoded(const Message& message) {
   return bytes;
 }
 
-// Both return the problem of the bytes, empty when `message` holds one whole message. decode_unchecked leaves
-// the values unchecked.
+// Both return the problem of the bytes, or an empty string when `message` holds one complete message.
+// decode_unchecked() does not check the values.
 template <class Message>
 [[nodiscard]] std::string decode_unchecked(std::span<const std::uint8_t> bytes, Message& message) {
   std::string problem = misfit(wire_layout<Message>(), bytes.data(), bytes.size());
@@ -49,14 +49,14 @@ template <class Message>
   return problem.empty() ? problem_in(message) : problem;
 }
 
-// Empty when the bytes are not one whole valid message of that type.
+// Returns nothing when the bytes are not one complete valid message of the type.
 template <class Message>
 [[nodiscard]] std::optional<Message> decoded(std::span<const std::uint8_t> bytes) {
   Message message;
   return decode(bytes, message).empty() ? std::optional(std::move(message)) : std::nullopt;
 }
 
-// Numbers as LCM writes them: the highest byte first.
+// Integers in LCM's byte order: big-endian.
 inline void append_uint32(std::uint32_t value, Bytes& to) {
   for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<std::uint8_t>(value >> shift));
 }
@@ -72,7 +72,7 @@ inline std::int64_t int64_at(std::span<const std::uint8_t> bytes, std::size_t at
   return static_cast<std::int64_t>(std::uint64_t{uint32_at(bytes, at)} << 32 | uint32_at(bytes, at + 4));
 }
 
-// Messages one after another, each after its length.
+// Concatenates messages, each preceded by its length.
 template <class Message>
 Bytes encoded_list(std::span<const Message> messages) {
   Bytes bytes;
@@ -82,7 +82,7 @@ Bytes encoded_list(std::span<const Message> messages) {
   }
   return bytes;
 }
-// Empty when the bytes are not valid messages of that type and nothing else.
+// Returns nothing when the bytes are not a list of valid messages of the type.
 template <class Message>
 std::optional<std::vector<Message>> decoded_list(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kLengthBytes = 4;

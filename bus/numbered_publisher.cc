@@ -27,7 +27,8 @@ NumberedPublisher::Channel& NumberedPublisher::channel_of(std::string_view chann
   return found->second;
 }
 
-// By halves, so that names made up without end cost no more than a constant for each.
+// Dropping half of the channels at once keeps the cost per message constant, even for an endless series of
+// names.
 void NumberedPublisher::forget_unused_half() {
   std::vector<std::uint64_t> uses;
   for (const auto& [name, channel] : channels_) uses.push_back(channel.used_at);

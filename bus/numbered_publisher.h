@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers what a node publishes: the node's session, and on each channel the sequence 0, 1, 2, ... by which a
-// receiver finds what it missed (flow_watch.h).
+// Publisher that numbers messages: with the node's session, and on each channel the sequence 0, 1, 2, ...
+// from which a receiver detects missing messages (flow_watch.h).
 //
 //   NumberedPublisher publisher(bus());
 //   publisher.publish(channels::kState.of("auv-1"), state);  // fills in state.session and state.sequence
@@ -24,8 +24,8 @@ namespace halocline::bus {
 
 class NumberedPublisher {
  public:
-  // Channels whose numbers are kept, more than a scenario's vehicles have; beyond these the ones longest
-  // unused begin again at 0.
+  // Number of channels whose numbers are kept, more than the vehicles of a scenario have. Beyond it, the half
+  // unused for longest begins again at 0.
   static constexpr std::size_t kMaxChannels = 16 * kMaxVehicles;
 
   explicit NumberedPublisher(Bus& bus) : bus_(bus) {}
@@ -43,8 +43,8 @@ class NumberedPublisher {
     message.sequence = number.sequence;
   }
 
-  // An earlier incarnation of the node published this number last: the channel goes on behind it, in its
-  // session.
+  // Continues the numbering of an earlier incarnation of the node, which published this number last: the
+  // channel keeps its session.
   void resume(std::string_view channel, std::int64_t session, std::int64_t sequence);
   void archive(Archive& a) { a(channels_, uses_); }
 
@@ -54,7 +54,7 @@ class NumberedPublisher {
   };
   struct Channel {
     Number next;
-    std::uint64_t used_at = 0;  // among all uses
+    std::uint64_t used_at = 0;  // value of uses_ at the last use
   };
   Number take_next(std::string_view channel);
   Channel& channel_of(std::string_view channel);

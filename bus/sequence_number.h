@@ -14,8 +14,8 @@
 
 namespace halocline::bus {
 
-// A packet is numbered by its own sequence, because a SEND is repeated on purpose: by its sender, on SEND.
-// What comes on REPAIR is for somebody else where it was received before.
+// A packet to send carries a number of its own. Its sender may repeat a SEND on purpose, on channel SEND, so
+// a second copy there is accepted. A copy on REPAIR that was received before is a duplicate.
 template <class Message>
 concept IsPacketToSend = requires(const Message& m) {
   m.packet_sequence;
@@ -32,8 +32,8 @@ concept IsOfFlow =
       m.sequence;
     });
 
-// Behind LCM's fingerprint every message of a flow begins with utime, session and sequence: where these lie
-// in its bytes.
+// Byte offsets of utime, session and sequence: every message of a flow begins with them, after LCM's
+// fingerprint.
 inline constexpr std::size_t kUtimeAt = 8, kSessionAt = 16, kSequenceAt = 24, kFlowHeadBytes = 32;
 
 template <class Message>
@@ -45,20 +45,21 @@ std::int64_t sequence_of(const Message& message) {
   }
 }
 
-// Of an OUTCOME, whose publishers share the receivers (session_watch.h).
+// Returns the receiver of an OUTCOME, whose publishers share the receivers among them (session_watch.h);
+// nothing for other types.
 template <class Message>
 std::optional<std::int32_t> receiver_of(const Message& message) {
   if constexpr (std::is_same_v<Message, packet_outcome_t>) return message.receiver_id;
   return std::nullopt;
 }
 
-// Place of a message in its flow.
+// Position of a message in its flow.
 struct FlowHead {
   std::int64_t session = 0, sequence = 0, utime = 0;
-  std::optional<std::int32_t> receiver;  // of an OUTCOME
+  std::optional<std::int32_t> receiver;  // set for an OUTCOME
   bool is_packet = false;                // a SEND
 };
-// Of a message in its bytes; empty for one of no flow.
+// Reads the head of an encoded message; nothing for a message that belongs to no flow.
 using FlowOf =
     std::function<std::optional<FlowHead>(std::string_view channel, std::span<const std::uint8_t> message)>;
 

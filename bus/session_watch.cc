@@ -36,7 +36,8 @@ bool SessionWatch::holds(SimTime steady, std::string_view name, std::int64_t ses
   return true;
 }
 
-// A session that one name believes is no rival because another name is claimed with it: anybody may claim.
+// A session that is accepted under one name does not become a duplicate because another name is claimed with
+// it: anybody may claim a name.
 bool SessionWatch::on_heartbeat(SimTime steady, std::string_view node, std::int64_t session) {
   if (holds(steady, node, session)) {
     if (!heartbeats_.contains(session)) {
@@ -62,9 +63,9 @@ bool SessionWatch::decides(SimTime steady, std::int32_t receiver, std::int64_t s
   return is_holder;
 }
 
-// Programs that send for a vehicle make the session of its packets of their own.
+// Programs derive the session of the packets that they send for a vehicle from their own session.
 bool SessionWatch::is_of_rival(SimTime steady, std::string_view channel, std::int64_t session) const {
-  constexpr std::size_t kMaxCompared = 256;  // in a flood of made-up rivals each would cost a hash
+  constexpr std::size_t kMaxCompared = 256;  // bounds the hashing in a flood of forged publishers
   if (session == 0 || rivals_.empty()) return false;
   if (is_recent(steady, rivals_, session, kRivalMemory)) return true;
   const auto sender = std::find_if(kSent.begin(), kSent.end(),

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of several publishers of one name is believed, on a bus that anybody may publish on.
+// Arbiter of duplicate publishers: decides which of several publishers of one name is accepted, on a bus that
+// anybody may publish on.
 //
-// A node has one publisher at a time (HEARTBEAT.<node>, STATUS.<node>), and so has each channel of kHeld. Its
-// session is kept until nothing was heard of it for kSilence: no heartbeat of the session, and no message on
-// the channel. Until then another session of that name is a rival: its messages on all channels are refused,
-// and the packets of the vehicles that it speaks for (session_of its session and a vehicle's name). A
-// restarted process is taken up at once when the one before has been silent so long; what it published
-// meanwhile is repaired (flow_repair.h). A publisher without heartbeats keeps its channels by publishing once
-// in kSilence. OUTCOME is of one publisher for each receiver, because channel servers share the receivers
-// (shards). A row of several receivers, which every shard publishes, is refused from whoever was last refused
-// one of a single receiver.
+// A node has one publisher at a time (HEARTBEAT.<node>, STATUS.<node>), and so has each channel of kHeld. The
+// accepted session is kept until nothing has been heard of it for kSilence: no heartbeat of the session, and
+// no message on the channel. Until then another session of that name is a duplicate publisher. Its messages
+// on all channels are refused, and so are the packets of the vehicles that it sends for (session_of its
+// session and a vehicle's name).
 //
-// Pure: values in, values out; `steady` is the caller's steady time, never set back. Bounded: of names beyond
-// kMaxNames every session is believed.
+// A restarted process is accepted as soon as its predecessor has been silent for kSilence; the messages that
+// it published meanwhile are repaired (flow_repair.h). A publisher without heartbeats keeps its channels by
+// publishing at least once in kSilence.
+//
+// OUTCOME has one publisher for each receiver, because channel servers share the receivers (shards). An
+// OUTCOME for several receivers, which every shard publishes, is refused from a session whose last OUTCOME
+// for a single receiver was refused.
+//
+// The class has no side effects: values in, values out. `steady` is the caller's steady time, which never
+// decreases. Memory is bounded: beyond kMaxNames names every session is accepted.
 #pragma once
 
 #include <array>
@@ -33,21 +38,22 @@ namespace halocline::bus {
 
 class SessionWatch {
  public:
-  // Four heartbeats.
+  // Four heartbeat periods.
   static constexpr SimDuration kSilence = SimDuration::from_milliseconds(1000);
-  // A rival is one for so long after its last heartbeat or STATUS, which comes once a second.
+  // A duplicate publisher is remembered for this long after its last heartbeat or STATUS; STATUS comes once a
+  // second.
   static constexpr SimDuration kRivalMemory = SimDuration::from_milliseconds(2500);
   static constexpr std::size_t kMaxNames = 4 * kMaxVehicles;
-  // Their channels are of one publisher each.
+  // Channel families with one publisher for each channel.
   static constexpr std::array kHeld{channels::kState, channels::kReceipt, channels::kReceive};
 
-  // Their sessions are made of those of the programs that send (session_of).
+  // Channel families whose sessions are derived from those of the sending programs (session_of).
   static constexpr std::array kSent{channels::kSend, channels::kListen};
 
-  // HEARTBEAT.<node> of a session. False: of a rival.
+  // Processes HEARTBEAT.<node>. Returns false for a duplicate publisher.
   bool on_heartbeat(SimTime steady, std::string_view node, std::int64_t session);
-  // A message on any channel, of a session or of none (0); of an OUTCOME with its receiver, 0 of several.
-  // False: of a rival.
+  // Processes a message on any channel. `session` is 0 if it has none; `receiver` is that of an OUTCOME, 0
+  // for several receivers. Returns false for a duplicate publisher.
   bool on_message(SimTime steady, std::string_view channel, std::int64_t session,
                   std::optional<std::int32_t> receiver = {});
 
@@ -65,10 +71,10 @@ class SessionWatch {
   bool decides(SimTime steady, std::int32_t receiver, std::int64_t session);
   bool is_of_rival(SimTime steady, std::string_view channel, std::int64_t session) const;
 
-  std::unordered_map<std::string, Holder, TextHash, std::equal_to<>> holders_;  // by node, by channel
-  Times heartbeats_,
-      rivals_;              // of the nodes that are believed, and of those that are not: the last heartbeat
-  Times refused_outcomes_;  // of those that were last refused the outcome of a receiver
+  std::unordered_map<std::string, Holder, TextHash, std::equal_to<>> holders_;  // by node, and by channel
+  // Last heartbeats of accepted nodes and of duplicate ones.
+  Times heartbeats_, rivals_;
+  Times refused_outcomes_;  // sessions whose last OUTCOME for a receiver was refused
 };
 
 }  // namespace halocline::bus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a node subscribes to, as those need to know it who deliver its messages.
+// Subscriptions of a node, as seen by the runners that deliver its messages.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,20 @@
 
 namespace halocline::bus {
 
-// What receiving a message may do to a node. kStoreOnly is a promise: its handler only stores, so that the
-// node is due when it was due before. Lockstep then need not step the node at once, and others may run ahead.
+// Effect of a message on the time at which the node is due. kStoreOnly is a promise that the handler only
+// stores, so that this time is unchanged. Lockstep then need not step the node at once, and other nodes may
+// run ahead.
 enum class Wakeup { kMayAdvanceDue, kStoreOnly };
 
-// A subscription: an LCM regular expression, and what its messages may do to the node.
+// A subscription: an LCM regular expression, and the effect of its messages on the node.
 struct Subscribed {
   std::string expression;
   Wakeup wakeup = Wakeup::kMayAdvanceDue;
 };
 
-// Handler of messages of which the latest counts: what is older than one that came before, of the same
-// session, changes nothing. Repair brings lost messages late, and anybody may send an old one again. Of a
-// publisher that keeps no numbers (session and sequence 0) every message counts.
+// Wraps a handler for messages of which only the newest counts: a message older than a previous one of the
+// same session is ignored. Repair delivers lost messages late, and anybody may send an old one again. Every
+// message counts of a publisher that uses no numbers (session and sequence 0).
 template <class Message, class Handler>
 auto newest(Handler handler) {
   return [handler = std::move(handler), session = std::int64_t{0},
@@ -33,7 +34,7 @@ auto newest(Handler handler) {
   };
 }
 
-// The LCM regular expressions on which a Bus receives messages now.
+// The LCM regular expressions to which a Bus is subscribed at present.
 class Subscriptions {
  public:
   void add(const std::string& expression) {
@@ -45,7 +46,7 @@ class Subscriptions {
     ++changes_;
   }
   const std::multiset<std::string>& expressions() const { return expressions_; }
-  // Counts additions and removals.
+  // Number of additions and removals.
   std::uint64_t changes() const { return changes_; }
 
  private:

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kReceiveBufferBytes = 4'194'304;
 
-// Whether udpm://GROUP:PORT names a group and a port; without them LCM has its own.
+// True when udpm://GROUP:PORT names a group and a port; LCM has defaults if neither is given.
 bool names_a_group(const std::string& url) {
   const std::size_t begin = std::string_view("udpm://").size(), end = std::min(url.find('?'), url.size());
   if (end == begin) return true;
@@ -67,8 +67,8 @@ std::string next_port(const std::string& url) {
 }
 
 std::unique_ptr<lcm::LCM> open_transport(const std::string& url) {
-  // tcpq without a server passes for good and aborts in handleTimeout; a file is read at the wall clock's
-  // pace.
+  // tcpq without a server seems to work, but aborts in handleTimeout; a log file is read at the pace of the
+  // wall clock.
   require((starts_with(url, "udpm://") && names_a_group(url)) || starts_with(url, "memq://"),
           "LCM URL is '" + url + "'; allowed are udpm://GROUP:PORT?ttl=N and memq://");
   auto lcm = std::make_unique<lcm::LCM>(url);
@@ -109,8 +109,9 @@ std::string receive_buffer_warning(const std::string& url) {
 
 }  // namespace halocline::bus
 
-// Takes the place of the C library's in LCM, which is a shared library, and calls it. LCM has no call that
-// gives its socket, and reads from it before any of its calls returns.
+// Replaces the C library's bind() for calls from LCM, which is a shared library, and forwards to it. LCM
+// offers no access to its socket, and reads from it before any of its calls returns; this is the only place
+// where a filter can be attached in time.
 extern "C" int bind(int socket, const sockaddr* address, socklen_t size) noexcept {
   using Bind = int (*)(int, const sockaddr*, socklen_t);
   static const auto next = reinterpret_cast<Bind>(halocline::next_symbol("bind"));

@@ -85,7 +85,7 @@ class Walk {
   std::size_t left_;
 };
 
-// Lists the fields of a type, neighbours of fixed length as one.
+// Builds the layout of a type; adjacent fields of fixed length are merged.
 class LayoutBuilder {
  public:
   template <class T>

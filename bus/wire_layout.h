@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks, before anything is allocated, that the bytes of a message can be decoded.
+// Layout of encoded messages, with a check that bytes can be decoded before anything is allocated.
 //
-// The decoders that lcm-gen writes trust the counts they read: a corrupt count makes them allocate gigabytes,
-// or throw. A layout lists the fields of a type in order; misfit() walks the bytes along it.
+// The decoders that lcm-gen generates trust the counts that they read: a corrupt count makes them allocate
+// gigabytes, or throw. A layout lists the fields of a type in order; misfit() walks the bytes along it.
 #pragma once
 
 #include <cstddef>
@@ -21,18 +21,18 @@ struct WireField {
     kFixed,   // `bytes` bytes
     kString,  // int32 length with the terminating 0, then that many bytes
     kCount,   // int32, the number of elements of the kArray fields that follow
-    kArray,   // that many elements of `element`
+    kArray,   // as many elements of `element` as the last kCount states
   };
   Kind kind = Kind::kFixed;
   std::size_t bytes = 0;
   WireLayout element = {};
 };
 
-// An empty string when `size` bytes at `data` (with the 8-byte fingerprint in front) fit `layout` exactly;
-// otherwise what is wrong with them.
+// Returns an empty string when `size` bytes at `data` (starting with the 8-byte fingerprint) fit `layout`
+// exactly; otherwise a description of the fault.
 [[nodiscard]] std::string misfit(const WireLayout& layout, const void* data, std::size_t size);
 
-// The layout of each type of the bus, from its fields (bus/message_fields.h).
+// Returns the layout of a message type, made from its fields (bus/message_fields.h).
 template <class Message>
 const WireLayout& wire_layout();
 
