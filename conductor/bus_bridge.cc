@@ -9,7 +9,7 @@
 namespace halocline::conductor {
 namespace {
 
-// Mirrored messages whose echo is expected; beyond these the oldest count as lost.
+// Maximum number of mirrored messages whose echo is expected; beyond it the oldest count as lost.
 constexpr std::size_t kMaxEchoes = 100'000;
 
 std::int64_t digest_of(const lockstep_message_t& message) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mirrors the messages of a lockstep run on the ordinary bus, and receives those of other publishers there:
-// all but its own echoes.
+// Bridge of a lockstep run to the ordinary bus: mirrors the messages of the run there, and receives those of
+// other publishers, without its own echoes.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ namespace halocline::conductor {
 
 class BusBridge {
  public:
-  // `on_message` gets those of other publishers; empty: nothing is subscribed to.
+  // `on_message` gets the messages of other publishers; empty: no subscription.
   BusBridge(lcm::LCM& lcm, std::function<void(lockstep_message_t)> on_message);
 
-  // Best effort: what LCM loses is lost.
+  // Best effort: messages that LCM loses are not repaired.
   void mirror(const lockstep_message_t& message);
 
  private:
@@ -27,7 +27,7 @@ class BusBridge {
 
   bus::Bus bus_;
   std::function<void(lockstep_message_t)> on_message_;
-  std::unordered_map<std::int64_t, int> echoes_;  // how many are expected back, by the digest of the message
+  std::unordered_map<std::int64_t, int> echoes_;  // number of expected echoes by digest of the message
   std::deque<std::int64_t> in_order_;
 };
 

@@ -13,7 +13,7 @@ ConductorNode::ConductorNode(lcm::LCM& lcm, bus::NodeIdentity identity, SimDurat
     : Node(lcm, std::move(identity)), period_(period), rate_(rate) {
   require(period > SimDuration(), "the clock period must be positive");
   require_in_range(rate, 0, 1e6, "clock rate");
-  if (rate == 0) return;  // nobody else is on its bus
+  if (rate == 0) return;  // no other conductor is on its bus
   bus().subscribe<sim_clock_t>(
       bus::channels::kClock,
       [this](const sim_clock_t& clock) {
@@ -27,7 +27,7 @@ ConductorNode::ConductorNode(lcm::LCM& lcm, bus::NodeIdentity identity, SimDurat
 
 bus::Due ConductorNode::on_due() const { return {.sim = next_clock_}; }
 
-// CLOCK carries the present time, not the grid's: in a paced run the step comes a little after the grid.
+// CLOCK carries the present time, not that of the grid: in a paced run the step comes slightly after it.
 void ConductorNode::on_step(const bus::Now& now) {
   if (now.sim < next_clock_) return;
   sim_clock_t clock;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Publishes CLOCK: the simulation time, on the grid of the clock period. In real time it refuses and reports
-// the CLOCKs of others; nodes follow the one that they followed first (bus/runtime/time_source.h).
+// Node of the conductor: publishes CLOCK, the simulation time, on the grid of the clock period. In real time
+// it refuses and reports CLOCKs of other conductors; nodes keep the conductor that they accepted first
+// (bus/runtime/time_source.h).
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@ namespace halocline::conductor {
 
 class ConductorNode : public bus::Node {
  public:
-  // `rate`: simulated seconds per wall second that CLOCK announces; 0 where time is not paced (lockstep in
-  // one process), so that receivers do not run ahead. `period` > 0.
+  // `rate`: simulated seconds per wall second that CLOCK announces; 0 if time is not paced (lockstep in one
+  // process), so that receivers do not extrapolate. `period` > 0.
   ConductorNode(lcm::LCM& lcm, bus::NodeIdentity identity, SimDuration period, double rate);
 
  protected:

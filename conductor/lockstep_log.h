@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The LCM log of a lockstep run, in the order and with the instants of the run.
+// LCM log of a lockstep run, in the order and with the instants of the run.
 #pragma once
 
 #include <optional>
@@ -14,15 +14,16 @@ namespace halocline::conductor {
 
 class LockstepLog {
  public:
-  // Touches no file. `path` empty: nothing is recorded.
+  // Opens no file yet. `path` empty: nothing is recorded.
   explicit LockstepLog(std::string path) : path_(std::move(path)) {}
 
-  // Replaces the file, once; throws InvalidArgument when it cannot be written. Not before the journal has
-  // proved to be of this scenario: a refused one leaves the log as it was.
+  // Replaces the file; throws InvalidArgument when it cannot be written. Later calls have no effect. Call it
+  // only after the journal was found to belong to this scenario, so that a refused journal leaves the log
+  // unchanged.
   void open();
-  // Opens the log before the first message.
+  // Opens the log if necessary, and records the message.
   void record(const lockstep_message_t& message);
-  // Throws std::runtime_error when the disk refused any of it.
+  // Throws std::runtime_error when the disk refused any message.
   void close();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line of `halocline-conductor --lockstep`.
+// Command line options of `halocline-conductor --lockstep`.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace halocline::conductor {
 
 class LockstepOptions {
  public:
-  // They point into this, which must outlive the parsing.
+  // The options point into this object, which must outlive the parsing.
   std::vector<bus::ProgramOption> options();
-  // Coordinates a lockstep run when --lockstep was given; false when it was not. Throws InvalidArgument for
-  // impossible values, and for options that need --lockstep where it was not given.
+  // Coordinates a lockstep run if --lockstep was given; returns false otherwise. Throws InvalidArgument for
+  // impossible values, and for options that need --lockstep if it was not given.
   [[nodiscard]] bool run_if_requested(const bus::NodeProgram::Context& context) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paces a lockstep run: simulation time may advance as far as the wall clock has since the run began, or was
+// Pace of a lockstep run: simulation time may advance at most by the wall time since the run began, or was
 // resumed, times a rate.
 #pragma once
 
@@ -15,9 +15,9 @@ class LockstepPace {
   // `rate`: simulated seconds per wall second; 0: the run is not paced.
   explicit LockstepPace(double rate) : rate_(rate) {}
 
-  // Sets the pace of `conductor`. Before its first round that is simulation time 0.
+  // Sets the pace of `conductor`: simulation time 0 before its first round.
   void keep(LockstepConductor& conductor, SimTime steady);
-  // Steady time of the next call of keep(); never() where nothing is paced.
+  // Steady time of the next call of keep(); never() if the run is not paced.
   SimTime next_due() const { return next_due_; }
 
  private:

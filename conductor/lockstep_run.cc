@@ -26,9 +26,9 @@
 namespace halocline::conductor {
 namespace {
 
-// For the last turns after a stop was requested.
+// Time for the last turns after a stop was requested.
 constexpr SimDuration kLastTurnTimeout = SimDuration::from_milliseconds(800);
-// After the end, for JOINs of participants that lost the notice.
+// Time after the end in which JOINs of participants that missed the notice are answered.
 constexpr SimDuration kLinger = SimDuration::from_milliseconds(600);
 
 class Run {
@@ -141,7 +141,8 @@ class Run {
     return outputs;
   }
 
-  // A resumed run writes its log anew; what an earlier incarnation mirrored on the bus is not mirrored again.
+  // A resumed run writes its log again from the start; messages that an earlier incarnation mirrored on the
+  // bus are not mirrored again.
   void on_message(const lockstep_message_t& message) {
     log_.record(message);
     if (is_live_) bridge_->mirror(message);

@@ -42,7 +42,7 @@ void PacedTime::on_utime(std::int64_t utime) {
   zeros_.push_back(SimTime::from_utime(utime) - scaled(steady_, rate_));
 }
 
-// One message may be a stray; where no two agree the earliest is the safest.
+// A single utime may be wrong; if no two agree, the earliest is the safest.
 SimTime PacedTime::latest_confirmed() {
   std::sort(zeros_.begin(), zeros_.end(), std::greater<>());
   const auto confirms = [this](SimTime later, SimTime earlier) {

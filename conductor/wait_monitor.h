@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Notices that a lockstep run stands still, and for whom.
+// Detects that a lockstep run stands still, and which participants it waits for.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace halocline::conductor {
 
 class WaitMonitor {
  public:
-  // Steady time without a turn after which, and between whose repetitions, a wait is overdue.
+  // Steady time without a turn after which a wait is overdue, and between repeated reports.
   static constexpr SimDuration kPeriod = SimDuration::from_milliseconds(5000);
 
-  // The participants waited for, separated by commas, once a period; else empty.
+  // Returns the participants waited for, separated by commas, once a period; otherwise an empty text.
   [[nodiscard]] std::string overdue(const LockstepConductor& conductor, SimTime steady);
 
  private:
