@@ -14,7 +14,7 @@ void Archive::begin_with_parts(bool all_parts) {
   if (all_parts) changes_.clear();
 }
 
-// From here to end_part() what is passed goes to the part, or comes from it.
+// Redirects the values passed until end_part() to the part, or loads them from it.
 bool Archive::begin_part(std::uint64_t changes) {
   const std::size_t part = next_part_++;
   if (is_loading_) {

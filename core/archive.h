@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values as bytes and back: what a node keeps of its state on disk (bus/runtime/state_journal.h).
+// Archive: converts values to bytes and back, for the state that a node keeps on disk
+// (bus/runtime/state_journal.h).
 //
-// A type states once, for both directions, what it consists of:
+// A type states its members once, for both directions:
 //
 //   void archive(Archive& a) { a(position_, velocity_, waiting_); }
 //
@@ -9,12 +10,13 @@
 //   saved(navigator);
 //   Archive(saved.bytes())(another);  // loads
 //
-// What of a large state changes seldom can be saved apart from the rest, and only once it has changed:
-// archive() passes it by part(), with a number that changes with it.
+// Parts of a large state that seldom change can be saved separately, and only after a change: archive()
+// passes them to part(), with a number that changes with them.
 //
-// Known besides: trivially copyable types (as they lie in memory; no pointers among them), strings, vectors,
-// deques, maps, sets, optional, pairs and tuples, Eigen's matrices and quaternions of fixed size, messages of
-// lcm-gen. No format for exchange: the bytes are understood by the same build of the same program.
+// Other supported types are trivially copyable types (copied as they lie in memory; no pointers in them),
+// strings, vectors, deques, maps, sets, optional, pairs and tuples, Eigen's matrices and quaternions of fixed
+// size, and messages of lcm-gen. It is no exchange format: only the same build of the same program can read
+// the bytes.
 #pragma once
 
 #include <cstdint>
@@ -31,12 +33,12 @@ namespace halocline {
 
 class Archive {
  public:
-  // Saves what it is called with.
+  // Makes an archive that saves the values passed to it.
   Archive() = default;
-  // Loads from `bytes`, which must outlive it. Throws InvalidArgument, then or when called, where they end
-  // too early.
+  // Makes an archive that loads from `bytes`, which must outlive it. If they end too early, it throws
+  // InvalidArgument here or when called.
   explicit Archive(std::span<const std::uint8_t> bytes) : source_(bytes), is_loading_(true) {}
-  // The same of what was saved with its parts apart.
+  // Makes an archive that loads a state saved with separate parts.
   Archive(std::span<const std::uint8_t> bytes, std::span<const std::vector<std::uint8_t>> parts)
       : source_(bytes), source_parts_(parts), is_loading_(true), has_parts_apart_(true) {}
 
@@ -45,8 +47,9 @@ class Archive {
     (pass(values), ...);
   }
 
-  // A part of the state. `changes` differs from that of every earlier call for this part after which the
-  // value has changed. A state always has the same parts, in the same order, none within another.
+  // Passes a part of the state. `changes` must differ from its value in every earlier call for this part
+  // after which the part has changed. A state always has the same parts, in the same order, and no part
+  // contains another.
   template <class T>
   void part(std::uint64_t changes, T& value) {
     if (has_parts_apart_ && !begin_part(changes)) return;
@@ -55,20 +58,20 @@ class Archive {
   }
 
   bool is_loading() const { return is_loading_; }
-  // All of `bytes` was loaded.
+  // True when all of `bytes` was loaded.
   bool is_at_end() const { return source_.empty(); }
-  // Saves anew from here on, with parts apart: all of them, or those that have changed since the last time.
-  // Keeps the memory of what was saved before.
+  // Starts saving again, with separate parts: all of them, or only those changed since the previous time.
+  // Keeps the memory of the previous state.
   void begin_with_parts(bool all_parts);
-  // What was saved so far, without what was saved apart.
+  // Returns the bytes saved so far, without those of separate parts.
   const std::vector<std::uint8_t>& bytes() const { return saved_; }
-  // The parts that were saved apart, one after the other.
+  // A part that was saved separately; bytes_of_parts() holds the parts one after the other.
   struct Part {
     std::uint64_t index = 0, size = 0;
   };
   const std::vector<Part>& parts() const { return changed_; }
   const std::vector<std::uint8_t>& bytes_of_parts() const { return saved_parts_; }
-  // Throws InvalidArgument when something is left to be loaded.
+  // Throws InvalidArgument when bytes are left to be loaded.
   void require_end() const;
 
  private:
@@ -102,7 +105,7 @@ class Archive {
     }
   }
 
-  bool begin_part(std::uint64_t changes);  // false where it is left out
+  bool begin_part(std::uint64_t changes);  // false if it is left out
   void end_part();
   void require_end_of_bytes() const;
 
@@ -187,7 +190,7 @@ class Archive {
 
   std::vector<std::uint8_t> saved_, saved_parts_;
   std::vector<Part> changed_;
-  std::vector<std::uint64_t> changes_;  // of each part when it was saved last
+  std::vector<std::uint64_t> changes_;  // value of `changes` of each part when it was last saved
   std::size_t next_part_ = 0;
   std::span<const std::uint8_t> source_, rest_of_source_;
   std::span<const std::vector<std::uint8_t>> source_parts_;

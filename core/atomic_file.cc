@@ -20,7 +20,7 @@ void check(bool done, const std::string& path) {
   if (!done) throw std::runtime_error("cannot write " + path + ": " + std::strerror(errno));
 }
 
-// A file or a folder.
+// Forces a file or a folder to disk.
 void force_to_disk(const std::string& path) {
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   check(descriptor >= 0, path);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file that is replaced as a whole: written beside its final name, forced to disk, then renamed.
+// File that is replaced as a whole: written next to its final name, forced to disk, then renamed.
 //
-// A reader finds the old content or the new one, never a part, also after a crash of the program or the
-// machine (fsync of the file before the rename and of its folder after it; POSIX rename replaces in one
-// step). One writer at a time: two writers of one path share the name of the temporary file.
+// A reader finds the old or the new content, never a mixture, even after a crash of the program or the
+// machine. The file is forced to disk (fsync) before the rename and its folder after it; a POSIX rename
+// replaces the file in one step. One writer at a time: two writers of one path share the name of the
+// temporary file.
 //
-// What is at the path and no regular file, such as a device or a pipe, is written to directly and stays what
-// it is. A link to a file stays one: the file it leads to is replaced.
+// An existing path that is not a regular file, such as a device or a pipe, is written to directly and stays
+// what it is. A symbolic link is kept: the file to which it points is replaced.
 //
 //   replace_file("result.json", text);
 //
@@ -28,7 +29,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // Where the new content is to be written: in the same folder as the file.
+  // Path for writing the new content: in the same folder as the file.
   const std::string& temporary_path() const { return temporary_path_; }
   // Moves the temporary file into place. Descriptors open on it stay valid. Throws std::runtime_error.
   void commit();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks of arguments and of ourselves, for two of the three kinds of error.
+// Checks of arguments and of invariants, for two of the three kinds of error.
 //
 // require: the caller is wrong (bad configuration, impossible argument). Throws InvalidArgument, whose text
-//          states what was given and what is allowed. The program's edge turns it into one line and an exit
-//          code.
-// ensure:  we are wrong. Prints and aborts, in every build.
-// What the sea refuses (no path, out of range, outside the map) is an ordinary value and no business of this
-// file.
+//          states the given value and the permitted ones. main() turns it into one line and an exit code.
+// ensure:  the program itself is wrong. Prints and aborts, in every build.
+//
+// The third kind, a result that the sea does not permit (no path, out of range, outside the map), is an
+// ordinary value and is not handled here.
 #pragma once
 
 #include <stdexcept>
@@ -15,7 +15,7 @@
 
 namespace halocline {
 
-// The caller passed something outside of what the called function states it accepts.
+// The caller passed an argument that the called function does not accept.
 class InvalidArgument : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
@@ -32,7 +32,7 @@ double require_in_range(double value, double lowest, double highest, std::string
 // Throws InvalidArgument unless `value` is neither NaN nor infinite. Returns `value`.
 double require_finite(double value, std::string_view what);
 
-// Where a call stands: what std::source_location gives, which clang 14 (clang-tidy, clangd) lacks.
+// Place of a call, as std::source_location gives it, which clang 14 (clang-tidy, clangd) lacks.
 struct CallPlace {
   const char* file;
   int line;

@@ -18,7 +18,7 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
-// Empty when a quote is left open.
+// Returns nothing when a quote is left open.
 std::optional<std::vector<std::string>> split_cells(std::string_view text) {
   std::vector<std::string> cells;
   std::string cell;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Comma-separated tables as text: what profiles and the quantity calculator read and write.
+// Comma-separated tables, read by profiles and the quantity calculator.
 //
-// Format: RFC 4180 (quoted cells may hold commas and doubled quotes, but no line breaks); the first line that
-// is neither empty nor a comment names the columns; lines that start with '#' and empty lines are skipped;
-// spaces around a cell and a byte order mark at the start do not count. A row keeps its text, so it can be
-// written back unchanged. Works on streams: opening files is for the caller. Numbers, of cells and elsewhere,
-// do not depend on the locale.
+// Format: RFC 4180 (quoted cells may contain commas and doubled quotes, but no line breaks). The first line
+// that is neither empty nor a comment names the columns. Lines that start with '#' and empty lines are
+// skipped. Spaces around a cell, and a byte order mark at the start, are ignored. A row keeps its text, so it
+// can be written back unchanged. The functions work on streams; the caller opens files. Conversion of
+// numbers, in cells and elsewhere, does not depend on the locale.
 #pragma once
 
 #include <charconv>
@@ -21,7 +21,7 @@ namespace halocline {
 
 struct CsvLine {
   int number;                      // in the stream, from 1
-  std::string text;                // as it stood, without the line's end
+  std::string text;                // unchanged, without the line's end
   std::vector<std::string> cells;  // without quotes and surrounding spaces; as many as there are columns
 };
 
@@ -29,20 +29,20 @@ struct CsvTable {
   CsvLine header;
   std::vector<CsvLine> rows;
 
-  // Index of the column of that very name; empty when there is none.
+  // Returns the index of the column of exactly this name; nothing if there is none.
   std::optional<std::size_t> column(std::string_view name) const;
 };
 
-// Appends what is wrong with the text (no header, a column named twice, rows with too few or too many cells,
-// a quote left open) to `errors`, a line of text each, and leaves such rows out.
+// Reads a table. Errors (no header, a column named twice, rows with too few or too many cells, an unclosed
+// quote) are appended to `errors`, one line of text each, and faulty rows are left out.
 CsvTable read_csv(std::istream& in, std::vector<std::string>& errors);
 
-// The text as one cell: in quotes when it holds what would end the cell or the line.
+// Returns the text as one cell, quoted if it contains characters that would end the cell or the line.
 std::string csv_cell(std::string_view text);
 
-// The number that the whole of `text` states, in [lowest, highest]; none otherwise: an empty text, spaces, a
-// unit, hexadecimal, NaN, and without bounds an infinity. A sign + is allowed. A real number may have an
-// exponent, and is the double nearest to the text.
+// Returns the number, within [lowest, highest], that the whole of `text` states. Returns nothing for an empty
+// text, spaces, a unit, hexadecimal, NaN, and, with the default bounds, an infinity. A sign + is permitted. A
+// real number may have an exponent, and is rounded to the nearest double.
 template <class Number = double>
 [[nodiscard]] std::optional<Number> parse_number(std::string_view text,
                                                  Number lowest = std::numeric_limits<Number>::lowest(),
@@ -54,7 +54,7 @@ template <class Number = double>
   return is_whole && value >= lowest && value <= highest ? std::optional(value) : std::nullopt;
 }
 
-// The shortest text that reads back as the same double (up to 17 digits).
+// Returns the shortest text that reads back as the same double (up to 17 digits).
 std::string format_number(double value);
 
 }  // namespace halocline

@@ -29,14 +29,14 @@ namespace {
 
 constexpr double kPi = 0x1.921fb54442d18p+1, kPiLow = 0x1.1a62633145c07p-53;  // their sum is pi to 106 bits
 
-// (atan(u) / u - 1) / u^2 in powers of u^2, |u| <= tan(pi / 8), to 2e-19 (Chebyshev).
+// Coefficients of (atan(u) / u - 1) / u^2 in powers of u^2, |u| <= tan(pi / 8), to 2e-19 (Chebyshev).
 constexpr std::array<double, 12> kArcTangent{
     -0x1.5555555555555p-2, 0x1.9999999999953p-3, -0x1.249249248d7eep-3, 0x1.c71c71c304b68p-4,
     -0x1.745d165df3f95p-4, 0x1.3b1392d9e785cp-4, -0x1.110e880a7a521p-4, 0x1.e19a13b9fc6dfp-5,
     -0x1.ac7a938b69c93p-5, 0x1.74ddd408bb4c1p-5, -0x1.1b33b923aa954p-5, 0x1.0ad36a455cafbp-6};
 
-// (1 + 2 x) exp(x^2) erfc(x) in powers of (x - 4) / (x + 4), x >= 0, to 2e-18 (Chebyshev; the form is that of
-// Shepherd and Laframboise 1981).
+// Coefficients of (1 + 2 x) exp(x^2) erfc(x) in powers of (x - 4) / (x + 4), x >= 0, to 2e-18 (Chebyshev; the
+// form is that of Shepherd and Laframboise 1981).
 constexpr std::array<double, 26> kScaledComplement{
     0x1.3ba5916e9fd7fp+0,   -0x1.1df1ad154a28ep-3,  0x1.f7f5df66fd6bap-7,   0x1.16ecefcfa5383p-4,
     -0x1.9ddb23c3e89f3p-4,  0x1.7fee004e1295bp-4,   -0x1.0fb06dfe52605p-4,  0x1.3079edf67777bp-5,
@@ -55,7 +55,10 @@ double polynomial(const std::array<double, count>& coefficients, double x) {
   return sum;
 }
 
-// erfc(x), 0 <= x < 26: x^2 as the exact square of x's leading bits and a small rest.
+// Returns erfc(x), 0 <= x < 26. For exp(-x^2), x^2 is split into the exact square of x's leading bits and a
+// small rest:
+//
+//   erfc(x) = exp(-lead^2) exp(-rest) P((x - 4) / (x + 4)) / (1 + 2 x),    rest = x^2 - lead^2.
 double erfc_above(double x) {
   const double lead = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0xfffffffff8000000);
   const double rest = (x - lead) * (x + lead);
@@ -63,7 +66,9 @@ double erfc_above(double x) {
   return gauss * polynomial(kScaledComplement, (x - 4) / (x + 4)) / (1 + 2 * x);
 }
 
-// atan(y / x), 0 <= y <= x, x > 0: above tan(pi / 8) less pi / 4, whose tangent is (y - x) / (y + x).
+// Returns atan(y / x), 0 <= y <= x, x > 0. Above tan(pi / 8), with u = (y - x) / (y + x),
+//
+//   atan(y / x) = pi / 4 + atan(u).
 double atan_of_ratio(double y, double x) {
   constexpr double kTangentOfEighth = 0.41421356237309503;
   const bool is_steep = y > kTangentOfEighth * x;
@@ -81,7 +86,9 @@ double acos(double x) { return Sleef_cinz_acosd1_u10purec(x); }
 double cosh(double x) { return Sleef_cinz_coshd1_u10purec(x); }
 double acosh(double x) { return Sleef_cinz_acoshd1_u10purec(x); }
 double atanh(double x) { return Sleef_cinz_atanhd1_u10purec(x); }
-// exp(ln x / 3), to some twenty units, and one of Newton's steps.
+// The first estimate exp(ln x / 3) has an error of some twenty units; one Newton step follows,
+//
+//   root -= (root^3 - x) / (3 root^2).
 double cbrt(double x) {
   const double size = std::abs(x);
   if (!(size > 1e-300 && size < 1e300)) return Sleef_cinz_cbrtd1_u10purec(x);

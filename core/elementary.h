@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elementary functions whose results do not depend on the processor or its C library: the C library chooses
-// other code for exp, log or sin where it finds FMA or AVX, and its last bits differ between versions.
-// Everything that a result depends on calls these; the layers test forbids those of <cmath>. What IEEE 754
-// rounds correctly (sqrt, floor, fma, remainder) is the same everywhere.
+// Elementary functions whose results do not depend on the processor or its C library. The C library chooses
+// other code for exp, log or sin if it finds FMA or AVX, and its last bits differ between versions. All code
+// that influences results calls these functions; the layers test forbids those of <cmath>. Operations that
+// IEEE 754 rounds correctly (sqrt, floor, fma, remainder) are the same everywhere.
 //
-// Errors, in units in the last place, over all arguments unless a range is given; domains, signs, infinities
-// and NaN as those of <cmath>, but for the sign of sin(-0). What is inline has no tables, so that a loop over
-// it can be vectorised. The rest, and the ends of the ranges, are functions of SLEEF (Shibata and Petrogalli
-// 2020) that take neither FMA nor vectors.
+// Domains, signs, infinities and NaN are those of <cmath>, except for the sign of sin(-0). Inline functions
+// use no tables, so a loop over them can be vectorised. The other functions, and arguments beyond the inline
+// ranges, use functions of SLEEF (Shibata and Petrogalli 2020) that need neither FMA nor vector instructions.
 //
-// Exponentials: exp 0.9, expm1 1.8, exp10 1.3, pow 1. Logarithms: log and log1p 0.9, log2 1.7, log10 1.8.
-// Angles: sin and cos 1.1, atan 1.3, atan2 1.6, tan, asin, acos 1. Others: cosh, acosh, atanh, cbrt 1, hypot
-// 1.2 (sides from 1e-150 to 1e150), erfc 4.5, lgamma 1.5 (x of 1 and more).
+// Errors in units in the last place, over all arguments unless a range is given:
+//   exponentials  exp 0.9, expm1 1.8, exp10 1.3, pow 1
+//   logarithms    log and log1p 0.9, log2 1.7, log10 1.8
+//   angles        sin and cos 1.1, atan 1.3, atan2 1.6, tan, asin, acos 1
+//   others        cosh, acosh, atanh, cbrt 1; hypot 1.2 (sides from 1e-150 to 1e150); erfc 4.5;
+//                 lgamma 1.5 (x >= 1)
 #pragma once
 
 #include <cmath>
@@ -22,8 +24,8 @@
 
 namespace halocline::elementary {
 
-// Without branches, for loops that are to become vectors: exp of |x| < 708 (0.9), ln(1 + x) of 0 <= x < 1e300
-// (1.5).
+// Functions without branches, for vectorised loops: exp for |x| < 708 (error 0.9), ln(1 + x) for 0 <= x <
+// 1e300 (error 1.5).
 inline double exp_within(double x) {
   const double rounded = x * detail::kLog2OfE + detail::kRound, n = rounded - detail::kRound;
   const double high = x - n * detail::kLn2High, low = n * detail::kLn2Low, r = high - low;
@@ -36,7 +38,7 @@ inline double log1p_within(double x) {
 
 inline double exp(double x) { return std::abs(x) < 708 ? exp_within(x) : detail::exp_beyond(x); }
 
-// exp(x) - 1 = 2^n (exp(r) - 1) + (2^n - 1).
+// expm1 by exp(x) - 1 = 2^n (exp(r) - 1) + (2^n - 1), with x = n ln 2 + r.
 inline double expm1(double x) {
   if (!(std::abs(x) < 708)) return detail::expm1_beyond(x);
   const double rounded = x * detail::kLog2OfE + detail::kRound, n = rounded - detail::kRound;
@@ -45,7 +47,7 @@ inline double expm1(double x) {
   return power * detail::expm1_of_rest(r, (high - r) - low) + (power - 1);
 }
 
-// 10^x.
+// Returns 10^x.
 inline double exp10(double x) {
   if (!(std::abs(x) < 307)) return detail::exp10_beyond(x);
   const double rounded = x * detail::kLog2Of10 + detail::kRound, n = rounded - detail::kRound;
@@ -61,7 +63,7 @@ inline double log(double x) {
   return n * detail::kLn2High - (detail::shortfall_of_log(f, n * detail::kLn2Low) - f);
 }
 
-// ln(1 + x): 1 + x is rounded, and the relative error of that taken up.
+// Returns ln(1 + x). The sum 1 + x is rounded, and its relative rounding error is added to the logarithm.
 inline double log1p(double x) {
   constexpr double kRootOfHalfLessOne = -0.2928, kRootOfTwoLessOne = 0.4142;
   if (x > kRootOfHalfLessOne && x < kRootOfTwoLessOne) return x - detail::shortfall_of_log(x, 0);
@@ -113,7 +115,7 @@ inline double hypot(double x, double y) { return std::sqrt(x * x + y * y); }
 inline double hypot(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
 
 double pow(double x, double y);
-// By repeated multiplication: within |n| units.
+// Returns x^n by repeated multiplication; the error is at most |n| units.
 inline double pow(double x, int n) {
   double result = 1, power = x;
   for (unsigned left = n < 0 ? 0U - static_cast<unsigned>(n) : static_cast<unsigned>(n); left != 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Doing the same for many numbers, in whatever way the caller has: one after the other, or shared among
-// threads.
+// Loop over indices whose execution the caller chooses: sequential, or distributed over threads.
 //
-// A body touches nothing that another body of the same call touches, so results do not depend on the way.
+// A body must not touch data that another body of the same call touches, so results do not depend on the
+// choice.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two frames of the project and the pose that joins them.
+// The two coordinate frames of the project, and the pose that relates them.
 //
-// World: local NED at the scenario's geodetic origin: x north, y east, z down, metres; z = 0 is the datum of
-// the terrain. Depth below the sea surface = z - sea_surface_z: a tide moves the surface, not the vehicles.
-// Body: x forward, y starboard, z down. Orientation: unit quaternion that turns body coordinates into world
-// coordinates; written w-x-y-z wherever it is a list.
+// World frame: local NED at the scenario's geodetic origin: x north, y east, z down, m; z = 0 is the datum of
+// the terrain. The depth below the sea surface is z - sea_surface_z: a tide moves the surface, not the
+// vehicles. Body frame: x forward, y starboard, z down. Orientation: unit quaternion that rotates body
+// coordinates to world coordinates; lists have the order w, x, y, z.
 #pragma once
 
 #include <algorithm>
@@ -36,8 +36,8 @@ struct EulerAngles {
   double roll = 0, pitch = 0, yaw = 0;
 };
 
-// The rotation by the angle |v|, radians, about the axis v. Eigen's AngleAxis and slerp call the C library's
-// functions.
+// Returns the rotation by the angle |v|, rad, about the axis v. Eigen's AngleAxis and slerp are not used
+// because they call the C library's functions.
 inline Quaternion rotation_by(const Vec3& v) {
   const double angle = v.norm();
   if (angle == 0) return Quaternion::Identity();
@@ -51,7 +51,7 @@ inline Quaternion to_quaternion(const EulerAngles& e) {
          rotation_by(e.roll * Vec3::UnitX());
 }
 
-// From `a` (share 0) to `b` (share 1) at a constant rate the shorter way.
+// Interpolates from `a` (share 0) to `b` (share 1) at a constant rate along the shorter rotation.
 inline Quaternion between(const Quaternion& a, const Quaternion& b, double share) {
   const Quaternion way = a.conjugate() * b;
   const double side = way.w() < 0 ? -1 : 1, sine = way.vec().norm();
@@ -60,7 +60,7 @@ inline Quaternion between(const Quaternion& a, const Quaternion& b, double share
   return a * rotation_by(share * angle * side / sine * way.vec());
 }
 
-// At pitch = +-pi/2 roll and yaw are not unique; the pair returned is one of the possible.
+// At pitch = +-pi/2 roll and yaw are not unique; one of the possible pairs is returned.
 inline EulerAngles to_euler(const Quaternion& q) {
   const Eigen::Matrix3d r = q.toRotationMatrix();
   const double sine_pitch = std::clamp(-r(2, 0), -1.0, 1.0);

@@ -16,8 +16,12 @@ constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 
 }  // namespace
 
-// In the middle of an interval of length 2 h with ends a and b, c = exp(-h / T): mean (a + b) c / (1 + c^2),
-// variance sigma^2 (1 - c^2) / (1 + c^2) (Rasmussen and Williams 2006, appendix B, conditioned on both ends).
+// Distribution at the middle of an interval of length 2 h with ends a and b, c = exp(-h / T):
+//
+//   mean      (a + b) c / (1 + c^2),
+//   variance  sigma^2 (1 - c^2) / (1 + c^2)
+//
+// (Rasmussen and Williams 2006, appendix B, conditioned on both ends).
 GaussMarkovProcess::GaussMarkovProcess(double deviation, double correlation_time_s,
                                        const DrawAddress& address)
     : deviation_(deviation), is_zero_(deviation == 0), address_(address) {
@@ -53,8 +57,11 @@ double GaussMarkovProcess::draw(std::int64_t millisecond) const {
   return normal_at(address);
 }
 
-// Levy's construction: x(0) = sigma z_0, x(end) = c x(0) + sigma sqrt(1 - c^2) z_end with c = exp(-end / T),
-// then the middles of the intervals that hold k.
+// Levy's construction: first the ends of the process,
+//
+//   x(0) = sigma z_0,    x(end) = c x(0) + sigma sqrt(1 - c^2) z_end,    c = exp(-end / T),
+//
+// then the middles of the intervals that contain k.
 double GaussMarkovProcess::at_millisecond(std::int64_t k, Cursor& cursor) const {
   auto& path = cursor.path_;
   if (path.empty()) {

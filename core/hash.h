@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Non-cryptographic hashes: collisions are rare by chance, and easy to construct.
+// Non-cryptographic hashes: collisions are unlikely by chance, but easy to construct.
 //
-// FNV-1a of 64 bits (Fowler, Noll, Vo; http://www.isthe.com/chongo/tech/comp/fnv) for what is computed in
-// pieces; XXH3 of 64 bits (Collet; https://xxhash.com) for the identity of stored results and for check sums.
+// FNV-1a of 64 bits (Fowler, Noll, Vo; http://www.isthe.com/chongo/tech/comp/fnv) is used for data that comes
+// in pieces, and XXH3 of 64 bits (Collet; https://xxhash.com) for the identity of stored results and for
+// check sums.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +14,10 @@
 
 namespace halocline {
 
-// The offset basis: the hash of no bytes.
+// Offset basis: the hash of no bytes.
 inline constexpr std::uint64_t kFnvStart = 0xcbf29ce484222325u;
 
-// The hash of the bytes that `sum` covers, followed by `bytes`.
+// Returns the hash of the bytes already covered by `sum`, followed by `bytes`.
 constexpr std::uint64_t fnv1a(std::span<const std::uint8_t> bytes, std::uint64_t sum = kFnvStart) {
   for (const std::uint8_t byte : bytes) sum = (sum ^ byte) * 0x100000001b3u;
   return sum;
@@ -27,12 +28,12 @@ constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t sum = kFnvSta
   return sum;
 }
 
-// XXH3, 64 bits; the same on every platform. With the hash of what comes before as the seed it covers that,
-// too.
+// Returns the 64-bit XXH3, the same on every platform. With the hash of preceding data as the seed it covers
+// them, too.
 std::uint64_t xxh3(std::string_view text, std::uint64_t seed = 0);
 std::uint64_t xxh3(std::span<const std::uint8_t> bytes, std::uint64_t seed = 0);
 
-// For unordered containers of strings that are searched by std::string_view.
+// Hash for unordered containers of strings that are searched by std::string_view.
 struct TextHash {
   using is_transparent = void;
   std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>()(text); }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vectors that are read all over: large ones ask the kernel for pages of 2 MB, so that few reads wait for the
-// table of pages.
+// Vector backed by 2 MB pages, for large arrays that are read at random: fewer reads wait for the page table.
 //
-// What is smaller than two such pages lies where any vector does; so does all where the kernel has none to
-// give.
+// Arrays smaller than two such pages, and all arrays if the kernel has no huge pages, use ordinary memory.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +29,7 @@ class HugePageAllocator {
     const std::size_t whole = (bytes + kPage - 1) / kPage * kPage;
     void* memory = std::aligned_alloc(kPage, whole);
     if (memory == nullptr) throw std::bad_alloc();
-    madvise(memory, whole, MADV_HUGEPAGE);  // a wish: where it fails pages are small
+    madvise(memory, whole, MADV_HUGEPAGE);  // advice only: if it fails, pages are small
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t count) {

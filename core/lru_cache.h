@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map of bounded size: when it is full, the entry that was used least recently makes room; forget_unused()
-// drops the rest of long ago.
+// Map of bounded size: when it is full, the least recently used entry is dropped. forget_unused() drops all
+// entries that have not been used for a period.
 //
 //   LruCache<std::string, Spectrum> spectra(/*capacity=*/32);
 //   const Spectrum& spectrum = spectra.find_or_make(name, [&] { return compute_spectrum(name); });
 //
-// An entry is used when it is inserted and when it is found. Which entries are kept depends on the sequence
-// of calls alone, never on addresses. Both operations take O(log size), keys being ordered by operator<; with
-// a Hash of keys, which have operator== then, O(1). The cache owns keys and values. What outlives an entry
-// belongs in a shared_ptr value. Not thread-safe: finding an entry moves it.
+// An entry is used when it is inserted and when it is found. The entries that are kept depend only on the
+// sequence of calls, never on addresses. Both operations take O(log size), with keys ordered by operator<;
+// with a Hash (keys then need operator==) they take O(1). The cache owns keys and values; a value that must
+// outlive its entry belongs in a shared_ptr. Not thread-safe: finding an entry moves it.
 #pragma once
 
 #include <cstddef>
@@ -26,14 +26,15 @@ namespace halocline {
 template <class Key, class Value, class Hash = void>
 class LruCache {
  public:
-  // Throws InvalidArgument when `capacity`, the greatest number of entries, is 0.
+  // `capacity` is the maximum number of entries. Throws InvalidArgument when it is 0.
   explicit LruCache(std::size_t capacity) : capacity_(capacity) {
     require(capacity > 0, "a cache has room for at least one entry");
   }
   LruCache(LruCache&&) noexcept = default;
   LruCache& operator=(LruCache&&) noexcept = default;
 
-  // The value of `key`, null when there is none. Valid until its entry is replaced, evicted or cleared.
+  // Returns the value of `key`, null when there is none. The pointer is valid until the entry is replaced,
+  // evicted or cleared.
   Value* find(const Key& key) {
     const auto entry = entries_.find(key);
     if (entry == entries_.end()) return nullptr;
@@ -42,7 +43,8 @@ class LruCache {
     return &entry->second.value;
   }
 
-  // Replaces the value of `key` if there is one. Valid as long as what find() returns.
+  // Inserts a value, or replaces that of an existing `key`. The reference is valid as long as a pointer from
+  // find().
   Value& insert(Key key, Value value) {
     if (Value* known = find(key)) return *known = std::move(value);
     if (entries_.size() == capacity_) evict_least_recently_used();
@@ -52,7 +54,8 @@ class LruCache {
     return entry->second.value;
   }
 
-  // The value of `key`, inserted as make() when there is none. The cache is as before when make() throws.
+  // Returns the value of `key`, inserting make() when there is none. The cache is unchanged when make()
+  // throws.
   template <class Make>
   Value& find_or_make(const Key& key, Make&& make) {
     if (Value* known = find(key)) return *known;
@@ -64,7 +67,7 @@ class LruCache {
     by_use_.clear();
   }
 
-  // Drops what was neither found nor inserted since the call before this one.
+  // Drops the entries that were neither found nor inserted since the previous call.
   void forget_unused() {
     while (!entries_.empty() && entries_.find(*by_use_.back())->second.used_in != period_)
       evict_least_recently_used();
@@ -75,11 +78,11 @@ class LruCache {
   std::size_t capacity() const { return capacity_; }
 
  private:
-  using Order = std::list<const Key*>;  // of the keys in `entries_`, most recently used first
+  using Order = std::list<const Key*>;  // keys in `entries_`, most recently used first
   struct Entry {
     Value value;
     typename Order::iterator place;
-    std::uint64_t used_in;  // the period, between two calls of forget_unused()
+    std::uint64_t used_in;  // number of the period between two calls of forget_unused()
   };
 
   void evict_least_recently_used() {

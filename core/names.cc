@@ -7,7 +7,8 @@
 namespace halocline {
 namespace {
 
-// Whether `c` is a control character or, behind `before`, the second byte of one of eight bits.
+// True if `c` is a control character or, after the byte `before`, the second byte of an 8-bit control
+// character.
 bool is_control(unsigned char before, char c) {
   const auto byte = static_cast<unsigned char>(c);
   return byte < ' ' || byte == 0x7f || (before == 0xc2 && byte >= 0x80 && byte < 0xa0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of vehicles, nodes and clients: the suffixes of channels, so kept to characters that mean nothing to
-// a regular expression or a file system. All other texts, of files and of messages, are one line each.
+// Names of vehicles, nodes and clients. They are suffixes of channels, so they are restricted to characters
+// without a meaning in regular expressions and file systems. All other texts, in files and messages, are
+// single lines.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +15,19 @@ inline constexpr std::int32_t kBroadcastId = 0;  // as a destination: every vehi
 // True when `name` matches [a-z0-9_-]{1,24}.
 [[nodiscard]] bool is_valid_name(std::string_view name);
 
-// False where `text` holds control characters, those of eight bits in UTF-8 among them: line ends, and what
-// commands a terminal.
+// False if `text` contains control characters, including the 8-bit ones (C1) in UTF-8: line ends, and
+// commands to a terminal.
 [[nodiscard]] bool is_one_line(std::string_view text);
 
-// `text` with '?' in the place of its control characters, but for line ends.
+// Returns `text` with '?' in place of its control characters, except line ends.
 [[nodiscard]] std::string without_controls(std::string_view text);
 
-// `text` as a terminal may show it: what is not a visible character of ASCII or a space becomes '?'.
+// Returns `text` in a form safe for a terminal: every character except visible ASCII and space becomes '?'.
 [[nodiscard]] std::string printable(std::string_view text);
 
-// What is_valid_name accepts, in words for error messages.
+// Rule of is_valid_name() in words, for error messages.
 inline constexpr std::string_view kNameRule = "1 to 24 characters of a-z, 0-9, '_' and '-'";
-// Likewise is_one_line.
+// Rule of is_one_line() in words, for error messages.
 inline constexpr std::string_view kLineRule = "one line without control characters";
 
 }  // namespace halocline

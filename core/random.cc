@@ -21,7 +21,7 @@ std::array<std::uint32_t, 4> block_at(const DrawAddress& a) {
       {static_cast<std::uint32_t>(a.seed), static_cast<std::uint32_t>(a.seed >> 32)});
 }
 
-// (k + 1/2) / 2^52 for the top 52 bits k: exact in a double, and never 0 or 1.
+// Returns (k + 1/2) / 2^52 for the top 52 bits k: exact in a double, and never 0 or 1.
 double to_open_unit_interval(std::uint32_t high, std::uint32_t low) {
   const std::uint64_t bits = (std::uint64_t{high} << 32 | low) >> 12;
   return (static_cast<double>(bits) + 0.5) * 0x1p-52;
@@ -44,7 +44,7 @@ std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
   return counter;
 }
 
-// Each part is ciphered under the one before: a chain of which every link is a bijection.
+// Each part is encrypted with the result of the previous ones as the key: a chain of bijections.
 std::uint64_t identity_of(std::initializer_list<std::uint64_t> parts) {
   std::uint64_t identity = parts.size();
   for (const std::uint64_t part : parts) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers addressed by what they are for, never by turn.
+// Counter-based random numbers, addressed by their purpose instead of drawn in sequence.
 //
 // A draw is a pure function of (seed, purpose, who, which): Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011,
 // "Parallel random numbers: as easy as 1, 2, 3"), a counter-based generator. There is no state: two threads,
@@ -8,7 +8,8 @@
 //   const double u =
 //       uniform_at({.seed = 7, .purpose = purpose_of("bit-error"), .who = sender, .which = sequence});
 //
-// The distributions are our own, because those of the standard library differ between implementations.
+// The distributions are implemented here, because those of the standard library differ between
+// implementations.
 #pragma once
 
 #include <array>
@@ -18,18 +19,18 @@
 
 namespace halocline {
 
-// Philox4x32-10: 128 bits of counter and 64 bits of key to 128 random bits.
+// Philox4x32-10: maps a 128-bit counter and a 64-bit key to 128 random bits.
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
                                         std::array<std::uint32_t, 2> key);
 
-// A stable 32-bit number for the name of a purpose (FNV-1a).
+// Returns a stable 32-bit number for the name of a purpose (FNV-1a).
 constexpr std::uint32_t purpose_of(std::string_view name) {
   std::uint32_t hash = 2166136261u;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
   return hash;
 }
 
-// The address of a draw. `who` and `which` identify the thing drawn for (a vehicle, a grid cell, a message).
+// Address of a draw. `who` and `which` identify the object of the draw (a vehicle, a grid cell, a message).
 struct DrawAddress {
   std::uint64_t seed = 0;
   std::uint32_t purpose = 0;
@@ -37,15 +38,15 @@ struct DrawAddress {
   std::uint64_t which = 0;
 };
 
-// One number for a thing that several numbers identify together, in this order; to be `which`. Two things
-// share one with the chance of 2^-64.
+// Combines several numbers that together identify an object, in this order, to one number, for use as
+// `which`. Two objects have the same number with probability 2^-64.
 std::uint64_t identity_of(std::initializer_list<std::uint64_t> parts);
 
-// 64 random bits.
+// Returns 64 random bits.
 std::uint64_t bits_at(const DrawAddress& address);
-// Uniform in (0, 1), both ends excluded; steps of 2^-52.
+// Returns a uniform number in (0, 1), both ends excluded, in steps of 2^-52.
 double uniform_at(const DrawAddress& address);
-// Standard normal (Box-Muller).
+// Returns a standard normal number by the Box-Muller transform, sqrt(-2 ln u1) cos(2 pi u2).
 double normal_at(const DrawAddress& address);
 
 }  // namespace halocline

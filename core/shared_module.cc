@@ -11,8 +11,8 @@
 namespace halocline {
 namespace {
 
-// The folder of the running program, with its slash. Not the dynamic linker's $ORIGIN: beneath a sanitizer,
-// which calls dlopen for us, that is the sanitizer's folder.
+// Returns the folder of the running program, with its slash. The dynamic linker's $ORIGIN cannot be used:
+// under a sanitizer, which intercepts dlopen, it is the sanitizer's folder.
 std::string program_folder() {
   std::array<char, 4096> path{};
   const auto length = readlink("/proc/self/exe", path.data(), path.size());

@@ -38,13 +38,13 @@ class SimDuration {
 
 class SimTime {
  public:
-  constexpr SimTime() = default;  // the start of the scenario
+  constexpr SimTime() = default;  // start of the scenario
   static constexpr SimTime from_nanoseconds(std::int64_t ns) { return SimTime(ns); }
   static constexpr SimTime from_utime(std::int64_t us) { return SimTime(us * 1000); }
   static SimTime from_seconds(double seconds) { return SimTime(std::llround(seconds * 1e9)); }
-  // Later than every instant a scenario reaches; "never" in schedules.
+  // An instant later than any that a scenario reaches; "never" in schedules.
   static constexpr SimTime never() { return SimTime(std::numeric_limits<std::int64_t>::max()); }
-  // Earlier than every instant; "at once" in schedules.
+  // An instant earlier than any other; "at once" in schedules.
   static constexpr SimTime at_once() { return SimTime(std::numeric_limits<std::int64_t>::min()); }
 
   constexpr std::int64_t nanoseconds() const { return ns_; }
@@ -65,7 +65,7 @@ class SimTime {
   std::int64_t ns_ = 0;
 };
 
-// The first instant of the grid {0, period, 2 period, ...} that is later than `time`; period > 0.
+// Returns the first instant of the grid {0, period, 2 period, ...} that is later than `time`; period > 0.
 constexpr SimTime next_on_grid(SimTime time, SimDuration period) {
   const std::int64_t p = period.nanoseconds();
   std::int64_t k = time.nanoseconds() / p;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decibels and the few units that exist only at the edges (configuration, tables, output).
+// Decibels, and the units that are used only in configuration, tables and output.
 //
-// Inside, everything is SI and radians. Decibels are their own type so that a level is never used as a ratio:
-// the reference of a level is part of its variable's name or of the comment beside it (dB re 1 uPa for
-// received levels, dB re 1 uPa at 1 m for source levels, dB re 1 uPa^2/Hz for noise spectra).
+// All internal quantities are in SI units and radians. Decibels have a type of their own, so that a level is
+// never used as a ratio. The reference of a level is part of its variable's name or stated in a comment (dB
+// re 1 uPa for received levels, dB re 1 uPa at 1 m for source levels, dB re 1 uPa^2/Hz for noise spectra).
 #pragma once
 
 #include <compare>
@@ -13,7 +13,7 @@
 
 namespace halocline {
 
-// A logarithmic quantity, 10 log10 of a ratio of powers.
+// Logarithmic quantity: 10 log10 of a power ratio.
 struct Decibels {
   double value = 0;
 
@@ -23,7 +23,7 @@ struct Decibels {
   constexpr Decibels operator-(Decibels other) const { return {value - other.value}; }
 };
 
-// A ratio of powers (or a power relative to the reference its name states). Never negative.
+// Ratio of powers (or a power relative to the reference that its name states). Never negative.
 struct PowerRatio {
   double value = 0;
   constexpr auto operator<=>(const PowerRatio&) const = default;
@@ -31,7 +31,7 @@ struct PowerRatio {
 };
 
 inline PowerRatio to_power_ratio(Decibels level) { return {elementary::exp10(level.value / 10.0)}; }
-// A ratio of 0 gives -infinity.
+// Returns 10 log10(ratio); -infinity for a ratio of 0.
 inline Decibels to_decibels(PowerRatio ratio) { return {10.0 * elementary::log10(ratio.value)}; }
 
 constexpr double to_radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Functions that are compiled twice, for every x86-64 processor and for those with AVX2, and chosen when the
-// program starts.
+// Attribute for functions that are compiled twice, for every x86-64 processor and for those with AVX2; the
+// version is chosen when the program starts.
 //
-// For loops over doubles that compilers make vectors: twice as many numbers at once. The bits are the same:
-// vectors are not summed in another order, and nothing is contracted (-ffp-contract=off). Other processors
-// and compilers have one of them; so have sanitizers, which cannot choose so early.
+// It is meant for loops over doubles that compilers vectorise, with twice as many numbers at once. The
+// results have the same bits: sums are not reordered, and expressions are not contracted (-ffp-contract=off).
+// On other processors and compilers there is one version, and likewise under sanitizers, which cannot choose
+// so early.
 #pragma once
 
-// Whether the processor is of the kind whose functions may be compiled for AVX2 and AVX-512 by hand
+// 1 if the processor is of the kind whose functions may be compiled for AVX2 and AVX-512 explicitly
 // ([[gnu::target]]).
 #if defined(__x86_64__)
 #define HALOCLINE_HAS_X86_VECTORS 1

@@ -23,9 +23,9 @@
 namespace halocline {
 namespace {
 
-// Of the child; sanitizers end with others.
+// Exit codes of the child; sanitizers use others.
 constexpr int kRead = 0, kOutOfMemory = 3;
-// Processor time. A megabyte that deflate has made of a gigabyte takes the most.
+// Limits on processor time. A megabyte that deflate has made of a gigabyte takes the most.
 constexpr double kSeconds = 5, kSecondsAMegabyte = 5;
 
 double megabytes_of(const std::vector<std::string>& paths) {
@@ -45,7 +45,7 @@ void limit(decltype(RLIMIT_AS) resource, double most) {
   setrlimit(resource, &bounds);
 }
 
-// A crash ends the child by its signal, without words.
+// A crash ends the child by its signal, without messages.
 void become_expendable(double seconds, double address_space) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGSYS, SIGXCPU})
     std::signal(signal, SIG_DFL);
@@ -57,7 +57,8 @@ void become_expendable(double seconds, double address_space) {
   dup2(nowhere, STDERR_FILENO);
 }
 
-// Its end is immediate: no exit handler, no destructor, no flush of what the parent has yet to write.
+// Ends the child immediately: no exit handlers, no destructors, no flush of buffers that the parent still has
+// to write.
 [[noreturn]] void read_and_end(const std::function<void()>& reading) {
   try {
     reading();
@@ -68,7 +69,7 @@ void become_expendable(double seconds, double address_space) {
   _exit(kRead);
 }
 
-// While in scope: the system keeps how a child ended, also where this process was started with SIGCHLD
+// While in scope, the system keeps the exit status of a child, even if this process was started with SIGCHLD
 // ignored.
 class KeptEnds {
  public:

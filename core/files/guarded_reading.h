@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading by libraries that a damaged file can kill: a child process reads first, and where it does not live
-// to the end, the file is refused. HDF5 1.10 follows addresses that a file states (a group's heap of names,
-// say), and stands below netCDF and GDAL too.
+// Guarded reading with libraries that a damaged file can crash: a child process reads first, and if it does
+// not finish, the file is refused. HDF5 1.10, on which netCDF and GDAL are based too, follows addresses that
+// a file states (that of a group's heap of names, for instance).
 //
-// The child is a fork: it reads as the caller would, from the same state, and leaves nothing behind. It may
-// use the memory that is available and some processor time (seconds, more for large files), prints nothing
-// and leaves no core. The cost is that of reading twice, and of a fork: 1 ms, and 0.15 ms for each megabyte
-// that the process has by then.
+// The child is a fork: it reads from the same state as the caller would, and leaves nothing behind. It may
+// use the available memory and some processor time (seconds, more for large files), prints nothing and leaves
+// no core. The cost is that of reading twice plus that of a fork: 1 ms, and 0.15 ms for each megabyte of the
+// process.
 //
-// Files are read while a configuration is loaded, mostly before there are threads; where a thread loads one
-// (the monitor's, of a log), the child has that thread alone, and glibc keeps its memory and loader usable.
-// No lock that the reading takes may be held by another thread: readers say whether calls may overlap.
+// Files are read while a configuration is loaded, mostly before there are threads. If a thread loads one (the
+// monitor, from a log), the child has only that thread, and glibc keeps its memory and loader usable. No
+// other thread may hold a lock that the reading takes: readers state whether calls may overlap.
 #pragma once
 
 #include <functional>
@@ -19,20 +19,20 @@
 
 namespace halocline {
 
-// Throws InvalidArgument where a child that calls `reading` is ended by a signal or runs out of processor
-// time ("<paths> is damaged: ...") or of memory. What `reading` throws is no damage: the caller meets it
-// again.
+// Throws InvalidArgument if a child that calls `reading` is ended by a signal or runs out of processor time
+// ("<paths> is damaged: ...") or of memory. An exception that `reading` throws is not a sign of damage: it is
+// thrown again when the caller itself reads.
 void require_survivable(const std::vector<std::string>& paths, const std::function<void()>& reading);
 
-// What `reading` returns; a child calls it first.
+// Returns the result of `reading`, which a child has called first.
 template <class Reading>
 auto guarded_reading(const std::vector<std::string>& paths, const Reading& reading) {
   require_survivable(paths, [&] { reading(); });
   return reading();
 }
 
-// Whether HDF5 would take the file for one of its own: its signature stands at 0, 512, 1024, 2048 ... bytes
-// (HDF5 File Format Specification 3.0, section II.A). No file: false.
+// True if HDF5 would accept the file as its own: the signature is at 0, 512, 1024, 2048 ... bytes (HDF5 File
+// Format Specification 3.0, section II.A). False if there is no such file.
 bool is_hdf5(const std::string& path);
 
 }  // namespace halocline

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that a user names, opened only when they are regular files: a pipe keeps a reader waiting for a
-// writer, a device may never end, sockets and folders have nothing to read. A pipe into a program is its
-// standard input, where it takes one.
+// Files that a user names, opened only if they are regular files: a pipe keeps a reader waiting for a writer,
+// a device may never end, and sockets and folders cannot be read. A pipe into a program is its standard
+// input, if the program reads that.
 //
-// The look comes before the opening: libraries that open by name (netCDF, HDF5, GDAL, libsndfile, LCM) are
-// preceded by require_input_file. Calls may overlap between threads.
+// The check precedes the opening: call require_input_file() before libraries that open files by name (netCDF,
+// HDF5, GDAL, libsndfile, LCM). Thread-safe.
 #pragma once
 
 #include <fstream>
@@ -12,13 +12,13 @@
 
 namespace halocline {
 
-// Why a file cannot be read, in words; empty when it can. Symbolic links are followed.
+// Returns, in words, why a file cannot be read; empty if it can. Symbolic links are followed.
 std::string why_unreadable(const std::string& path);
 
 // Throws InvalidArgument: "cannot read <path>: <why>".
 void require_input_file(const std::string& path);
 
-// Opens it; throws as require_input_file does.
+// Opens a file; throws as require_input_file() does.
 std::ifstream open_input(const std::string& path);
 
 }  // namespace halocline

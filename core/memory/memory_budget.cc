@@ -15,7 +15,7 @@
 namespace halocline {
 namespace {
 
-// The first number of a file; none in a file that is not there, or that says "max".
+// Returns the first number of a file; infinite if there is no such file, or if it says "max".
 double number_in(const std::string& path) {
   double number = HUGE_VAL;
   std::ifstream(path) >> number;
@@ -31,7 +31,7 @@ double available_in_the_machine() {
   return HUGE_VAL;
 }
 
-// Of version 2, as a container sees its own.
+// Memory left in the control group (version 2), as a container sees its own group.
 double left_of_the_control_group() {
   std::ifstream own("/proc/self/cgroup");
   std::string path;

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory that is still to be had, for work that is refused before it begins rather than killed in its midst.
+// Available memory, so that work is refused before it begins rather than killed while it runs.
 //
-// Linux ends a process that touches more memory than there is, without a word. The estimate is the caller's;
-// what is there is the least of MemAvailable (/proc/meminfo), of what the control group leaves (memory.max
-// less memory.current) and of RLIMIT_AS (ulimit -v) less what is mapped.
+// Linux ends a process that touches more memory than there is, without a message. The caller estimates its
+// need. The available memory is the smallest of MemAvailable (/proc/meminfo), the rest of the control group
+// (memory.max minus memory.current), and RLIMIT_AS (ulimit -v) minus the mapped memory.
 #pragma once
 
 #include <string>
 
 namespace halocline {
 
-// Bytes; infinite where the system tells none of them.
+// Available memory, bytes; infinite if the system reports none of the three.
 double available_memory_bytes();
-// Of the process's address space; infinite where the system does not tell.
+// Mapped memory of the process's address space, bytes; infinite if the system does not report it.
 double mapped_memory_bytes();
 
-// Throws InvalidArgument where `bytes` are more: "WHAT needs about 40 GB of memory, and 17 GB are available;
-// REMEDY".
+// Throws InvalidArgument if `bytes` exceed the available memory: "WHAT needs about 40 GB of memory, and 17 GB
+// are available; REMEDY".
 void require_memory(double bytes, const std::string& what, const std::string& remedy);
 
-// "340 GB", two digits.
+// Returns a size such as "340 GB", with two digits.
 std::string size_text(double bytes);
 
 }  // namespace halocline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bytes as text of the alphabet of RFC 4648, section 4.
+// Base 64: bytes as text in the alphabet of RFC 4648, section 4.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace halocline {
 
 std::string base64_of(std::span<const std::uint8_t> bytes);
-// None for a text that is no base 64.
+// Returns nothing for a text that is not base 64.
 std::optional<std::vector<std::uint8_t>> bytes_of_base64(std::string_view text);
 
 }  // namespace halocline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Letters of ASCII as small ones, whatever the locale.
+// Conversion of ASCII letters to lower case, whatever the locale.
 #pragma once
 
 #include <string>

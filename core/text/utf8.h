@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts in UTF-8.
+// Operations on UTF-8 text.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace halocline {
 
-// At most so many bytes of a text, without a broken character at the end.
+// Returns at most the first `bytes` bytes of a text, without an incomplete character at the end.
 [[nodiscard]] std::string beginning_of(const std::string& text, std::size_t bytes);
 
 }  // namespace halocline
