@@ -117,7 +117,7 @@ void Bus::rethrow_if_failed() {
 
 void Bus::refuse(std::string_view channel, std::string_view reason) {
   ++counters_.refused;
-  constexpr std::size_t kKindsKept = 1000;  // of refusals; bounds memory against a hostile publisher
+  constexpr std::size_t kKindsKept = 1000;  // kinds of refusal; bounds memory against a hostile publisher
   const std::string kind = kind_of(channel, reason);
   if (refusals_.size() >= kKindsKept && !refusals_.contains(kind)) return;
   const std::int64_t count = ++refusals_[kind];

@@ -77,7 +77,7 @@ class Bus {
   // Publishes on the LCM instance that `route` returns for a channel, instead of the one that receives.
   using Route = std::function<lcm::LCM&(std::string_view channel)>;
   void set_route(Route route) { route_ = std::move(route); }
-  // All subscriptions, in the order in which they were made, and the indices of those that match a channel.
+  // Subscriptions in the order in which they were made, and the indices of those that match a channel.
   const std::vector<Subscribed>& subscribed() const { return subscribed_; }
   std::vector<std::size_t> subscribed_to(std::string_view channel) const;
   const Subscriptions& receives() const { return receives_; }
@@ -90,7 +90,7 @@ class Bus {
   // requests missing messages.
   void subscribe_to_all_flows(FlowOf flow_of, RawHandler handler);
   const FlowWatch& flows() const { return flows_; }
-  SimTime received_at() const { return received_at_; }     // of the current message: Unix time, by LCM
+  SimTime received_at() const { return received_at_; }     // Unix time, by LCM, of the current message
   void set_tap(RawHandler tap) { tap_ = std::move(tap); }  // gets each accepted message before its handler
   // Handles a message as if LCM had dispatched it. Used by a runner in LCM's place, and to replay the input
   // of an earlier incarnation of this node (message_journal.h), so that its gaps are known and repaired.
@@ -110,7 +110,8 @@ class Bus {
   SimTime next_repair() const;
   void announce_flows();  // sends a heartbeat in the next repair(): nothing more will be published
   void forget_flows() { flows_.forget(); }  // another run has begun: sequences may restart
-  void continue_flows(FlowWatch::Knows knows) { flows_.go_on(std::move(knows)); }  // of earlier incarnations
+  // Flows of earlier incarnations.
+  void continue_flows(FlowWatch::Knows knows) { flows_.go_on(std::move(knows)); }
   std::size_t num_missing() const { return flows_.num_missing(); }  // messages missing and requested
   LatenessWatch& lateness() { return lateness_; }  // lateness of the results that this node publishes
   const NodeIdentity& identity() const { return identity_; }
@@ -154,7 +155,7 @@ class Bus {
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // counts by kind, for rate-limited reports
   std::exception_ptr failure_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
-  std::map<std::string, std::unique_ptr<ChannelGroup>, std::less<>> groups_;  // by prefix
+  std::map<std::string, std::unique_ptr<ChannelGroup>, std::less<>> groups_;  // keyed by prefix
   std::vector<Subscribed> subscribed_;
   ChannelPatterns patterns_;  // patterns of subscribed_
   std::map<std::string, std::vector<const Subscription*>, std::less<>> subscriptions_to_;  // cache by channel

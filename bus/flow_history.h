@@ -36,7 +36,7 @@ class FlowHistory {
   // Much longer than any receiver requests a message (flow_watch.h); the memory of a node settles within this
   // time.
   static constexpr SimDuration kMaxAge = SimDuration::from_milliseconds(120'000);
-  // At most `max_bytes` of messages are kept, but always the last message, whatever its size.
+  // Keeps at most `max_bytes` of messages, but always the last message, whatever its size.
   explicit FlowHistory(std::size_t max_bytes) : max_bytes_(max_bytes) {}
   FlowHistory(const FlowHistory&) = delete;
   FlowHistory& operator=(const FlowHistory&) = delete;

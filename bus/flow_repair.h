@@ -107,7 +107,7 @@ class FlowRepair {
   };
   struct Heard {
     SimTime first, last;
-    std::int64_t utime = 0, sequence = 0;  // those of the last heartbeat
+    std::int64_t utime = 0, sequence = 0;  // values of the last heartbeat
   };
   bool is_known(SimTime steady, const flow_heartbeat_t& heartbeat);
 
@@ -123,7 +123,7 @@ class FlowRepair {
   std::int64_t num_requested_ = 0;
   double answers_ = kLeastAnswers;  // tokens in the bucket at filled_at_
   SimTime filled_at_, next_answer_ = SimTime::at_once();
-  std::unordered_map<std::int64_t, Heard> heartbeats_of_others_;  // by session; bounded
+  std::unordered_map<std::int64_t, Heard> heartbeats_of_others_;  // keyed by session; bounded
 };
 
 }  // namespace halocline::bus

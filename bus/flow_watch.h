@@ -176,7 +176,7 @@ class FlowWatch {
   static bool take_lost(Publisher& publisher, std::int64_t sequence);
   std::int64_t note_missing(Publisher& publisher, SimTime steady, std::int64_t first, std::int64_t end);
 
-  std::unordered_map<std::string, Publishers, TextHash, std::equal_to<>> received_;  // by channel
+  std::unordered_map<std::string, Publishers, TextHash, std::equal_to<>> received_;  // keyed by channel
   Knows knows_ = knows_none;
   static constexpr std::size_t kMaxListed = 4096;
   std::unordered_set<std::int64_t> listed_;  // sessions of which a heartbeat has listed all flows

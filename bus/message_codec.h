@@ -34,8 +34,8 @@ Bytes encoded(const Message& message) {
   return bytes;
 }
 
-// Both return the problem of the bytes, or an empty string when `message` holds one complete message.
-// decode_unchecked() does not check the values.
+// Decodes one complete message. Returns the problem of the bytes, or an empty string. decode_unchecked() does
+// not check the values.
 template <class Message>
 [[nodiscard]] std::string decode_unchecked(std::span<const std::uint8_t> bytes, Message& message) {
   std::string problem = misfit(wire_layout<Message>(), bytes.data(), bytes.size());

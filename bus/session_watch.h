@@ -62,7 +62,7 @@ class SessionWatch {
     std::int64_t session = 0;
     SimTime heard;
   };
-  using Times = std::unordered_map<std::int64_t, SimTime>;  // by session
+  using Times = std::unordered_map<std::int64_t, SimTime>;  // keyed by session
   static bool is_recent(SimTime steady, const Times& times, std::int64_t session,
                         SimDuration memory = kSilence);
   static void forget_silent(SimTime steady, Times& times);
@@ -71,7 +71,7 @@ class SessionWatch {
   bool decides(SimTime steady, std::int32_t receiver, std::int64_t session);
   bool is_of_rival(SimTime steady, std::string_view channel, std::int64_t session) const;
 
-  std::unordered_map<std::string, Holder, TextHash, std::equal_to<>> holders_;  // by node, and by channel
+  std::unordered_map<std::string, Holder, TextHash, std::equal_to<>> holders_;  // keyed by node or channel
   // Last heartbeats of accepted nodes and of duplicate ones.
   Times heartbeats_, rivals_;
   Times refused_outcomes_;  // sessions whose last OUTCOME for a receiver was refused

@@ -21,7 +21,7 @@ struct WireField {
     kFixed,   // `bytes` bytes
     kString,  // int32 length with the terminating 0, then that many bytes
     kCount,   // int32, the number of elements of the kArray fields that follow
-    kArray,   // as many elements of `element` as the last kCount states
+    kArray,   // elements of type `element`; their number is the last kCount
   };
   Kind kind = Kind::kFixed;
   std::size_t bytes = 0;

@@ -43,7 +43,7 @@ class PacedTime : public bus::TimeSource {
   double rate_;
   std::optional<SimTime> started_listening_;
   SimTime zero_;                // simulation time at steady time 0
-  std::vector<SimTime> zeros_;  // the same, by each message received so far
+  std::vector<SimTime> zeros_;  // estimates of zero_, one for each message received so far
   struct {
     std::int64_t session = 0;
     int count = 0;

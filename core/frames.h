@@ -60,7 +60,8 @@ inline Quaternion between(const Quaternion& a, const Quaternion& b, double share
   return a * rotation_by(share * angle * side / sine * way.vec());
 }
 
-// At pitch = +-pi/2 roll and yaw are not unique; one of the possible pairs is returned.
+// Converts to Euler angles. At pitch = +-pi/2 roll and yaw are not unique; one of the possible pairs is
+// returned.
 inline EulerAngles to_euler(const Quaternion& q) {
   const Eigen::Matrix3d r = q.toRotationMatrix();
   const double sine_pitch = std::clamp(-r(2, 0), -1.0, 1.0);

@@ -47,17 +47,17 @@ class GaussMarkovProcess {
 
  private:
   struct Middle {
-    double weight, deviation;  // of the mean of both ends; of the draw
+    double weight, deviation;  // factor of the sum of both ends; deviation of the draw
   };
   explicit GaussMarkovProcess(const DrawAddress& address) : address_(address) {}
   double draw(std::int64_t millisecond) const;
   double at_millisecond(std::int64_t k, Cursor& cursor) const;
 
   double deviation_ = 0;                              // at 0
-  double last_correlation_ = 0, last_deviation_ = 0;  // of the last value, given the first
+  double last_correlation_ = 0, last_deviation_ = 0;  // distribution of the last value, given the first
   bool is_zero_ = false;
   DrawAddress address_;
-  std::vector<Middle> middles_;  // by the depth of the halving, widest first
+  std::vector<Middle> middles_;  // indexed by the depth of the halving, widest first
 };
 
 class GaussMarkovProcess::Cursor {

@@ -31,7 +31,7 @@ struct ConfigDocument;
 // Texts of a key that are file names; other texts are left unchanged.
 enum class FileNames {
   kFiles,    // all
-  kShipped,  // those that end in .toml; others name a shipped file
+  kShipped,  // texts that end in .toml; others name a shipped file
   kRasters,  // all but GDAL's own names ("NETCDF:...", "/vsi...")
 };
 [[nodiscard]] bool names_a_file(const std::string& text, FileNames names);
@@ -54,7 +54,8 @@ class UnpackedFiles {
   UnpackedFiles(const UnpackedFiles&) = delete;
   UnpackedFiles& operator=(const UnpackedFiles&) = delete;
 
-  // Both throw InvalidArgument for a name that is not that of a file within a folder, and for bytes with
+  // Throws InvalidArgument for a name that is not that of a file within a folder, and for bytes with another
+  // hash.
   // another hash.
   void add(const std::string& name, const std::string& bytes, const std::string& xxh3);
   void add(const std::string& name, Named named);
@@ -72,7 +73,7 @@ class UnpackedFiles {
 // Origin of a FilePath that was read from a configuration, stored as its origin().
 struct FileOrigin {
   std::shared_ptr<UnpackedFiles> unpacked;   // hold the file; null for a file at its original place
-  std::shared_ptr<ConfigDocument> document;  // of a TOML file that has been read
+  std::shared_ptr<ConfigDocument> document;  // null unless the file is a TOML file that has been read
 };
 
 // Collects the files that a configuration names while the configuration is written.
@@ -93,8 +94,8 @@ class CarriedFiles {
 
   Which which_;
   std::size_t carried_bytes_ = 0;
-  std::map<std::string, std::string> names_;   // by place
-  std::map<std::string, std::string> tables_;  // by name
+  std::map<std::string, std::string> names_;   // keyed by place
+  std::map<std::string, std::string> tables_;  // keyed by name
 };
 
 }  // namespace halocline::bus

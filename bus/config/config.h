@@ -149,7 +149,8 @@ void degrees(ConfigVisitor& v, std::string_view key, double& radians, const Numb
 void degrees(ConfigVisitor& v, std::string_view key, std::vector<double>& radians,
              const NumberRule& rule_in_degrees);
 
-// All errors of a configuration, one line each: "file:line: key: what; allowed is ...".
+// Error that lists everything wrong with a configuration, one line each: "file:line: key: what; allowed is
+// ...".
 class ConfigErrors : public InvalidArgument {
  public:
   explicit ConfigErrors(std::vector<std::string> lines);

@@ -166,7 +166,7 @@ struct Table {
 
 class Writer : public ConfigVisitor {
  public:
-  // With comments every key is written; without them only those that apply.
+  // Writes every key with comments, or, without them, only the keys that apply.
   Writer(Table& table, std::string path, bool with_comments, CarriedFiles& files)
       : table_(table), path_(std::move(path)), with_comments_(with_comments), files_(files) {}
 

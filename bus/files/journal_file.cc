@@ -64,7 +64,7 @@ std::size_t next_whole(View bytes) {
 // Tries to make the first `size` bytes a complete record by flipping one bit; returns true, with the bit
 // flipped, if this succeeds. The probability that a wrong bit fits the 64-bit check sum is 8 size / 2^64.
 bool mend(std::span<std::uint8_t> bytes, std::size_t size) {
-  constexpr std::size_t kLargest = 65'536;  // its 2^19 check sums take seconds
+  constexpr std::size_t kLargest = 65'536;  // 2^19 check sums of this size take seconds
   if (size > kLargest) return false;
   for (std::size_t bit = 0; bit < 8 * size; ++bit) {
     std::uint8_t& byte = bytes[bit / 8];

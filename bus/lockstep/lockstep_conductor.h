@@ -95,7 +95,7 @@ class LockstepConductor {
   ParticipantLinks links_;
   GrantSender grants_;
   Membership membership_;
-  std::vector<ParticipantLink*> round_;  // those in the sequencer's round
+  std::vector<ParticipantLink*> round_;  // links of the sequencer's round
   std::vector<lockstep_result_t> results_;
   std::vector<lockstep_message_t> injected_;
   SimTime furthest_ = SimTime::never();

@@ -24,8 +24,8 @@ class LockstepParticipant {
   // Time between JOINs until one is answered; afterwards, while no grant is received, kKeepAlivePeriod.
   static constexpr SimDuration kJoinPeriod = SimDuration::from_milliseconds(100);
   static constexpr SimDuration kKeepAlivePeriod = SimDuration::from_milliseconds(250);
-  // After its last turn a participant continues to answer until the conductor reports the end of the run, or
-  // is silent for this long.
+  // Time limit for a participant that has taken its last turn: it continues to answer until the conductor
+  // reports the end of the run, or is silent for this long.
   static constexpr SimDuration kLinger = SimDuration::from_milliseconds(60'000);
 
   struct Outputs {

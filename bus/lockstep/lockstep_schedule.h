@@ -24,8 +24,9 @@ struct ScheduleEntry {
   int stage = 0;
   SimTime due = SimTime::never();
   bool has_input = false;  // messages that may advance its due time: it steps at the present instant
-  // Before this time it publishes no message that may make a participant due, except a service, unless it
-  // gets input from a participant that is not a service. Before `due` it publishes nothing anyway.
+  // Promise: before this time the participant publishes no message that may make another one due, except a
+  // service, unless it gets input from a participant that is not a service. Before `due` it publishes nothing
+  // anyway.
   SimTime quiet_until = SimTime::at_once();
 };
 

@@ -36,7 +36,7 @@ class Membership {
              Outputs outputs);
 
   void on_join(const lockstep_join_t& join, const RunState& run, SimTime steady);
-  // All turns of the last grant_history() were taken; `result` is that of the last of them.
+  // Ends a grant_history(), all of whose turns were taken; `result` is that of the last turn.
   void on_history_taken(ParticipantLink& link, const lockstep_result_t& result, const RunState& run,
                         SimTime steady);
   // `kind`: an enumerator of lockstep_notice_t.

@@ -24,7 +24,7 @@ struct ParticipantLink {
   std::int64_t incarnation = 0;  // 0: none connected, or local
   lockstep_join_t join;
   TakeTurn take;                 // for a local participant
-  std::int64_t turns_taken = 0;  // by this incarnation, as far as is known
+  std::int64_t turns_taken = 0;  // turns of this incarnation, as far as is known
   bool up_to_date = false;       // it has taken all turns of its name
   bool wants_to_join = false;    // to be admitted between rounds
   bool wants_to_leave = false;

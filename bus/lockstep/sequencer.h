@@ -60,7 +60,7 @@ class Sequencer {
   // Accepts a message of a publisher outside the run; such messages are delivered, in the order given, at the
   // beginning of the next instant.
   void inject(lockstep_message_t message);
-  // From now on every round is a last turn, at `instant`, in the order of stages.
+  // Makes every later round a last turn, at `instant`, in the order of stages.
   void end_run(SimTime instant);
 
   // ---- time and rounds
@@ -73,7 +73,7 @@ class Sequencer {
   void set_furthest(SimTime furthest) { furthest_ = furthest; }
   // Returns false when the instant is over, or, after end_run(), when nobody is left.
   [[nodiscard]] bool begin_round();
-  // As begin_round(), with the participants of a past round, given by its results.
+  // Begins a round with the participants of a past round, given by its results; otherwise as begin_round().
   [[nodiscard]] bool begin_past_round(const std::vector<lockstep_result_t>& results);
   bool in_round() const { return !round_.empty(); }
   const std::vector<std::string>& round() const { return round_; }
@@ -170,7 +170,7 @@ class Sequencer {
   std::vector<lockstep_message_t> injected_;
   std::vector<Held> held_;  // in the order of the run
   std::vector<lockstep_message_t> messages_;
-  std::unordered_map<std::string, std::vector<Receiver>> receivers_;  // by channel
+  std::unordered_map<std::string, std::vector<Receiver>> receivers_;  // keyed by channel
   std::int64_t rounds_ = 0, turns_ = 0;
 };
 

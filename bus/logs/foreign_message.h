@@ -13,7 +13,7 @@
 namespace halocline::clients {
 
 struct ForeignMessage {
-  std::string problem;  // as bus::decode() returns it; empty: none
+  std::string problem;  // result of bus::decode(); empty: none
   bool orientation_filled = false;
   bool is_sound() const { return problem.empty(); }
 };

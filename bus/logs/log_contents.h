@@ -51,7 +51,7 @@ class LogContents {
     Read read = nullptr;  // null: not a channel of Halocline
     bool is_misnamed = false;
     std::int64_t events = 0, other_version = 0, invalid = 0, timed = 0;
-    std::string first_problem;  // of the invalid events
+    std::string first_problem;  // description of the first invalid event
     std::size_t first_file = 0;
     std::int64_t first_offset = 0;
     // First and last of the timed events.

@@ -51,7 +51,7 @@ class LogFlows {
   struct Channel {
     bus::FlowType type;
     std::int64_t messages = 0;
-    std::map<std::int64_t, Flow> flows = {};  // by session
+    std::map<std::int64_t, Flow> flows = {};  // keyed by session
   };
   static std::int64_t missing_of(const Channel& channel);
   Channel& channel_of(std::string_view name);

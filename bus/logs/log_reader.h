@@ -55,8 +55,8 @@ class LogReader {
   // Bytes that belonged to no event, without those of events that were cut off.
   std::int64_t bytes_skipped() const { return bytes_skipped_; }
   bool truncated() const { return truncated_; }     // a file ends within an event
-  std::int64_t bytes() const { return bytes_; }     // of the files opened so far
-  const LogFlows& flows() const { return flows_; }  // of the events read so far
+  std::int64_t bytes() const { return bytes_; }     // total size of the files opened so far
+  const LogFlows& flows() const { return flows_; }  // flows in the events read so far
   const LogContents& contents() const { return contents_; }
 
  private:

@@ -33,7 +33,7 @@ using LogBytes = std::span<const std::uint8_t>;
 
 // Place of an event; `channel` and `data` refer to the bytes of the log.
 struct EventPlace {
-  std::size_t offset = 0, size = 0;  // of the whole event, bytes
+  std::size_t offset = 0, size = 0;  // complete event, bytes
   std::int64_t number = 0, stamp_us = 0;
   std::string_view channel;
   LogBytes data;

@@ -122,8 +122,8 @@ PacketAccount::Ids PacketAccount::receivers_of(const Packet& packet, std::int64_
   return ids;
 }
 
-// In a log without messages about modems every vehicle may have one; in a log without STATEs any vehicle may
-// be present.
+// Any vehicle may have a modem in a log without messages about modems, and any may be present in a log
+// without STATEs.
 bool PacketAccount::has_possible_receiver(const Packet& packet) const {
   const bool has_states = least_ned_m_[0] <= greatest_ned_m_[0];
   return !has_states || std::any_of(packet.there->begin(), packet.there->end(), [&](std::int32_t id) {

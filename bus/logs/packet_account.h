@@ -48,10 +48,10 @@ class PacketAccount {
 
   struct Missing {
     std::int64_t accepted = 0;          // packets
-    std::int64_t under_way = 0;         // of these, perhaps still under way at the end of the log
-    std::int64_t without_outcome = 0;   // of the others
-    std::int64_t lack_some = 0;         // of the others: packets with outcomes, but not at every vehicle
-    std::int64_t outcomes_lacking = 0;  // missing outcomes of these packets
+    std::int64_t under_way = 0;         // accepted packets perhaps still under way at the end of the log
+    std::int64_t without_outcome = 0;   // other packets without any outcome
+    std::int64_t lack_some = 0;         // other packets with outcomes, but not at every vehicle
+    std::int64_t outcomes_lacking = 0;  // number of outcomes missing for the lack_some packets
     bool any() const { return without_outcome > 0 || lack_some > 0; }
   };
   Missing missing() const;
@@ -60,7 +60,7 @@ class PacketAccount {
   using Ids = std::vector<std::int32_t>;  // ascending
   struct Vehicle {
     std::optional<std::int32_t> id;
-    std::int64_t since_us = 0, last_us = 0;  // of its STATEs without a silence
+    std::int64_t since_us = 0, last_us = 0;  // first and last of its STATEs without a silence
     bool has_state = false, has_battery = false, has_sent = false;
   };
   // Identifies one transmission of one sender.
@@ -90,7 +90,7 @@ class PacketAccount {
   std::map<std::string, Vehicle, std::less<>> vehicles_;
   std::set<std::int32_t> with_modem_;  // from OUTCOMEs and LINKS
   std::map<std::pair<Name, const Vehicle*>, Packet> packets_;
-  std::map<Name, std::vector<Outcomes>> outcomes_;  // by source
+  std::map<Name, std::vector<Outcomes>> outcomes_;  // elements differ by source
   std::shared_ptr<const Ids> there_;                // the latest; most packets share it
   std::int64_t end_us_ = INT64_MIN;
   std::optional<std::int64_t> clock_us_;

@@ -62,7 +62,7 @@ class CrashJournal {
     // the node is down are then known to be missing.
     std::vector<Family> keep_last;
     std::vector<std::string> keep_all;  // channels of which all inputs are kept (the latest 1000)
-    std::uint64_t digest = 0;           // of everything that the steps depend on except their inputs
+    std::uint64_t digest = 0;           // covers everything that the steps depend on, except their inputs
   };
   // Steady time, from the first step, within which repair delivers the messages published while the node was
   // down. Heartbeats come four times a second, the second one lists the flows that began meanwhile, and the

@@ -64,12 +64,13 @@ class LockstepRunner {
   const std::vector<Node*>& receivers_of(std::string_view channel);
 
   std::vector<Node*> nodes_;
-  std::vector<MessageBatch> published_;  // of each node, not yet delivered
+  std::vector<MessageBatch> published_;  // one batch for each node, not yet delivered
   MessageBatch delivered_;               // being delivered
   ForEach for_each_;
   std::function<bool(SimTime)> before_instant_;
   Listener listener_;
-  std::unordered_map<std::string, std::vector<Node*>, ChannelHash, std::equal_to<>> receivers_;  // by channel
+  // Keyed by channel.
+  std::unordered_map<std::string, std::vector<Node*>, ChannelHash, std::equal_to<>> receivers_;
   LockstepSchedule schedule_;
   SimTime now_;  // time stamp of messages: that of the schedule, or the end that was reached
 };

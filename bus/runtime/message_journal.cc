@@ -82,7 +82,7 @@ void MessageJournal::read(JournalFile& file) {
 
 MessageJournal::MessageJournal(Rule rule) : rule_(std::move(rule)) {
   file_ = std::make_unique<JournalFile>(rule_.path, kHeader);
-  rule_.path = std::filesystem::canonical(rule_.path);  // of a link, the target is renamed, not the link
+  rule_.path = std::filesystem::canonical(rule_.path);  // if it is a link, its target is renamed
   if (std::filesystem::exists(rule_.path + ".1")) {
     JournalFile before(rule_.path + ".1", kHeader);
     read(before);

@@ -102,7 +102,7 @@ class MessageJournal {
   SimTime file_begins_ = SimTime::never();
   std::optional<SimTime> idle_step_;
   std::vector<JournalledMessage> inherited_, inputs_;
-  // By channel: the last input of each session, the latest at the end.
+  // Last inputs by channel: one for each session, the latest at the end.
   std::map<std::string, std::vector<JournalledMessage>> kept_last_;
   std::deque<JournalledMessage> kept_all_;
 };

@@ -134,8 +134,8 @@ class Node {
 
  protected:
   virtual Due on_due() const = 0;
-  // As quiet_until(), except for STATUS; a channel of a family may be tested by any of its names. at_once():
-  // the node has no lookahead beyond its due time.
+  // Lookahead without STATUS; otherwise as quiet_until(). A channel of a family may be tested by any of its
+  // names. at_once(): the node has no lookahead beyond its due time.
   virtual SimTime on_quiet_until(const ChannelTest& /*matters*/) const { return SimTime::at_once(); }
   virtual void on_step(const Now& now) = 0;
   virtual void on_stop(const Now& /*now*/) {}
@@ -171,7 +171,7 @@ class Node {
   SimTime next_status_, next_lateness_report_;  // steady
   std::int64_t status_sequence_ = 0;
   bool is_behind_ = false;
-  std::int64_t requests_seen_ = 0;  // by repair_after_stop()
+  std::int64_t requests_seen_ = 0;  // seen by repair_after_stop()
   std::unique_ptr<StateJournal> journal_;
   bool has_journal_ = true;              // false once the disk refused a record
   Archive saved_;                        // state in the last journal record

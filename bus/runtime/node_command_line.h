@@ -27,7 +27,7 @@ struct NodeRun {
   TimeSourceKind time_source = TimeSourceKind::kConductor;
   LogLevel log_level = LogLevel::kInfo;
   std::string journal;              // path of the node's state journal; empty: none
-  std::uint64_t config_digest = 0;  // of the version and the effective configuration
+  std::uint64_t config_digest = 0;  // covers the version and the effective configuration
 };
 
 // Returns nothing when the command line only requested output (--help, --example, --interface, --version,

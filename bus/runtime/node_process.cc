@@ -173,7 +173,7 @@ class NodeTime {
   std::int64_t refused_ = 0;
 };
 
-// In lockstep a node has a bus of its own, and its identity is the same in every run.
+// Runs the node on a bus of its own, with an identity that is the same in every lockstep run.
 int run_in_lockstep(const NodeRun& run, const NodeProgram& program) {
   lcm::LCM memq("memq://");
   const NodeIdentity identity{run.identity.name, session_of(run.scenario.seed, run.identity.name),

@@ -65,7 +65,7 @@ struct NodeProgram {
     const std::string& sync_url;
     bool in_lockstep = false;         // true for a lockstep participant
     ConfigFile* file = nullptr;       // the scenario file, for further checks; null if none is given
-    std::uint64_t config_digest = 0;  // of the version and the effective configuration; 0 in lockstep
+    std::uint64_t config_digest = 0;  // covers version and effective configuration; 0 in lockstep
     std::string lcm_url = {};         // URL of `lcm`; empty in lockstep
   };
   std::function<std::unique_ptr<Node>(const Context&)> make_node = nullptr;
@@ -92,7 +92,7 @@ inline constexpr int kExitConfiguration = 2, kExitNetwork = 69;
 void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop,
               ReceiveFilter* filter = nullptr);
 
-// From now on SIGINT, SIGTERM and, unless it is ignored, SIGHUP set a flag instead of ending the process.
+// Makes SIGINT, SIGTERM and, unless it is ignored, SIGHUP set a flag instead of ending the process.
 void catch_stop_signals();
 bool stop_requested();       // any of these signals came
 bool interrupt_requested();  // SIGINT came: Ctrl-C
@@ -111,7 +111,7 @@ int dispatch_waiting(lcm::LCM& lcm);
 // Waits, then dispatches, with fewer system calls than the two functions.
 void wait_and_dispatch(lcm::LCM& lcm, SimTime wake);
 
-// From now on this thread's sleeps end when requested, not up to 50 us later (timer slack of Linux).
+// Makes this thread's sleeps end when requested, not up to 50 us later (timer slack of Linux).
 void sleep_precisely();
 
 // Returns Unix time.

@@ -32,8 +32,8 @@ struct VehicleBattery {
   double listening_w = 0.2;   // power of the idle modem, always drawn; Micromodem (Freitag et al. 2005)
   // Additional power while the modem receives a packet; that of a Micromodem's floating-point coprocessor.
   double receiving_w = 2;
-  double transmit_efficiency = 0.5;  // of amplifier and transducer: acoustic over electric power; our choice
-  double shaft_efficiency = 0.7;     // of motor and gear: shaft over electric power; our choice
+  double transmit_efficiency = 0.5;  // acoustic over electric power of amplifier and transducer; our choice
+  double shaft_efficiency = 0.7;     // shaft over electric power of motor and gear; our choice
   bool operator==(const VehicleBattery&) const = default;
 };
 
@@ -41,21 +41,21 @@ struct VehicleBattery {
 struct VehicleEntry {
   std::string name;     // channel suffix (is_valid_name); unique
   std::int32_t id = 0;  // 1 and up; unique
-  // What moves it: a model of the vehicle simulator, by name or as a file (docs/vehicles.md), "fixed" (the
-  // vehicle simulator publishes a constant pose), or "external" (another process moves it).
+  // Model that moves it: a model of the vehicle simulator, by name or as a file (docs/vehicles.md), "fixed"
+  // (the vehicle simulator publishes a constant pose), or "external" (another process moves it).
   FilePath model = "torpedo";
   Vec3 start_ned_m = Vec3::Zero();             // world NED, m
   double heading_rad = 0;                      // at the start, clockwise from north
   double speed_mps = 0;                        // at the start, forward through the water
-  std::optional<VehicleBattery> battery = {};  // none: unlimited energy
+  std::optional<VehicleBattery> battery = {};  // unlimited energy if not set
 };
 
 // Ocean fields that vary in space and time, from a file (ocean/ocean_field_reader.h).
 struct OceanEntry {
   FilePath file;               // empty: none
   std::string start_date;      // date of simulation time 0; empty: the file's first time
-  bool moves_vehicles = true;  // its currents act on them
-  bool carries_sound = true;   // its temperature and salinity give the sound speed
+  bool moves_vehicles = true;  // currents of the file act on vehicles
+  bool carries_sound = true;   // temperature and salinity of the file give the sound speed
   // Sound propagates in the water of the middle of each span of this length.
   SimDuration sound_period = SimDuration::from_seconds(600);
 };

@@ -26,12 +26,12 @@ constexpr std::uint64_t kMaxParts = 1 << 20;
 // A record holds a head, the state without its parts, the list of parts, the bytes of the parts, and the
 // additions.
 struct Head {
-  std::uint64_t check_sum = 0;  // of all bytes after it
+  std::uint64_t check_sum = 0;  // covers all bytes after it
   std::uint64_t digest = 0, number = 0;
   std::int64_t session = 0;
   SimTime at;
   std::uint64_t is_whole = 0;
-  std::array<std::uint64_t, 4> sizes = {};  // of the pieces after the head, bytes
+  std::array<std::uint64_t, 4> sizes = {};  // sizes of the pieces after the head, bytes
 
   std::uint64_t size_of_body() const {
     std::uint64_t sum = 0;

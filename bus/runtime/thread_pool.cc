@@ -38,7 +38,8 @@ class FirstFailure {
 
 struct ThreadPool::Arena : tbb::task_arena {
   explicit Arena(int threads) : task_arena(threads) {
-    // By default oneTBB warns about, and does not start, more threads than there are cores.
+    // Raises oneTBB's limit: by default it warns about, and does not start, more threads than there are
+    // cores.
     static const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, kMostThreads);
   }
 };
