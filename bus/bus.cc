@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::string_view kAllChannels = ".*";
 
-// Capacity of the queue that LCM keeps for a subscription between two calls of handle(). LCM's default of 30
-// drops the newest messages of a burst.
+// Capacity of the queue in which LCM keeps messages of a subscription until they are handled. LCM's default
+// of 30 drops the newest messages of a burst.
 constexpr int kQueueCapacity = 20'000;
 
 // Returns the kind of a refusal: the channel and the field, without the value.

@@ -6,6 +6,7 @@
 // its channel and reason (the 1st, 10th, 100th, ... of a kind), and ignored. A gap in a publisher's sequence
 // numbers (session, sequence) is counted, and repaired after enable_repair(). An exception that a handler
 // throws never crosses LCM's C frames: rethrow_if_failed() throws it.
+//
 //   Bus bus(lcm, {"channel-server", session});
 //   bus.subscribe<vehicle_state_t>(channels::kState,
 //                                  [&](std::string_view vehicle, const vehicle_state_t& s) { ... });
@@ -100,7 +101,7 @@ class Bus {
   // answered. Call it after enable_repair().
   void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes bytes);
   const FlowRepair* flow_repair() const { return repair_.get(); }  // null before enable_repair()
-  void rethrow_if_failed();  // throws once the exception of a handler that LCM had dispatched to
+  void rethrow_if_failed();  // throws, once, what a handler threw while LCM dispatched
   // For a bus that loses datagrams: repairs losses, drops duplicates (flow_repair.h), refuses duplicate
   // publishers (session_watch.h) and paces bursts (publication_pace.h). The runner calls set_steady() before
   // LCM dispatches, and repair() not later than next_repair().
@@ -110,7 +111,7 @@ class Bus {
   SimTime next_repair() const;
   void announce_flows();  // sends a heartbeat in the next repair(): nothing more will be published
   void forget_flows() { flows_.forget(); }  // another run has begun: sequences may restart
-  // Flows of earlier incarnations.
+  // Continues the flows of earlier incarnations (FlowWatch::go_on).
   void continue_flows(FlowWatch::Knows knows) { flows_.go_on(std::move(knows)); }
   std::size_t num_missing() const { return flows_.num_missing(); }  // messages missing and requested
   LatenessWatch& lateness() { return lateness_; }  // lateness of the results that this node publishes

@@ -21,7 +21,7 @@ class MessageBatch {
   }
 
   bool empty() const { return messages_.empty(); }
-  std::size_t size_bytes() const { return bytes_.size(); }  // messages without channels
+  std::size_t size_bytes() const { return bytes_.size(); }  // sum over all messages, without their channels
   // Keeps the allocated memory.
   void clear() {
     messages_.clear();

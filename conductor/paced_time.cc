@@ -31,7 +31,7 @@ PacedTime::PacedTime(lcm::LCM& lcm, double rate) : rate_(rate) {
 void PacedTime::on_clock(const sim_clock_t& clock) {
   const bool is_same = other_.count > 0 && clock.session == other_.session;
   if (is_same && clock.utime <= other_.utime && clock.sequence <= other_.sequence)
-    return;  // an old one again
+    return;  // a repeated old CLOCK
   other_ = {clock.session, is_same ? other_.count + 1 : 1, steady_, clock.utime, clock.sequence};
   on_utime(clock.utime);
 }

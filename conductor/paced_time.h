@@ -39,7 +39,7 @@ class PacedTime : public bus::TimeSource {
  private:
   SimTime latest_confirmed();
 
-  std::optional<bus::Bus> bus_;  // until time runs
+  std::optional<bus::Bus> bus_;  // reset once time runs
   double rate_;
   std::optional<SimTime> started_listening_;
   SimTime zero_;                // simulation time at steady time 0

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // File that is replaced as a whole: written next to its final name, forced to disk, then renamed.
 //
-// A reader finds the old or the new content, never a mixture, even after a crash of the program or the
+// A reader finds the old or the new content, never a part of one, even after a crash of the program or the
 // machine. The file is forced to disk (fsync) before the rename and its folder after it; a POSIX rename
 // replaces the file in one step. One writer at a time: two writers of one path share the name of the
 // temporary file.

@@ -86,7 +86,7 @@ double acos(double x) { return Sleef_cinz_acosd1_u10purec(x); }
 double cosh(double x) { return Sleef_cinz_coshd1_u10purec(x); }
 double acosh(double x) { return Sleef_cinz_acoshd1_u10purec(x); }
 double atanh(double x) { return Sleef_cinz_atanhd1_u10purec(x); }
-// The first estimate exp(ln x / 3) has an error of some twenty units; one Newton step follows,
+// The first estimate exp(ln x / 3) has an error of some twenty units. It is improved by one Newton step,
 //
 //   root -= (root^3 - x) / (3 root^2).
 double cbrt(double x) {

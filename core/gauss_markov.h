@@ -14,8 +14,11 @@
 // whole milliseconds the process is exact in distribution; between them it is interpolated linearly, so its
 // derivative exists.
 //
-// random_walk() is the limit of a long correlation time with a start from 0: a Wiener process, with mean (a +
-// b) / 2 and variance s^2 h / 2 at the middles.
+// random_walk() is the limit of a long correlation time with a start from 0: a Wiener process, whose middles
+// have
+//
+//   mean      (a + b) / 2,
+//   variance  s^2 h / 2.
 //
 // The functions have no side effects. A Cursor keeps the latest draws so that neighbouring instants cost two
 // draws instead of 37; results do not depend on it.

@@ -10,7 +10,7 @@
 
 namespace halocline {
 
-inline constexpr std::int32_t kBroadcastId = 0;  // destination "every vehicle"
+inline constexpr std::int32_t kBroadcastId = 0;  // destination that means every vehicle
 
 // True when `name` matches [a-z0-9_-]{1,24}.
 [[nodiscard]] bool is_valid_name(std::string_view name);

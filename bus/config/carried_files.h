@@ -56,7 +56,6 @@ class UnpackedFiles {
 
   // Throws InvalidArgument for a name that is not that of a file within a folder, and for bytes with another
   // hash.
-  // another hash.
   void add(const std::string& name, const std::string& bytes, const std::string& xxh3);
   void add(const std::string& name, Named named);
 

@@ -58,7 +58,7 @@ class ConfigVisitor {
   // Several files, separated by blanks.
   virtual void files(std::string_view key, std::vector<FilePath>& values, FileNames names,
                      std::string_view meaning) = 0;
-  // An array of exactly three numbers, and one of any number of them.
+  // vector3: an array of exactly three numbers. numbers: an array of any length.
   virtual void vector3(std::string_view key, Vec3& value, const NumberRule& rule) = 0;
   virtual void numbers(std::string_view key, std::vector<double>& values, const NumberRule& rule) = 0;
   // An array of arrays of three numbers (waypoints).
@@ -149,8 +149,9 @@ void degrees(ConfigVisitor& v, std::string_view key, double& radians, const Numb
 void degrees(ConfigVisitor& v, std::string_view key, std::vector<double>& radians,
              const NumberRule& rule_in_degrees);
 
-// Error that lists everything wrong with a configuration, one line each: "file:line: key: what; allowed is
-// ...".
+// Error that lists everything wrong with a configuration, one line for each fault, in the form
+//
+//   file:line: key: what; allowed is ...
 class ConfigErrors : public InvalidArgument {
  public:
   explicit ConfigErrors(std::vector<std::string> lines);

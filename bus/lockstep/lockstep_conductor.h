@@ -40,7 +40,7 @@ class LockstepConductor {
     std::function<void(const lockstep_notice_t&)> notice;
     std::function<void(const JournalEntry&)> record;  // called before anything that depends on it is sent
     std::function<void(const lockstep_message_t&)> publish;  // gets every message of the run, in order
-    std::function<void(const std::string& event, const std::string& detail)> report;  // for a person
+    std::function<void(const std::string& event, const std::string& detail)> report;  // events for the user
   };
 
   LockstepConductor(LockstepRules rules, std::int64_t run_id, Outputs outputs);

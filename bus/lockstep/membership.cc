@@ -59,7 +59,7 @@ void Membership::on_repeated_join(const lockstep_join_t& join, ParticipantLink& 
   link.wants_to_leave = link.wants_to_leave || join.wants_to_leave != 0;
   const bool done = run.over || link.has_left;
   notify(join.incarnation, run, done ? lockstep_notice_t::OVER : lockstep_notice_t::WELCOME);
-  // JOIN is repeated: this one reports more turns than the previous one did.
+  // An earlier JOIN, with fewer turns taken, was received first.
   if (!link.up_to_date && join.turns_taken > link.turns_taken) {
     link.turns_taken = join.turns_taken;
     grant_next(link, steady);

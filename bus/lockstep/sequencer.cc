@@ -241,8 +241,8 @@ void Sequencer::complete(std::vector<lockstep_result_t> results) {
   for (const auto& [member, result] : in_order) member->was_ahead = member->reached > now();
 }
 
-// Delivers held messages in the order of the run, instant by instant, as long as nobody can publish an
-// earlier message, and nobody has been woken, who might do so.
+// Delivers held messages in the order of the run, instant by instant, as long as no participant can publish
+// an earlier message, and none has been woken that might do so.
 void Sequencer::release() {
   const SimTime safe_until = safe();
   auto next = held_.begin();

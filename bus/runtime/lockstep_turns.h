@@ -3,9 +3,8 @@
 // due, and returns the messages that it published and the time at which it is next due.
 //
 // Inputs are delivered as LCM would deliver them; outputs go only to the result. With lookahead (a turn whose
-// horizon lies beyond its instant) the node steps at its own instants until one of these: the horizon; it
-// publishes a message that may advance the due time of a participant; it is due again at the instant of a
-// step.
+// horizon lies beyond its instant) the node steps at its own instants until the horizon, until it publishes a
+// message that may advance the due time of a participant, or until it is due again at the instant of a step.
 #pragma once
 
 #include <cstdint>

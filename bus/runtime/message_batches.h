@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Batching of messages: how long a node that a message wakes waits for more, as on a busy bus a wake-up for
-// each message costs more than the messages themselves.
+// Batching of messages: how long a node that was woken by a message waits for more. On a busy bus a wake-up
+// for each message costs more than the messages themselves.
 //
 // The rule is interrupt moderation (Mogul and Ramakrishnan 1997, "Eliminating receive livelock in an
 // interrupt-driven kernel"). If the last complete window of kWindow had kBusy messages or more, messages are

@@ -99,7 +99,7 @@ void sleep_for(SimDuration duration) {
   nanosleep(&time, nullptr);
 }
 
-// Returns free memory to the system once a minute, so that the process holds only what the node needs.
+// Gives free memory back to the system once a minute, so that the process holds only what the node needs.
 void give_back_memory(SimTime steady, SimTime& due) {
   if (steady < due) return;
   due = steady + kMemoryPeriod;

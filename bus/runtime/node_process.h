@@ -44,7 +44,7 @@ struct NodeProgram {
   std::string program;    // "halocline-channel-server"
   std::string purpose;    // one sentence
   std::string node_name;  // default for --name
-  std::string interface;  // for --interface: the channels subscribed and published, one a line
+  std::string interface;  // for --interface: the channels subscribed and published, one per line
   std::string example_scenario = "scenarios/seamount.toml";  // shown by --help
   TimeSourceKind time_source = TimeSourceKind::kConductor;
   Stage stage = Stage::kClients;  // position in the order of lockstep
@@ -80,7 +80,7 @@ struct NodeProgram {
   std::function<bool(const Context&)> run_otherwise = nullptr;
 };
 
-// EX_UNAVAILABLE of sysexits.h is 69.
+// Exit codes; 69 is EX_UNAVAILABLE of sysexits.h.
 inline constexpr int kExitConfiguration = 2, kExitNetwork = 69;
 
 // Parses the command line, runs the node until a signal, and returns the exit code. Never throws.
@@ -108,7 +108,7 @@ Readable wait_for_bus(lcm::LCM& lcm, SimTime wake, int other_file = -1);
 // how many.
 int dispatch_waiting(lcm::LCM& lcm);
 
-// Waits, then dispatches, with fewer system calls than the two functions.
+// Waits and dispatches as wait_for_bus() and dispatch_waiting() do, with fewer system calls.
 void wait_and_dispatch(lcm::LCM& lcm, SimTime wake);
 
 // Makes this thread's sleeps end when requested, not up to 50 us later (timer slack of Linux).

@@ -51,7 +51,7 @@ int receive_socket(lcm::LCM& lcm, const std::string& url);
 
 class ReceiveFilter {
  public:
-  // Filter for `lcm`, opened with `url`, which must outlive this object. Only Buses may subscribe to `lcm`,
+  // Attaches to `lcm`, opened with `url`, which must outlive this object. Only Buses may subscribe to `lcm`,
   // and follow() must know their subscriptions. LCM begins to receive. If several sockets are on its port,
   // every channel passes. If no socket is found, or the kernel accepts no filter, the process warns once.
   ReceiveFilter(lcm::LCM& lcm, const std::string& url, AcceptedHosts hosts = {});

@@ -56,7 +56,7 @@ struct OceanEntry {
   std::string start_date;      // date of simulation time 0; empty: the file's first time
   bool moves_vehicles = true;  // currents of the file act on vehicles
   bool carries_sound = true;   // temperature and salinity of the file give the sound speed
-  // Sound propagates in the water of the middle of each span of this length.
+  // Update period of the water for sound: each period uses temperature and salinity of its middle.
   SimDuration sound_period = SimDuration::from_seconds(600);
 };
 

@@ -56,7 +56,7 @@ class TimeSource {
   virtual SimTime steady_at(SimTime sim) const = 0;
   // True once after simulation time jumped back: another run has begun, and the state of the old one is void.
   [[nodiscard]] virtual bool restarted() { return false; }
-  // Returns how many messages were refused because they contradict the time of the followed source.
+  // Returns how many messages were refused because they contradict the accepted time.
   virtual std::int64_t num_refused() const { return 0; }
   // Returns the subscriptions of the time source itself; null: none.
   virtual const Subscriptions* receives() const { return nullptr; }

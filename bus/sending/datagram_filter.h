@@ -7,16 +7,16 @@
 // (lcm-proj/lcm pull request 628). A header that is cut off, a channel without its end, and a short message
 // that ends within its channel give it negative lengths, which it takes for 4 GiB. A classic packet filter
 // (McCanne and Jacobson 1993, "The BSD packet filter") on LCM's socket passes only
-//   short messages ("LC02") whose channel, of at most 63 characters, ends within the datagram;
-//   fragments ("LC03") with a complete header; a size of 1 to kMaxMessageBytes, below count times the
-//   capacity
-//     of a datagram; a number below the count; a payload that lies within the size, and for the last
-//     fragment reaches its end; and, for number 0, the offset 0 and a channel as above.
-// and drops everything else. Conditions that only several datagrams together show are left to LCM. It holds
-// one unfinished message per sender, drops it when the number or the size of the message changes, compares
-// offset and length (which can no longer overflow) with that size, and counts fragments without recognising
-// repeated ones. A message can thus be delivered with gaps of old memory, which decoders treat as arbitrary
-// bytes.
+//
+// - short messages ("LC02") whose channel, of at most 63 characters, ends within the datagram;
+// - fragments ("LC03") with a complete header; a size of 1 to kMaxMessageBytes, below count times the
+//   capacity of a datagram; a number below the count; a payload that lies within the size, and for the last
+//   fragment reaches its end; and, for number 0, the offset 0 and a channel as above.
+//
+// Conditions that only several datagrams together show are left to LCM. It holds one unfinished message per
+// sender, drops it when the number or the size of the message changes, compares offset and length (which can
+// no longer overflow) with that size, and counts fragments without recognising repeated ones. A message can
+// thus be delivered with gaps of old memory, which decoders treat as arbitrary bytes.
 //
 // LCM reads from the moment it binds its socket, so a filter attached afterwards would be too late in a
 // flood. bus/transport.cc therefore replaces the C library's bind(), and attaches the filter first for

@@ -2,7 +2,7 @@
 // File that a configuration names. It is a separate type, so that visitors of a configuration recognise keys
 // that name files. Its place is determined once, when the key is read (bus/config/config.h).
 //
-//   FilePath cast("casts/may.csv");  // of code: as it is
+//   FilePath cast("casts/may.csv");  // a path given in code is used unchanged
 //   std::ifstream in(cast.place());
 #pragma once
 
