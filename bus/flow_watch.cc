@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::int64_t kGreatest = std::numeric_limits<std::int64_t>::max();
 
+// Window in which a lower number is a reordered or repeated message: within 64 numbers of the last one, and
+// within a second of it. A lower number outside of it may be that of a publisher that restarts its sequence.
 constexpr std::int64_t kRepetitionReach = 64;
 constexpr SimDuration kRepetitionAge = SimDuration::from_milliseconds(1000);
 
