@@ -19,7 +19,8 @@
 namespace halocline::modem_gateway {
 namespace {
 
-// Epoll's mark of a door; that of a host is its number.
+// Flag in the user data of an epoll event: set for the listening socket of a modem interface, whose number
+// the other bits hold. Without it the data is the number of a host.
 constexpr std::uint64_t kDoorMark = std::uint64_t{1} << 63;
 constexpr int kMaxEvents = 256;
 
@@ -31,7 +32,8 @@ bool is_over(ssize_t result) {
 
 Connections::Connections() : epoll_(epoll_create1(EPOLL_CLOEXEC)) {
   ensure(epoll_.get() >= 0, "no epoll");
-  // As many files as the process may have: a host that finds none free would keep its door ready for ever.
+  // Raises the limit of open files to the most that the process may have: accept() without a free descriptor
+  // fails, and the listening socket then stays readable for ever.
   rlimit files{};
   if (getrlimit(RLIMIT_NOFILE, &files) == 0) {
     files.rlim_cur = files.rlim_max;
@@ -193,11 +195,11 @@ void Connections::write_to(ClientId id, Client& client, std::string_view bytes) 
     return;
   }
   client.unsent += bytes;
-  send_unsent(client);  // one that is gone is noticed when it is read
+  send_unsent(client);  // a disconnected host is noticed when it is next read
   follow_room(id, client);
 }
 
-// False when the host is gone.
+// Writes as much of the unsent bytes as the host takes now. Returns false when the host has disconnected.
 bool Connections::send_unsent(Client& client) {
   while (!client.unsent.empty()) {
     const bool is_socket = client.connection.get() >= 0;

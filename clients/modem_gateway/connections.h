@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hosts that are connected to the doors of a gateway: all their bytes, on one thread, without waiting for
-// any of them.
+// Connections to the hosts of a modem gateway: reads and writes the bytes of all of them on one thread,
+// without waiting for any.
 //
-// Bounds: kMaxClients hosts a door, others are turned away; kMaxPiece bytes of a host in a call of take();
-// kMaxUnsent bytes that a host does not read: what does not fit is dropped, each write whole, so that a
-// message is never cut. So no host disturbs another door, whatever it does. A pseudo-terminal has one host,
-// from when it is opened until it is closed.
+// Every host is bounded, so that none disturbs another modem interface, whatever it does:
+// - kMaxClients hosts at a modem interface; further ones are disconnected at once.
+// - kMaxPiece bytes are read from a host in one call of take().
+// - kMaxUnsent bytes are kept for a host that does not read. A write that does not fit is dropped whole, so
+//   that a message is never cut.
+//
+// A pseudo-terminal has one host, from when it is opened until it is closed.
 #pragma once
 
 #include <cstddef>
@@ -31,18 +34,19 @@ struct ConnectionCounters {
 class Connections {
  public:
   static constexpr std::size_t kMaxClients = 32, kMaxPiece = 16 * 1024, kMaxUnsent = 64 * 1024;
-  // How often a pseudo-terminal that nobody has open is looked at.
+  // Period at which a pseudo-terminal that no host has open is polled: opening it raises no event of epoll.
   static constexpr SimDuration kPtyPeriod = SimDuration::from_milliseconds(50);
 
   Connections();
 
-  // Opens a door at `place` and returns its number: 0, 1, ... Throws InvalidArgument where that is
-  // impossible.
+  // Opens a modem interface at `place` and returns its number: 0, 1, ... Throws InvalidArgument when the
+  // place cannot be opened.
   std::size_t add(const Place& place);
-  // With the port that was free, where the place left it open.
+  // Returns the place as text, with the actual port where the place asked for any free one (port 0).
   std::string place_of(std::size_t door) const;
 
-  // What hosts have done since the last call, in turn. Never waits.
+  // Returns what hosts have done since the last call, in order. Never waits. `steady`: the present time of
+  // the steady clock.
   enum class Change { kOpened, kBytes, kClosed };
   struct Input {
     std::size_t door = 0;
@@ -52,20 +56,21 @@ class Connections {
   };
   std::vector<Input> take(SimTime steady);
 
-  // To a host, or with kAllClients to all of the door.
+  // Writes to one host, or with kAllClients to every host of the modem interface.
   void write(std::size_t door, ClientId client, std::string_view bytes);
 
-  // Ends a connection on TCP: take() reports it as closed.
+  // Shuts a TCP connection down; take() reports it as closed afterwards.
   void disconnect(ClientId client);
 
-  // By UDP, to that port of the machine that a host on TCP is on; what the network does not take at once is
-  // lost.
+  // Sends a UDP datagram to `port` of the machine from which the host is connected by TCP. A datagram that
+  // the network does not accept at once is lost.
   void send_datagram(ClientId client, std::uint16_t port, std::string_view bytes);
 
-  // Readable when take() has something to do, but for pseudo-terminals that are opened.
+  // Descriptor that is readable when take() has something to do, except for pseudo-terminals being opened,
+  // which are polled.
   int ready_file() const { return epoll_.get(); }
   bool is_ready() const;
-  // Of the look at pseudo-terminals (steady); never() without one that waits for a host.
+  // Returns the time (steady clock) of the next poll of pseudo-terminals; never() when none waits for a host.
   SimTime next_look() const { return next_look_; }
 
   const ConnectionCounters& counters() const { return counters_; }
@@ -74,16 +79,16 @@ class Connections {
  private:
   struct Door {
     Place place;
-    File listening;  // or the pseudo-terminal
-    Link link;       // to the latter
+    File listening;  // listening socket, or the gateway's side of the pseudo-terminal
+    Link link;       // symbolic link to the pseudo-terminal
     std::size_t num_clients = 0;
-    bool is_waiting_pty = false;  // that nobody has open
+    bool is_waiting_pty = false;  // no host has the pseudo-terminal open
   };
   struct Client {
     std::size_t door = 0;
-    File connection;  // none of a pseudo-terminal: its door's
+    File connection;  // -1 on a pseudo-terminal, where the file of its Door is used
     std::string unsent;
-    bool watches_room = false;  // epoll reports when it can be written to
+    bool watches_room = false;  // epoll also reports when the host can be written to
   };
 
   int file_of(const Client& client) const;
@@ -98,7 +103,7 @@ class Connections {
   void follow_room(ClientId id, Client& client);
 
   File epoll_;
-  File datagrams_;  // none before the first
+  File datagrams_;  // UDP socket, opened with the first datagram
   std::vector<Door> doors_;
   std::map<ClientId, Client> clients_;
   ClientId last_ = 0;

@@ -15,9 +15,9 @@
 namespace halocline::modem_gateway {
 namespace {
 
-// A server may be started later.
+// Period at which the listening options are sent again, for a channel server that is started later.
 constexpr SimDuration kListenPeriod = SimDuration::from_milliseconds(60'000);
-// Losses that wait for their other half, such as OUTCOMEs of packets that were never detected.
+// Most losses that wait for their other half: the OUTCOME of a packet that was never detected has no event.
 constexpr std::size_t kMaxUnpaired = 64;
 
 template <class Message>
@@ -160,8 +160,8 @@ void Door::hand_over(const Happening& happening) {
   }
 }
 
-// An event and an outcome are of one packet where instant and cause agree: a modem follows one packet at a
-// time.
+// Matches losses that a MODEM_EVENT reports with those that an OUTCOME reports. They concern one packet when
+// time and cause agree, because a modem receives one packet at a time.
 void Door::pair_losses() {
   for (auto event = lost_events_.begin(); event != lost_events_.end();) {
     const auto outcome =
@@ -213,7 +213,7 @@ void Door::restart() {
 }
 
 void Door::archive(Archive& a) {
-  std::string name = client_name_;  // of vehicle, kind and place
+  std::string name = client_name_;  // made of the vehicle, the kind and the place
   a(name);
   require(name == client_name_, "the journal is of another door than that of " + vehicle());
   a(modem_);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One door: a modem of the simulation, its protocol, and what goes between them.
+// Emulated modem interface: connects one simulated modem to the hosts that speak the protocol of a real one.
 //
-// Messages of the bus are stored when they come and handed to the protocol in the node's step, in their
-// order. A packet that was detected and lost is reported once its MODEM_EVENT and its OUTCOME, which the
-// channel server publishes one after the other, have both come.
+// Messages of the bus are stored as they arrive and handed to the protocol in the node's step, in their
+// order. A packet that was detected and then lost is reported once both its MODEM_EVENT and its OUTCOME have
+// arrived; the channel server publishes them one after the other.
 #pragma once
 
 #include <cstdint>
@@ -35,16 +35,16 @@ namespace halocline::modem_gateway {
 
 class Door : private ProtocolPort {
  public:
-  // To hosts of this door, by Connections.
+  // Writes bytes to a host of this modem interface, or to all (by way of Connections).
   using Writer = std::function<void(ClientId client, std::string_view bytes)>;
   using DatagramWriter = std::function<void(ClientId client, std::uint16_t port, std::string_view bytes)>;
   using Disconnect = std::function<void(ClientId client)>;
-  // Of everything that passes, for a person: `direction` is '<' from a host, '>' to it, '*' of the bus. May
-  // be empty.
+  // Records everything that passes, for a reader: `direction` is '<' from a host, '>' to a host, '*' from the
+  // bus. May be empty.
   using Trace = std::function<void(char direction, std::string_view text)>;
 
-  // Subscribes on the bus. Throws InvalidArgument for a configuration that makes no door.
-  // `clocks` must outlive it, and `sound`, which may be null where the kind needs none.
+  // Subscribes on the bus. `clocks` must outlive it, and so must `sound`, which may be null for a kind that
+  // needs none. Throws InvalidArgument for a configuration that makes no modem interface.
   Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway,
        const clients::VehicleTime& clocks, AddressBook& addresses, SoundField* sound, Writer writer,
        DatagramWriter datagram_writer, Disconnect disconnect, Trace trace);
@@ -52,11 +52,12 @@ class Door : private ProtocolPort {
   const std::string& vehicle() const { return modem_.address().vehicle; }
   std::int32_t vehicle_id() const { return modem_.address().vehicle_id; }
 
-  // The outcome of a packet at this vehicle.
+  // Stores the outcome of a packet at this vehicle.
   void store(const packet_outcome_t& outcome);
   bool wants_outcomes() const { return listens_.has_value(); }
 
-  // In a step of the node, in this order: what came from the bus, what hosts did, and what is due.
+  // The parts of a step of the node, called in this order: deliver what came from the bus, deliver what hosts
+  // did, and do what is due.
   void begin_step(const bus::Now& now);
   void on_opened(ClientId client);
   void on_bytes(ClientId client, std::string_view bytes);
@@ -64,14 +65,14 @@ class Door : private ProtocolPort {
   void end_step();
 
   bus::Due due() const;
-  // Another run has begun: what was received of the old one is discarded, and the modem is as the scenario
-  // has it.
+  // Starts again for another run: messages of the previous run are discarded, and the modem is as the
+  // scenario configures it.
   void restart();
 
-  // Passes what the next incarnation goes on from: the modem's non-volatile memory and the numbers of its
-  // packets. Loading throws InvalidArgument for what another door saved.
+  // Saves or loads what the next incarnation of the process continues from: the modem's non-volatile memory
+  // and its packet numbers. Loading throws InvalidArgument for what another modem interface saved.
   void archive(Archive& a);
-  // True where the modem's non-volatile memory has changed since the last call.
+  // Returns true when the modem's non-volatile memory has changed since the last call.
   bool take_stored();
 
   const clients::ModemCounters& counters() const { return modem_.counters(); }
@@ -102,7 +103,7 @@ class Door : private ProtocolPort {
   void trace(char direction, std::string_view text) const {
     if (trace_) trace_(direction, text);
   }
-  // Own packets bear the numbers that send() returned.
+  // Replaces the packet number of an own packet by the number that send() returned for it.
   template <class Message>
   Message numbered(Message message) const {
     if (is_own(message.send_session)) message.packet_sequence = queue_.number_of(message.packet_sequence);
@@ -130,16 +131,16 @@ class Door : private ProtocolPort {
   SimTime next_listen_;
   bus::Now now_;
   std::deque<Happening> happenings_;
-  std::deque<modem_event_t> lost_events_;       // whose outcome has not come
-  std::deque<packet_outcome_t> lost_outcomes_;  // whose event has not come, if one comes
+  std::deque<modem_event_t> lost_events_;       // losses whose outcome has not arrived
+  std::deque<packet_outcome_t> lost_outcomes_;  // losses whose event has not arrived, if one comes at all
   std::optional<vehicle_sensors_t> sensors_;
   std::optional<vehicle_state_t> state_;
   std::optional<vehicle_battery_t> battery_;
   std::vector<NamedVehicle> vehicles_;
-  std::string client_name_;  // of queries
+  std::string client_name_;  // client name of link queries
   std::int64_t queries_ = 0;
   std::int64_t losses_ = 0;
-  std::map<std::string, std::int64_t> noted_;  // events, by name
+  std::map<std::string, std::int64_t> noted_;  // number of reports by name of the event
 };
 
 }  // namespace halocline::modem_gateway

@@ -60,7 +60,7 @@ std::uint16_t port_of(const File& listening) {
 
 File accept_connection(const File& listening) {
   File connection(accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-  const int yes = 1;  // answers are short, and a host waits for each
+  const int yes = 1;  // without Nagle's delay: answers are short, and a host waits for each
   if (connection.get() >= 0) setsockopt(connection.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
   return connection;
 }
@@ -84,7 +84,7 @@ SerialLine open_pty(const std::string& path) {
   std::array<char, 128> name{};
   require_done(openpty(&ours, &theirs, name.data(), nullptr, nullptr) == 0, "no pseudo-terminal for " + path);
   File pty(ours);
-  const File other(theirs);  // closed again: the terminal stays while ours is open
+  const File other(theirs);  // closed on return: the terminal stays while `ours` is open
   termios settings{};
   tcgetattr(theirs, &settings);
   cfmakeraw(&settings);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files by which hosts reach a door: a listening TCP socket, or a pseudo-terminal with a symbolic link to it.
-// All non-blocking.
+// Files by which hosts reach an emulated modem interface: a listening TCP socket, or a pseudo-terminal with a
+// symbolic link to it. All are non-blocking.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace halocline::modem_gateway {
 
-// Owns a file descriptor; -1: none.
+// Owner of a file descriptor; -1 means none.
 class File {
  public:
   File() = default;
@@ -31,18 +31,19 @@ class File {
   int fd_ = -1;
 };
 
-// A socket that listens at `place`. Throws InvalidArgument where the port is taken.
+// Returns a socket that listens at `place`. Throws InvalidArgument when the port is taken.
 File listen_tcp(const Place& place);
-// The port that it has; of interest where the place names 0.
+// Returns the port on which the socket listens, of interest where the place names port 0.
 std::uint16_t port_of(const File& listening);
-// The next connection that waits; none (-1) when none does.
+// Accepts the next waiting connection; -1 when none waits.
 File accept_connection(const File& listening);
 
-// Owns a symbolic link: removes it at the end, where it still points to the target that it was made with.
+// Owner of a symbolic link: the destructor removes it, provided that it still points to its original target.
 class Link {
  public:
   Link() = default;
-  // Replaces a symbolic link and nothing else. Throws InvalidArgument where the link cannot be made.
+  // Makes the link; an existing symbolic link is replaced, any other file is not. Throws InvalidArgument when
+  // the link cannot be made.
   Link(std::string path, std::string target);
   Link(Link&& other) noexcept
       : path_(std::exchange(other.path_, "")), target_(std::exchange(other.target_, "")) {}
@@ -56,18 +57,18 @@ class Link {
   ~Link();
 
  private:
-  std::string path_, target_;  // empty: none
+  std::string path_, target_;  // empty: no link
 };
 
-// Our side of a pseudo-terminal; hosts open the other side as a serial port by the link, raw from the
-// beginning.
+// The gateway's side of a pseudo-terminal. Hosts open the other side as a serial port through the link; it is
+// in raw mode from the beginning.
 struct SerialLine {
   File terminal;
   Link link;
 };
-// Makes the link at `path`. Throws InvalidArgument where that is impossible.
+// Makes a pseudo-terminal and a link to it at `path`. Throws InvalidArgument when that is impossible.
 SerialLine open_pty(const std::string& path);
-// Whether a host has the other side open.
+// Returns true when a host has the other side open.
 bool is_pty_open(const File& pty);
 
 }  // namespace halocline::modem_gateway

@@ -24,7 +24,8 @@ using bus::ConfigVisitor;
 
 constexpr std::string_view kTcp = "tcp:", kPty = "pty:";
 
-// A port to try options on: a protocol does nothing while it is made.
+// Port for checking the options of a configuration: a protocol does nothing with its port while it is
+// constructed.
 class NoPort : public ProtocolPort {
  public:
   SimTime now() const override { return {}; }
@@ -50,7 +51,8 @@ AddressBook book_of(const GatewayConfig& config, const DoorConfig& door) {
   return book;
 }
 
-// With the addresses of `book`.
+// Throws InvalidArgument for options that the kind does not know, or that name a vehicle as a transponder
+// that is none. `book` holds the addresses of the modem interface's kind.
 void check_options(const GatewayConfig& config, const DoorConfig& door, AddressBook book) {
   NoPort port;
   const auto protocol = make_protocol(door.kind, {port, book, door.vehicle_id, DoorOptions(door.options)});
@@ -150,7 +152,7 @@ void visit(ConfigVisitor& v, GatewayConfig& config) {
       config.doors.size(), [&](std::size_t n) { config.doors.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) { visit_door(item, config.doors[i]); });
   if (v.writing()) return;
-  // Once all names are known.
+  // The second pass checks references to vehicles, once all their names are known.
   v.list(
       "door", "", config.doors.size(), [](std::size_t) {},
       [&](ConfigVisitor& item, std::size_t i) {

@@ -33,7 +33,7 @@ GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Gatewa
                                     [this](const packet_outcome_t& outcome) { take_outcome(outcome); });
 }
 
-// The books stay where they are: doors refer to them.
+// Fills the address books in place: the modem interfaces keep references to them.
 void GatewayNode::assign_all_addresses() {
   for (const DoorConfig& door : config_.doors) addresses_[door.kind] = AddressBook();
   for (const DoorConfig& door : config_.doors)

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The modem gateway: simulated modems that answer as real ones do, over TCP and serial lines.
+// Modem gateway: lets simulated modems answer over TCP and serial lines as real modems do.
 //
-// Each door has a modem of the scenario, a place where hosts connect, and the protocol of its kind
-// (protocols/). One thread serves all: in a process of its own the node is stepped when a host has written or
-// the bus has a message; in lockstep it looks at its hosts every `look_period` of simulation time, because
-// there time advances only by steps. Hosts have time-outs of wall time: runs with doors are meant for rate 1.
+// Each modem interface has a modem of the scenario, a place where hosts connect, and the protocol of its kind
+// (protocols/). One thread serves all of them. In a process of its own the node is stepped when a host has
+// written or the bus has a message. In lockstep it polls its hosts every `look_period` of simulation time,
+// because there time advances only by steps. Hosts have time-outs in wall time, so runs with modem interfaces
+// are meant for rate 1.
 #pragma once
 
 #include <cstddef>
@@ -30,16 +31,20 @@ namespace halocline::modem_gateway {
 
 class GatewayNode : public bus::Node {
  public:
-  // How often hosts are looked at in lockstep.
+  // Period at which hosts are polled in lockstep, simulation time.
   static constexpr SimDuration kLockstepPeriod = SimDuration::from_milliseconds(5);
 
-  // `look_period`: kLockstepPeriod in lockstep; 0 where the runner watches ready_file(). `trace_path`:
-  // trace_log.h; empty: none. `make_sound`: for doors of waveforms; empty: there can be none.
-  // Throws InvalidArgument for a place that cannot be opened, and for doors of vehicles that there are not.
+  // Opens all modem interfaces of `config`.
+  // - `look_period`: kLockstepPeriod in lockstep; 0 when the runner watches ready_file().
+  // - `trace_path`: file of the trace (trace_log.h); empty for none.
+  // - `make_sound`: makes the field of waveforms for the kinds that need one; when it is empty, these are
+  //   refused.
+  //
+  // Throws InvalidArgument for a place that cannot be opened and for an unknown vehicle.
   GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const GatewayConfig& config, SimDuration look_period,
               const std::string& trace_path = {}, const SoundFieldMaker& make_sound = {});
 
-  // Of the i-th door, with the port that was free where its configuration left it open.
+  // Returns the place of the i-th modem interface, with the actual port where its configuration left it open.
   std::string place_of(std::size_t door) const { return connections_.place_of(door); }
   const Door& door(std::size_t i) const { return *doors_.at(i); }
   const ConnectionCounters& connection_counters() const { return connections_.counters(); }
@@ -61,7 +66,7 @@ class GatewayNode : public bus::Node {
   void take_outcome(const packet_outcome_t& outcome);
   void serve_hosts(SimTime steady);
 
-  // Bytes for hosts, which get them once what they tell of is on disk.
+  // Bytes for a host, written once the state that they report is committed to disk.
   struct Written {
     std::size_t door;
     ClientId client;
@@ -71,13 +76,13 @@ class GatewayNode : public bus::Node {
   GatewayConfig config_;
   clients::VehicleTime clocks_;
   SimDuration look_period_;
-  SimTime next_look_;  // at hosts, simulation time; with a look_period
+  SimTime next_look_;  // next poll of hosts in lockstep, simulation time; never() without a look_period
   Connections connections_;
   std::unique_ptr<TraceLog> trace_;
   SimTime now_;
   std::vector<Written> written_;
-  std::map<std::string, AddressBook> addresses_;  // by kind
-  std::unique_ptr<SoundField> sound_;             // where a door needs it
+  std::map<std::string, AddressBook> addresses_;  // key: kind of modem
+  std::unique_ptr<SoundField> sound_;             // null unless a kind needs waveforms
   std::vector<std::unique_ptr<Door>> doors_;
 };
 

@@ -7,13 +7,14 @@
 namespace halocline::modem_gateway {
 namespace {
 
-// Pause before a packet that a busy modem refused is sent again, and how long that is tried.
+// Pause before a packet that a busy modem refused is sent again, and the time for which that is repeated.
 constexpr SimDuration kBusyWait = SimDuration::from_milliseconds(100);
 constexpr SimDuration kBusyAtMost = SimDuration::from_milliseconds(30'000);
-// Packets whose answers may still come.
+// Most packets whose numbers are kept because answers may still arrive.
 constexpr std::size_t kMaxNumbers = 256;
 
-// Simulation time is exact to the microsecond on the bus: a packet is not to start before it was asked for.
+// Rounds up to whole microseconds, the resolution of time on the bus: a packet must not start before it was
+// asked for.
 SimTime whole_microsecond_from(SimTime time) {
   return SimTime::from_utime((time + SimDuration::from_nanoseconds(499)).to_utime());
 }
@@ -69,7 +70,7 @@ void SendQueue::remove_first(SimTime now) {
   due_ = packets_.empty() ? SimTime::never() : now;
 }
 
-// The library has repeated its SEND for as long as it does.
+// Returns true when the modem library has stopped repeating its SEND without having received an answer.
 bool SendQueue::was_given_up() const {
   return sequence_ && !modem_.is_pending(*sequence_) && !modem_.receipt_of(*sequence_);
 }

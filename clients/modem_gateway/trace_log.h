@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What passes through doors, a line each, for a person:
+// Log of everything that passes through the modem interfaces, one line each, for a reader:
 //
-//   12.345678 auv-1 nm3 < $P002\r\n
-//   12.345678 auv-1 nm3 > $P002\r\n
+//    12.345678 auv-1 nm3 < $P002\r\n
+//    12.345678 auv-1 nm3 > $P002\r\n
 //
-// with the simulation time; bytes that cannot be printed as \xHH.
+// The first column is the simulation time, s; unprintable bytes are written as \xHH.
 #pragma once
 
 #include <fstream>
@@ -19,7 +19,7 @@ std::string printable(std::string_view bytes);
 
 class TraceLog {
  public:
-  // "-": stderr. Throws InvalidArgument for a file that cannot be written.
+  // Opens the file; "-" means stderr. Throws InvalidArgument for a file that cannot be written.
   explicit TraceLog(const std::string& path);
 
   void write(SimTime now, std::string_view door, char direction, std::string_view bytes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program halocline-modem-gateway: the doors of clients/modem_gateway, and the water for those that play
-// sound.
+// Program halocline-modem-gateway: runs the emulated modem interfaces of clients/modem_gateway, and simulates
+// the water for those that exchange waveforms.
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,7 +23,8 @@ using halocline::modem_gateway::SoundFieldMaker;
 
 namespace {
 
-// The water of the scenario, for doors of waveforms; empty without a scenario. The file outlives it.
+// Returns a maker of the scenario's water, for modem interfaces of waveforms; empty without a scenario. The
+// file must outlive it.
 SoundFieldMaker water_of(ConfigFile* file) {
   using namespace halocline::clients;
   if (file == nullptr) return {};

@@ -19,7 +19,7 @@ void AddressBook::assign(std::int32_t vehicle_id, std::int32_t address) {
 
 std::int32_t AddressBook::vehicle_of(std::int32_t address) const {
   if (const auto given = vehicles_.find(address); given != vehicles_.end()) return given->second;
-  return address < 1 || addresses_.contains(address) ? kNobody : address;  // ids begin at 1
+  return address < 1 || addresses_.contains(address) ? kNobody : address;  // vehicle ids begin at 1
 }
 
 std::optional<std::int32_t> AddressBook::address_of(std::int32_t vehicle_id) const {

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ahoi modem (Hamburg University of Technology): binary frames on a serial line.
 //
-//   10 02 content 10 03, a byte 10 of the content doubled
-//   content: source, destination, type, status, sequence number, length, payload; of what was received a
-//   footer of 6: power, rssi, bit errors, gain mean, least, greatest
+//    10 02 content 10 03, a byte 10 of the content doubled
+//    content: source, destination, type, status, sequence number, length, payload;
+//             frames that were received through the water end with a footer of 6 bytes:
+//             power, rssi, bit errors, gain mean, gain minimum, gain maximum
 //
-// Types 0 to 7E are data, 7F acknowledgements, 80 to FD commands. The modem answers each frame of the host at
-// once: FF confirms, FE refuses what is malformed, an unknown command, more than 126 bytes (type and sequence
-// number go with the data), and data while one packet waits behind the one on air. A confirmed packet that
-// cannot be sent afterwards is refused then. Status is bits, which the receiver's host sees as they were
-// sent: 1 asks for an acknowledgement, 2 for one with the two-way time (us, four bytes, high byte first).
-// Commands: 84 the modem's address, 85 the battery (mV, two bytes), 87 reset; of the others the parameters
-// are kept and returned. Address and gains are in non-volatile memory. Footer: power is the level in dB re 1
-// uPa, rssi the SNR in dB + 128, gain 170 dB less the level. Options: none.
+// - Types: 0 to 7E are data, 7F acknowledgements, 80 to FD commands.
+// - Answers: the modem answers each frame of the host at once. FF confirms it. FE refuses a malformed frame,
+//   an unknown command, more than 126 bytes of data (type and sequence number travel with the data), and data
+//   while one packet already waits behind the one being transmitted. FE also follows later when a confirmed
+//   packet cannot be sent.
+// - Status: bits, which the receiver's host sees as they were sent. 1 asks for an acknowledgement, 2 for one
+//   with the two-way travel time (us, four bytes, high byte first).
+// - Commands: 84 reads or sets the modem's address, 85 reads the battery (mV, two bytes), 87 resets.
+//   Parameters of the other commands are only stored and returned. Address and gains are in non-volatile
+//   memory.
+// - Footer: power is the received level in dB re 1 uPa, rssi the SNR in dB + 128, gain 170 dB less the level.
+//
+// Options: none.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,11 +51,11 @@ constexpr std::uint8_t kAcknowledgement = 0x7f, kId = 0x84, kBattery = 0x85, kRe
 constexpr std::uint8_t kRefusal = 0xfe, kConfirmation = 0xff;
 constexpr std::uint8_t kWantsAck = 1, kWantsRange = 2;
 constexpr std::size_t kHeaderBytes = 6, kMaxPayload = 128, kWithData = 2, kMaxAsked = 64;
-// One on air and one behind it.
+// Most packets accepted at a time: one being transmitted and one behind it.
 constexpr std::size_t kMaxSending = 2;
-// Gain control on or off, of two stages, of sending and of receiving.
+// Commands that switch gain control and set the gains of two stages, the transmitter and the receiver.
 constexpr std::array<std::uint8_t, 4> kGains{0x98, 0x99, 0x9a, 0x9e};
-// Commands of the public hosts besides id, battery and reset, as ranges.
+// Ranges of the other commands that the public host programs send, besides id, battery and reset.
 constexpr std::array<std::pair<std::uint8_t, std::uint8_t>, 6> kKnown{
     {{0x80, 0x83}, {0x88, 0x9e}, {0xa0, 0xa1}, {0xa8, 0xa9}, {0xb1, 0xb9}, {0xc0, 0xc7}}};
 
@@ -63,7 +69,7 @@ constexpr double kFull_mv = 12'000, kEmpty_mv = 9'600, kReference_db = 170;
 struct AhoiFrame {
   std::uint8_t source = 0, destination = 0, type = 0, status = 0, number = 0;
   Bytes payload;
-  bool is_malformed = false;  // too long, or of another length than it states
+  bool is_malformed = false;  // too long, or its length field is wrong
 };
 
 std::string encoded(const AhoiFrame& frame, std::span<const std::uint8_t> footer = {}) {
@@ -79,10 +85,11 @@ std::string encoded(const AhoiFrame& frame, std::span<const std::uint8_t> footer
   return bytes + static_cast<char>(kEscape) + static_cast<char>(kEnd);
 }
 
-// Frames out of the bytes of a host; what has no header is skipped.
+// Decoder of the frames in a host's byte stream; bytes outside of frames are skipped, and so is a frame
+// without a complete header.
 class FrameReader {
  public:
-  // The frame that this byte completes.
+  // Returns the frame that this byte completes, if any.
   std::optional<AhoiFrame> take(std::uint8_t byte) {
     const bool was_escaped = std::exchange(is_escaped_, false);
     if (!was_escaped && byte == kEscape) {
@@ -110,7 +117,7 @@ class FrameReader {
                      !is_whole};
   }
 
-  std::optional<Bytes> content_;  // of the frame that has begun, one byte more than the longest at most
+  std::optional<Bytes> content_;  // frame that has begun, at most one byte longer than the longest
   bool is_escaped_ = false;
 };
 
@@ -171,7 +178,7 @@ class Ahoi : public Protocol {
   }
 
  private:
-  // A frame whose receipt or acknowledgement may come.
+  // A sent frame whose receipt or acknowledgement may still come.
   struct Asked {
     std::uint8_t number, status;
   };
@@ -194,11 +201,11 @@ class Ahoi : public Protocol {
     const bool is_taken = !frame.is_malformed && (is_data ? send(frame) : is_command(frame.type));
     answer(client, is_taken ? kConfirmation : kRefusal, frame.number);
     if (!is_taken || is_data) return;
-    Bytes value = answer_to(frame);  // which may set the address
+    Bytes value = answer_to(frame);  // may set the address that answer() then sends
     answer(client, frame.type, frame.number, std::move(value));
   }
 
-  // True where the modem sends it.
+  // Returns true when the packet was accepted for transmission.
   bool send(const AhoiFrame& frame) {
     if (frame.payload.size() > kMaxPayload - kWithData || port_.unsent() >= kMaxSending) return false;
     const std::int32_t to =
@@ -266,8 +273,8 @@ class Ahoi : public Protocol {
   AddressBook& addresses_;
   std::int32_t vehicle_id_;
   std::map<ClientId, FrameReader> readers_;
-  std::map<std::int64_t, Asked> asked_;               // by packet_sequence
-  std::map<std::uint8_t, Bytes> gains_, parameters_;  // by command: in non-volatile memory, and until a reset
+  std::map<std::int64_t, Asked> asked_;               // key: packet_sequence
+  std::map<std::uint8_t, Bytes> gains_, parameters_;  // key: command; gains are non-volatile
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of a door: "name=value name=value", as its protocol knows them.
+// Options of a modem interface, "name=value name=value", which its protocol reads one by one:
 //
 //   DoorOptions options("revision=0.94.0.00");
 //   const std::string revision = options.take("revision", "2.0.31000");
@@ -15,20 +15,21 @@ namespace halocline::modem_gateway {
 class DoorOptions {
  public:
   DoorOptions() = default;
-  // Throws InvalidArgument for a text of another form.
+  // Parses the options. Throws InvalidArgument for a malformed text.
   explicit DoorOptions(std::string_view text);
 
-  // The value of an option, which the protocol knows; `otherwise` where it is not given.
+  // Returns the value of an option and marks it as known; `otherwise` when it is not given.
   std::string take(const std::string& name, std::string_view otherwise);
-  // The same of yes and no, and of a number. Throw InvalidArgument that names what is allowed.
+  // Take the value of a yes/no option or a number likewise. They throw InvalidArgument, which names the
+  // allowed values.
   bool take_flag(const std::string& name, bool otherwise);
   double take_number(const std::string& name, double otherwise, double lowest, double highest);
-  // Throws InvalidArgument for an option that nobody took, and lists those that were.
+  // Throws InvalidArgument for a given option that was never taken; the message lists the known ones.
   void require_all_taken() const;
 
  private:
   std::map<std::string, std::string> given_;
-  std::map<std::string, std::string> known_;  // with their values
+  std::map<std::string, std::string> known_;  // options that were taken, with their values
 };
 
 }  // namespace halocline::modem_gateway

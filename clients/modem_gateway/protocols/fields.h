@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields of text protocols: words, lists, numbers, hexadecimal bytes. Nothing depends on a locale.
+// Parsing of text protocols: words, lists, numbers and hexadecimal bytes, independent of the locale.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,22 @@
 
 namespace halocline::modem_gateway {
 
-// What stands between blanks.
+// Splits at blanks and drops empty words.
 std::vector<std::string_view> words_of(std::string_view text);
-// What stands between separators, empty fields included: one more than there are separators.
+// Splits at each separator and keeps empty fields: the result has one field more than there are separators.
 std::vector<std::string_view> fields_of(std::string_view text, char separator);
 
-// A decimal number that is all of the text and lies within the bounds; a sign + is allowed. None for anything
-// else.
+// Parses a decimal number that makes up the whole text and lies within the bounds; a leading + is allowed.
+// Returns nothing for any other text.
 std::optional<std::int64_t> integer_in(std::string_view text, std::int64_t lowest, std::int64_t highest);
 std::optional<double> number_in(std::string_view text, double lowest, double highest);
 
-// Two upper-case digits a byte.
+// Returns two upper-case digits a byte.
 std::string hex_of(std::span<const std::uint8_t> bytes);
-// Digits of either case, two a byte. None for anything else.
+// Parses two digits a byte, of either case. Returns nothing for any other text.
 std::optional<std::vector<std::uint8_t>> bytes_of_hex(std::string_view hex);
 
-// Bytes as text and back.
+// Reinterprets bytes as text, and the reverse.
 std::string_view as_text(std::span<const std::uint8_t> bytes);
 std::vector<std::uint8_t> as_bytes(std::string_view text);
 

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nanomodem v3 (Newcastle University; sold as Delphis Succorfish): ASCII, commands framed by length, no line
-// ends needed.
+// Nanomodem v3 (Newcastle University; sold as Delphis Succorfish): ASCII commands framed by length, without
+// line ends.
 //
-//   $?             #A007V52428        address, supply (units of 15 V / 65536)
+//   host           modem
+//   $?             #A007V52428        address, supply voltage (units of 15 V / 65536)
 //   $A007          #A007              sets the address
 //   $P008          $P008, then #R008T12345 (one-way time, units of 31.25 us) or #TO
 //   $B05hello      $B05               broadcast
-//   $U00805hello   $U00805            to one
+//   $U00805hello   $U00805            to one modem
 //   $M00805hello   $M00805, then #R008T12345 or #TO within 4 s
 //   anything else  E
-// While the modem sends or awaits an answer each command that sends is refused. The address is in
-// non-volatile memory. Received: #B00705hello (source), #U05hello (none). A command may end in T and 14
-// digits, within the same piece of bytes: send when the counter of the modem, 24 MHz, has come so far. With
-// the option `timestamps` what is received bears the counter at its arrival, T and 10 digits.
+//
+// While the modem transmits or awaits an answer, each command that transmits is refused. The address is in
+// non-volatile memory. Received data is written as #B00705hello (broadcast, with its source) or #U05hello
+// (without source). A command may end in T and 14 digits, within the same piece of bytes: it is sent when the
+// modem's 24 MHz counter reaches that value. With the option `timestamps` received data ends in the counter
+// at its arrival, T and 10 digits.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,10 +46,10 @@ constexpr std::int64_t kHighestAddress = 255, kMinBytes = 2, kMaxBytes = 64;
 constexpr double kTick_s = 31.25e-6, kSupply_v = 12, kSupplyScale_v = 15;
 const std::string kError = "E\r\n";
 constexpr SimDuration kReplyWithin = SimDuration::from_milliseconds(4000);
-// Nanoseconds in three ticks of the 24 MHz counter.
+// Duration of three ticks of the 24 MHz counter, ns.
 constexpr std::int64_t kThreeTicksNs = 125;
 
-// What a host asks for, complete.
+// A complete command of a host.
 struct Command {
   char letter = 0;
   std::int32_t address = 0;
@@ -54,7 +57,7 @@ struct Command {
   std::optional<SimTime> at;
 };
 
-// Which fields a command has: an address, then a length and so many bytes.
+// Fields of a command: an address, and a length followed by that many bytes.
 struct Shape {
   char letter;
   bool has_address, has_data;
@@ -68,14 +71,14 @@ constexpr std::array<Shape, 6> kShapes{{{'?', false, false},
 
 std::int64_t counter_at(SimTime time) { return time.nanoseconds() / kThreeTicksNs * 3; }
 
-// The bytes of one host, and the commands in them.
+// Splits the bytes of one host into commands.
 class CommandReader {
  public:
   enum class Result { kCommand, kIncomplete, kWrong };
 
   void append(std::string_view bytes) { buffer_ += bytes; }
 
-  // The next command; what is wrong is skipped up to the next line end or $.
+  // Takes the next command; a malformed one is skipped up to the next line end or $.
   Result take(Command& command) {
     while (!buffer_.empty() && (buffer_[0] == '\r' || buffer_[0] == '\n')) buffer_.erase(0, 1);
     if (buffer_.empty()) return Result::kIncomplete;
@@ -137,7 +140,7 @@ class CommandReader {
     return result;
   }
 
-  std::string buffer_;  // shorter than the longest command
+  std::string buffer_;  // never longer than the longest command between calls
   std::size_t used_ = 0;
 };
 
@@ -167,7 +170,7 @@ class Nm3 : public Protocol {
   }
   void on_closed(ClientId client) override { readers_.erase(client); }
 
-  // A ping or message that is not sent is one without an answer.
+  // A ping or message that could not be sent is reported as one without an answer.
   void on_receipt(const modem_receipt_t& receipt) override {
     if (is_accepted(receipt)) {
       if (waiting_ && receipt.packet_sequence == waiting_->sequence)
@@ -205,7 +208,7 @@ class Nm3 : public Protocol {
   }
 
  private:
-  // A ping or a packet with acknowledgement whose answer has not come.
+  // A ping or a packet with acknowledgement whose answer has not arrived.
   struct Waiting {
     std::int64_t sequence = 0;
     std::int32_t address = 0;
@@ -237,7 +240,7 @@ class Nm3 : public Protocol {
     }
   }
 
-  // True where the modem sends it.
+  // Returns true when the packet was accepted for transmission.
   bool send(const Command& command) {
     const std::int32_t destination =
         command.letter == 'B' ? kBroadcastId : addresses_.vehicle_of(command.address);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every modem protocol of the gateway is: a state machine between the bytes of a host and the happenings
-// of one modem.
+// Interface of modem protocols: each is a state machine between the bytes of its hosts and the events of one
+// modem.
 //
-// Pure: bytes and messages of the bus come in by calls, bytes and packets go out through a ProtocolPort, the
-// time is given. So a protocol is tested without sockets and without a simulator. It is told everything in
-// the order in which it happened, and never calls back into a call of its own: what a send() leads to comes
-// later.
+// A protocol is free of input and output: bytes and messages of the bus come in by calls, bytes and packets
+// go out through a ProtocolPort, and the time is given. It can be tested without sockets and without a
+// simulator. It is told everything in the order in which it happened and is never re-entered: the
+// consequences of a send() arrive in later calls.
 //
-// A protocol of one's own: docs/modem_gateway.md.
+// How to add a protocol: docs/modem_gateway.md.
 #pragma once
 
 #include <cstddef>
@@ -30,79 +30,80 @@
 
 namespace halocline::modem_gateway {
 
-// A host that is connected to a door; each connection has a number of its own, from 1.
+// Number of a host's connection; each connection has its own, from 1.
 using ClientId = std::int64_t;
 inline constexpr ClientId kAllClients = 0;
 
-// In the place of a packet_sequence: a packet that was never sent, and one that a modem's earlier incarnation
-// sent.
+// Special values of packet_sequence: a packet that was never sent, and one that an earlier incarnation of the
+// modem sent.
 inline constexpr std::int64_t kNotSent = -1, kForgotten = -2;
-// The channel server refuses transmissions that are further ahead than ten seconds.
+// Furthest start of a transmission: the channel server refuses any more than ten seconds ahead.
 inline constexpr SimDuration kMaxAhead = SimDuration::from_milliseconds(9000);
 
-// What a protocol may do, and look at.
+// Services that a protocol may use, and the state that it may read.
 class ProtocolPort {
  public:
   virtual ~ProtocolPort() = default;
 
-  // The instant of the present call, simulation time.
+  // Returns the simulation time of the present call.
   virtual SimTime now() const = 0;
-  // What the vehicle's own clock shows at an instant (docs/vehicles.md).
+  // Returns the reading of the vehicle's own clock at a simulation time (docs/vehicles.md).
   virtual SimTime clock_at(SimTime time) const = 0;
-  // The instant at which it shows that.
+  // Returns the simulation time at which the vehicle's clock has that reading.
   SimTime instant_of(SimTime reading) const;
-  // To one host, or to all that are connected. What does not fit into the buffer of a host that does not read
-  // is dropped whole.
+  // Writes to one host, or to all that are connected. Bytes that do not fit into the buffer of a host that
+  // does not read are dropped whole.
   virtual void write(ClientId client, std::string_view bytes) = 0;
-  // By UDP, to a port of the machine that a host is on.
+  // Sends a UDP datagram to a port of the machine of a TCP host.
   virtual void send_datagram(ClientId /*client*/, std::uint16_t /*port*/, std::string_view /*bytes*/) {}
-  // Ends the connection of a host that cannot be answered otherwise; a serial line stays.
+  // Ends the connection of a host that cannot be answered otherwise; a serial line stays open.
   virtual void disconnect(ClientId client) = 0;
-  // Earliest start of a packet: asked when its turn has come.
+  // Returns the earliest start of a packet; called when the packet's turn has come.
   using StartRule = std::function<SimTime()>;
-  // Most packets that wait for their turn or sound, as many as a modem's own queue holds (docs/packets.md).
+  // Most packets that wait for their turn or are being transmitted, as many as a modem's own queue holds
+  // (docs/packets.md).
   static constexpr std::size_t kMaxUnsent = 16;
 
-  // Takes a packet to be sent: packets go out one after the other, each at `start` or later, and again where
-  // the modem was busy with an answer of its own. Returns the number that its receipt, events and answers
-  // bear as packet_sequence. One on_receipt() follows, a refusal also where the channel server never
-  // answered. `payload` and `options`: as ModemClient::send. kNotSent, and no receipt, for what no modem
-  // sends and beyond kMaxUnsent.
+  // Queues a packet. Packets are sent one after the other, each at `start` or later, and again if the modem
+  // was busy with an answer of its own. Returns the number that its receipt, events and answers carry as
+  // packet_sequence. One on_receipt() follows in any case: when the channel server never answers, it is a
+  // refusal. `payload` and `options` are as in ModemClient::send. Returns kNotSent, with no receipt to
+  // follow, for an impossible packet and beyond kMaxUnsent.
   virtual std::int64_t send(StartRule start, std::int32_t destination, std::span<const std::uint8_t> payload,
                             clients::SendOptions options) = 0;
   std::int64_t send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
                     clients::SendOptions options) {
     return send([start] { return start; }, destination, payload, std::move(options));
   }
-  // Number of packets given to send() whose sound has not ended.
+  // Returns the number of packets given to send() whose transmission has not ended.
   virtual std::size_t unsent() const = 0;
-  // From now on the modem acquires nothing, until that instant.
+  // Lets the modem receive nothing until that time.
   virtual void sleep_until(SimTime wakes) = 0;
-  // Whether (session, packet_sequence) names a packet of this door.
+  // Returns true when the session of a packet is that of this modem's own packets.
   virtual bool is_own(std::int64_t send_session) const = 0;
-  // The latest measurement of the vehicle's sensors; null before the first.
+  // Returns the latest measurement of the vehicle's sensors; null before the first.
   virtual const vehicle_sensors_t* sensors() const = 0;
-  // The latest state of the vehicle, and of its battery where it has one; null before the first.
+  // Return the latest state of the vehicle, and of its battery if it has one; null before the first.
   virtual const vehicle_state_t* state() const = 0;
   virtual const vehicle_battery_t* battery() const = 0;
-  // Asks for the paths of sound from a vehicle to this one, as they are now: on_paths(). False for a vehicle
-  // that is not known.
+  // Requests the present sound paths from a vehicle to this one, which on_paths() receives. Returns false for
+  // an unknown vehicle.
   virtual bool ask_paths(std::int32_t from_vehicle) = 0;
-  // For a person who watches: what a host did that is no protocol of this modem.
+  // Logs, for an operator, that a host did something outside of this modem's protocol.
   virtual void note(std::string_view event, std::string_view details) = 0;
 };
 
-// Of the door that a protocol is made for.
+// Context in which a protocol is made.
 struct ProtocolContext {
   ProtocolPort& port;
-  AddressBook& addresses;  // of all doors of this kind
+  AddressBook& addresses;  // addresses of all modems of this kind
   std::int32_t vehicle_id;
   DoorOptions options;
-  std::vector<NamedVehicle> vehicles = {};  // of the scenario
+  std::vector<NamedVehicle> vehicles = {};  // the vehicles of the scenario
   double origin_latitude_deg = 0, origin_longitude_deg = 0;
-  SoundField* sound = nullptr;  // never null where needs_sound(kind), but while options are checked alone
+  SoundField* sound = nullptr;  // not null when needs_sound(kind), except while options alone are checked
 
-  // The door's own; empty for a vehicle that is not among them.
+  // Returns the name of the modem's vehicle; empty when it is not among `vehicles`.
   std::string vehicle_name() const {
     for (const NamedVehicle& vehicle : vehicles) {
       if (vehicle.id == vehicle_id) return vehicle.name;
@@ -115,40 +116,41 @@ class Protocol {
  public:
   virtual ~Protocol() = default;
 
-  // How the modem is to listen; none where its own way serves.
+  // Returns how the modem is to listen; nothing for its default.
   virtual std::optional<clients::ListenOptions> listening() const { return std::nullopt; }
 
   virtual void on_opened(ClientId /*client*/) {}
-  // Bytes in any pieces, at most 16 KiB a call.
+  // Receives bytes of a host in arbitrary pieces, at most 16 KiB a call.
   virtual void on_bytes(ClientId client, std::string_view bytes) = 0;
   virtual void on_closed(ClientId /*client*/) {}
 
-  // The answer to a send(): accepted with start and duration, or refused. A host whose command was confirmed
-  // is told of a refusal.
+  // Receives the answer to a send(): accepted with start and duration, or refused. A host whose command was
+  // already confirmed is told of a refusal.
   virtual void on_receipt(const modem_receipt_t& /*receipt*/) {}
-  // A packet received, whole or in part; answers to own packets among them.
+  // Receives a packet, whole or in part; answers to own packets are among them.
   virtual void on_packet(const modem_receive_t& /*packet*/) {}
-  // An own transmission began or ended, a packet was detected, carrier; only with listening()->events.
+  // Reports that an own transmission began or ended, a packet was detected, or the carrier changed; only with
+  // listening()->events.
   virtual void on_event(const modem_event_t& /*event*/) {}
-  // A packet that had been detected was lost; only with listening()->events. One call for one OUTCOME.
+  // Reports that a detected packet was lost; only with listening()->events. One call for each OUTCOME.
   virtual void on_loss(const packet_outcome_t& /*outcome*/) {}
-  // The vehicle's USBL measured where a packet came from; after its on_packet().
+  // Receives the direction that the vehicle's USBL measured to the source of a packet, after its on_packet().
   virtual void on_bearing(const vehicle_usbl_t& /*bearing*/) {}
 
-  // What ask_paths() led to.
+  // Receives the reply to ask_paths().
   virtual void on_paths(const link_reply_t& /*reply*/) {}
 
-  // Vehicles that its options name as transponders.
+  // Returns the vehicles that the options name as transponders.
   virtual std::vector<std::int32_t> transponders() const { return {}; }
 
-  // When step() is due by simulation time.
+  // Returns the simulation time at which step() is due.
   virtual SimTime next() const { return SimTime::never(); }
   virtual void step() {}
 
-  // The modem's non-volatile memory: settings that outlive the process. A factory reset clears it, a new run
-  // begins without.
+  // Saves or loads the modem's non-volatile memory: settings that outlive the process. A factory reset clears
+  // it, and a new run begins without it.
   virtual void archive(Archive& /*a*/) {}
-  // Increases with each change of that memory.
+  // Returns a number that increases with each change of that memory.
   std::int64_t stored_changes() const { return stored_changes_; }
 
  protected:

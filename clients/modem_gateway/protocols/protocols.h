@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The protocols that there are, by the kind that a door names.
+// Registry of the modem protocols by the kind that a modem interface names.
 #pragma once
 
 #include <memory>
@@ -11,16 +11,16 @@
 
 namespace halocline::modem_gateway {
 
-// All kinds, in alphabetical order.
+// Returns all kinds, in alphabetical order.
 std::vector<std::string> protocol_kinds();
 
-// Whether it is a door of waveforms, not of packets (sound_field.h).
+// Returns true for a kind that exchanges waveforms instead of packets (sound_field.h).
 bool needs_sound(std::string_view kind);
 
-// Throws InvalidArgument for a kind that there is not, and for options that it does not have.
+// Makes a protocol. Throws InvalidArgument for an unknown kind or option.
 std::unique_ptr<Protocol> make_protocol(std::string_view kind, ProtocolContext context);
 
-// One file each.
+// Constructors of the protocols, one source file each.
 std::unique_ptr<Protocol> make_ahoi(ProtocolContext context);
 std::unique_ptr<Protocol> make_evologics(ProtocolContext context);
 std::unique_ptr<Protocol> make_micromodem(ProtocolContext context);

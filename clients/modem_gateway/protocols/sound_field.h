@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sound in the water as samples: what doors of waveforms emit and record.
+// Sound in the water as samples, which modem interfaces of waveforms emit and record.
 //
-// Whoever has the water of the scenario gives it (GatewayNode): the door of a waveform has no packets, and
-// its sound is none to modems.
+// The owner of the scenario's water provides it (GatewayNode). A modem interface of waveforms exchanges no
+// packets, and modems do not receive its sound.
 #pragma once
 
 #include <cstddef>
@@ -21,22 +21,23 @@ class SoundField {
  public:
   virtual ~SoundField() = default;
 
-  // A sound of a vehicle: its first sample leaves at `begin`. A sine of amplitude 1 has the source level of
-  // the vehicle's modem.
+  // Emits a sound of a vehicle, whose first sample leaves at `begin`. A sine of amplitude 1 has the source
+  // level of the vehicle's modem.
   virtual void emit(std::int32_t vehicle_id, SimTime begin, double rate_hz,
                     std::span<const float> samples) = 0;
-  // Of what it emits all from that instant on is cut off.
+  // Cuts off everything that the vehicle emits from that time on.
   virtual void silence(std::int32_t vehicle_id, SimTime from) = 0;
 
-  // How long after an instant its sound is known everywhere.
+  // Returns the delay after which the sound of a given time is known everywhere.
   virtual SimDuration lag() const = 0;
-  // The pressure at a vehicle, uPa, without its own sounds, at the instants n / rate_hz of simulation time, n
-  // = first, first + 1, ...; the last must be `lag` ago. Of one vehicle in the order of time.
+  // Returns the pressure at a vehicle, uPa, without its own sounds, at the simulation times n / rate_hz, n =
+  // first, first + 1, ... The last one must be `lag` in the past. Calls for one vehicle must be in the order
+  // of time.
   virtual std::vector<double> record(std::int32_t vehicle_id, double rate_hz, std::int64_t first,
                                      std::size_t count) = 0;
 };
 
-// On the bus of the node whose doors it is for, which outlives it.
+// Makes the sound field on the bus of the node whose modem interfaces use it; the bus outlives it.
 using SoundFieldMaker = std::function<std::unique_ptr<SoundField>(bus::Bus& bus)>;
 
 }  // namespace halocline::modem_gateway

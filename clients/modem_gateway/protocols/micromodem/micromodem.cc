@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // WHOI Micromodem, first and second generation: NMEA sentences, CC from the host, CA and SN from the modem.
 //
-// Options: `revision` (0.94.0.00 is the first generation, 2.0.31000 the second, 3.0.0 its newer firmware),
-// `pps` (its clock has a pulse a second, modem_clock.h), `broadcast` (the address of all; 15 is another where
-// no modem has been given it), `lbl` (up to four transponders, micromodem_lbl.h), `newer_lines` (CARFP in the
-// place of CARDP).
+// Options:
+// - `revision`: firmware; 0.94.0.00 is the first generation, 2.0.31000 the second, 3.0.0 its newer firmware.
+// - `pps`: the modem's clock receives a pulse per second (modem_clock.h).
+// - `broadcast`: the broadcast address; 15 is a second one unless a modem has been given it.
+// - `lbl`: up to four transponders (micromodem_lbl.h).
+// - `newer_lines`: CARFP instead of CARDP.
 //
-// Answers go to the host that asked, everything else to all. Left out: the sounds of CCMSQ, CCSWP and CCRSP;
-// they are refused.
+// Answers go to the host that asked, everything else to all hosts. The test sounds of CCMSQ, CCSWP and CCRSP
+// are not simulated; these commands are refused.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -86,7 +88,7 @@ class Micromodem : public Protocol {
     remote_.follow(packet);
   }
 
-  // CARXP: 0 frequency-shift, 1 phase-shift keying.
+  // Reports CARXP: 0 for frequency-shift keying, 1 for phase-shift keying.
   void on_event(const modem_event_t& event) override {
     if (event.modem_event == modem_event_t::PACKET_DETECTED && core_.settings().is_on("RXP"))
       core_.say_all(event.rate_number == 0 ? "CARXP,0" : "CARXP,1");
@@ -114,7 +116,7 @@ class Micromodem : public Protocol {
   struct Named {
     std::string_view id;
     Command command;
-    bool sends;  // refused while all that can wait to be sent waits
+    bool sends;  // refused while the transmit queue is full
   };
   static constexpr std::array<Named, 8> commands() {
     return {{{"CCCYC", &Micromodem::begin_cycle, true},
@@ -157,13 +159,13 @@ class Micromodem : public Protocol {
     core_.echo(client, sentence);
     if (cycle.source == core_.own_address())
       return transmitter_.begin(cycle, core_.vehicle_of(cycle.destination), cycle.rate == 0);
-    // Another is to send: a cycle packet tells it.
+    // When another modem is to send, a cycle packet asks it to.
     transmitter_.send({Kind::kCycle, core_.vehicle_of(cycle.source), cycle.source,
                        cycle_packet(cycle, core_.own_address())},
                       mini_packet(MicromodemKind::kCycle));
   }
 
-  // A cycle packet that asks this modem for data.
+  // Answers a cycle packet that asks this modem for data.
   void follow_cycle(const modem_receive_t& packet) {
     const Listener listener = core_.listener();
     const auto asked =
@@ -179,7 +181,7 @@ class Micromodem : public Protocol {
     if (!data || sentence.fields.size() != 4) return core_.refuse_argument(client, sentence);
     take_data(client, sentence, std::move(*data));
   }
-  // Text may hold commas.
+  // Rejoins the fields after the third with commas: text may contain them.
   void take_text(ClientId client, const NmeaSentence& sentence) {
     if (sentence.fields.size() < 4) return core_.refuse_argument(client, sentence);
     std::string text(sentence.field(3));
@@ -215,8 +217,8 @@ class Micromodem : public Protocol {
     transmitter_.send({Kind::kPing, to, (*n)[1], {}}, {.kind = modem_send_t::PING, .rate_number = 0});
   }
 
-  // CCCMD,PNG,src,dest,rate,cdr,data: the second generation's ping. Its data is left out; the answer has its
-  // number of bytes.
+  // Handles CCCMD,PNG,src,dest,rate,cdr,data, the ping of the second generation. Its data is not transmitted;
+  // the answer to the host contains its number of bytes.
   void command(ClientId client, const NmeaSentence& sentence) {
     const auto n = sentence.numbers<4>(1);
     const std::int32_t to = n ? core_.vehicle_of((*n)[1]) : kBroadcastId;
@@ -233,7 +235,7 @@ class Micromodem : public Protocol {
                        .header_number = static_cast<int>(MicromodemKind::kNewPing)});
   }
 
-  // CCTDP,dest,rate,ack,0,HEX. What stands for 0 is not looked at.
+  // Handles CCTDP,dest,rate,ack,0,HEX. The fourth field is echoed without being examined.
   void send_flexible(ClientId client, const NmeaSentence& sentence) {
     const auto n = sentence.numbers<3>();
     auto data = bytes_of_hex(sentence.field(4));
@@ -246,8 +248,9 @@ class Micromodem : public Protocol {
                 {.wants_ack = ack == 1, .rate_number = static_cast<std::int32_t>(rate)});
   }
 
-  // CCTFP,dest,rate of the mini-frame,rate of data,ack,0,HEX of the mini-frame,HEX of data; firmware from 3
-  // on has 0,0 before. The medium knows one rate a packet, that of the data where there is any.
+  // Handles CCTFP,dest,mini_rate,data_rate,ack,0,HEX,HEX with the rates and bytes of the mini-frame and of
+  // the data; firmware from version 3 on inserts 0,0 before them. The simulated medium has one rate per
+  // packet: that of the data, if there is any.
   void send_framed(ClientId client, const NmeaSentence& sentence) {
     const std::size_t first = sentence.fields.size() == 9 ? 2 : 0;
     const auto n = sentence.numbers<4>(first);
@@ -283,7 +286,7 @@ class Micromodem : public Protocol {
     transmitter_.send({kind, to, destination, std::move(data)}, std::move(options));
   }
 
-  // A PING_REPLY or an ACK to a packet of this door.
+  // Reports a PING_REPLY or an ACK to a packet that this modem sent.
   void take_answer(const modem_receive_t& packet) {
     if (lbl_.takes(packet)) return;
     const Listener listener = core_.listener();

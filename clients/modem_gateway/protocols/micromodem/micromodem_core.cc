@@ -13,7 +13,7 @@
 namespace halocline::modem_gateway {
 namespace {
 
-// The broadcast address of four bits, which software of the first generation uses.
+// The four-bit broadcast address, which host programs of the first generation use.
 constexpr std::int32_t kOfFourBits = 15;
 constexpr int kFirstOfVersion8 = 3;  // first number of the revision
 

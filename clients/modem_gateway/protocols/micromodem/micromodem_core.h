@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all parts of a Micromodem share: its address, settings, clock and generation, and how it writes to
-// hosts.
+// State that all parts of a Micromodem share (address, settings, clock, generation), and its output to hosts.
 #pragma once
 
 #include <cstddef>
@@ -23,20 +22,20 @@
 
 namespace halocline::modem_gateway {
 
-// Numbers of CAERR,...,NMEA.
+// Error numbers of CAERR,...,NMEA.
 enum class NmeaError { kChecksum = 1, kUnknown = 2, kArgument = 3, kBusy = 4 };
 
 class MicromodemCore {
  public:
   static constexpr std::int64_t kHighestAddress = 127;
 
-  // Takes the options revision, pps, broadcast and newer_lines. `on_stored`: the modem's non-volatile memory
-  // has changed.
+  // Takes the options revision, pps, broadcast and newer_lines. `on_stored` is called when the modem's
+  // non-volatile memory has changed.
   MicromodemCore(ProtocolContext& context, std::function<void()> on_stored);
 
   ProtocolPort& port() const { return port_; }
   SimTime now() const { return port_.now(); }
-  // What the vehicle's clock shows, by which the modem's goes.
+  // Returns the reading of the vehicle's clock, which drives the modem's clock.
   SimTime reading() const { return port_.clock_at(now()); }
   std::int32_t vehicle_id() const { return vehicle_id_; }
   MicromodemSettings& settings() { return settings_; }
@@ -48,28 +47,30 @@ class MicromodemCore {
 
   std::int32_t own_address() const { return addresses_.address_of(vehicle_id_).value_or(0); }
   void take_address(std::int32_t address) { addresses_.assign(vehicle_id_, address); }
-  // Settings, address and clock are in non-volatile memory: to be called after each change of them.
+  // Must be called after each change of the settings, the address or the clock, which are in non-volatile
+  // memory.
   void note_stored() const { on_stored_(); }
-  // All as the modem was delivered, but for the clock.
+  // Restores the state of delivery, except for the clock.
   void reset_settings();
   void archive(Archive& a);
-  // kBroadcastId for the addresses of all.
+  // Returns the vehicle at an address; kBroadcastId for the broadcast addresses.
   std::int32_t vehicle_of(std::int64_t address) const;
   Listener listener() const;
   ReporterState state() const;
-  // Start of a transmission whose turn has come: on a whole second where the modem is synchronised.
+  // Returns the start of a transmission whose turn has come: the next whole second when the modem transmits
+  // synchronously (setting SNV), else now.
   SimTime start_of_transmission() const;
-  // True while one more packet can wait to be sent.
+  // Returns true while the transmit queue has room for one more packet.
   bool can_send() const { return port_.unsent() < ProtocolPort::kMaxUnsent; }
   bool reports_transmissions() const { return is_second_generation() || settings_.is_on("XST"); }
 
-  // A sentence to one host, or to all.
+  // Sends an NMEA sentence to one host, or to all.
   void say(ClientId client, const std::string& body) const { port_.write(client, nmea_line(body)); }
   void say_all(const std::string& body) const { say(kAllClients, body); }
   void say_all(const std::vector<std::string>& bodies) const;
   void refuse(ClientId client, NmeaError error, std::string_view text) const;
   void refuse_argument(ClientId client, const NmeaSentence& sentence) const;
-  // The same sentence from the modem: CA, or as it begins, and all fields.
+  // Repeats the host's sentence with all its fields, with talker CA instead of CC unless another is given.
   void echo(ClientId client, const NmeaSentence& sentence, std::string_view talker = "CA") const;
 
  private:
@@ -80,8 +81,8 @@ class MicromodemCore {
   MicromodemSettings settings_;
   ModemClock clock_;
   std::string revision_;
-  int generation_ = 2;             // the first number of the revision
-  bool has_clock_sources_ = true;  // from 2.0.26038 on
+  int generation_ = 2;             // first number of the revision
+  bool has_clock_sources_ = true;  // true from revision 2.0.26038 on
   bool has_newer_lines_ = false;
   std::int32_t broadcast_ = 0;
 };

@@ -22,9 +22,9 @@ constexpr SimDuration kRevisionPeriod = SimDuration::from_milliseconds(5000);
 constexpr SimDuration kRebootTime = SimDuration::from_milliseconds(300);
 constexpr int kNoiseValues = 14;
 constexpr std::size_t kMaxSettings = 1000;
-// Sounds for tests that are no packets, which the medium does not know.
+// Commands of test sounds that are no packets, which the simulated medium cannot carry.
 constexpr std::array<std::string_view, 3> kSounds{"CCSWP", "CCMSQ", "CCRSP"};
-// Of the commands, as pyacomms counts: from 11 on CCTMS and CCTMQ are known.
+// Command levels of the generations, numbered as in pyacomms: CCTMS and CCTMQ are known from level 11 on.
 constexpr int kFirstLevel = 1, kSecondLevel = 11;
 
 }  // namespace
@@ -102,7 +102,8 @@ void MicromodemHousekeeping::set_clock(ClientId client, const NmeaSentence& sent
   if (!time) return core_.refuse_argument(client, sentence);
   core_.clock().set(core_.reading(), *time);
   core_.note_stored();
-  // As it will be with the next pulse: hosts compare it with their own clock, a second later.
+  // The answer shows the time as of the next pulse, because hosts compare it with their own clock a second
+  // later.
   core_.say(client, "CACLK," + ModemClock::comma_separated_of(*time));
 }
 
@@ -124,7 +125,7 @@ void MicromodemHousekeeping::query_time(ClientId client) const {
                                 clock.is_set() ? "USER" : "NONE", clock.has_pps() ? "EXT" : "NONE"));
 }
 
-// CCCFR,ms: the noise after so long; one band of this modem stands for all.
+// Handles CCCFR,ms: reports the noise after that delay. All values are those of the modem's one band.
 void MicromodemHousekeeping::query_noise(ClientId client, const NmeaSentence& sentence) {
   const auto wait = sentence.numbers<1>();
   if (!wait) return core_.refuse_argument(client, sentence);

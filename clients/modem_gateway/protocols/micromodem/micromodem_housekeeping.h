@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands of a Micromodem that touch no sound: settings, clock, revision, reboot, noise, and sounds for
-// tests, which are refused.
+// Commands of a Micromodem that transmit nothing: settings, clock, revision, reboot and noise, and test
+// sounds, which are refused.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ class MicromodemHousekeeping {
  public:
   explicit MicromodemHousekeeping(MicromodemCore& core) : core_(core) {}
 
-  // False for a command that is none of these.
+  // Returns false for a command that belongs to another part.
   bool obey(ClientId client, const NmeaSentence& sentence);
-  // Hears nothing for so long, and then reboots; 0: reboots.
+  // Receives nothing for that many minutes and then reboots; 0 reboots at once.
   void sleep(std::int64_t minutes);
-  // The noise over the band of the latest packet, dB re 1 uPa.
+  // Stores the noise level over the band of the latest packet, dB re 1 uPa, for CCCFR.
   void note_noise(double level_db) { last_noise_db_ = level_db; }
 
   SimTime next() const;

@@ -12,18 +12,21 @@
 namespace halocline::modem_gateway {
 namespace {
 
-// Of the modem that answers a ping (docs/packets.md).
+// Delay with which a modem answers a ping (docs/packets.md).
 constexpr SimDuration kTurnaround = SimDuration::from_milliseconds(100);
 
-// Where a command has its time-out, ms, and the first of four fields that name transponders.
+// Layout of a ranging command: the field of its time-out, ms, and the first of four fields that name
+// transponders.
 struct Ranging {
   std::string_view id;
   std::size_t timeout_at, first;
   bool by_code;
 };
-// CCPDT,group,channel,sync,pps_to,timeout_ms,a,b,c,d: which of the four.
-// CCPGT,ftx,bits,code,timeout_ms,frx,a,b,c,d,bandwidth,0: codes of their answers.
-// CCPNT,ftx,ttx,trx,timeout_ms,fa,fb,fc,fd,flag: frequencies of their answers.
+// The commands and the content of their fields a to d:
+//
+//    CCPDT,group,channel,sync,pps_to,timeout_ms,a,b,c,d          which of the four places
+//    CCPGT,ftx,bits,code,timeout_ms,frx,a,b,c,d,bandwidth,0      codes of the answers
+//    CCPNT,ftx,ttx,trx,timeout_ms,fa,fb,fc,fd,flag               frequencies of the answers
 constexpr std::array<Ranging, 3> kRangings{
     {{"CCPDT", 4, 5, false}, {"CCPGT", 3, 5, true}, {"CCPNT", 3, 4, true}}};
 
@@ -54,7 +57,7 @@ std::vector<std::int32_t> MicromodemLbl::transponders() const {
   return vehicles;
 }
 
-// The vehicle of the transponder that a field names.
+// Returns the vehicle of the transponder that a field names.
 std::optional<std::int32_t> MicromodemLbl::named(std::string_view field, std::size_t place,
                                                  bool by_code) const {
   if (!is_used(field)) return std::nullopt;
@@ -87,7 +90,7 @@ bool MicromodemLbl::obey(ClientId client, const NmeaSentence& sentence) {
     asked_[i] = named(sentence.field(ranging->first + i), i, ranging->by_code);
   const bool asks =
       std::any_of(asked_.begin(), asked_.end(), [](const auto& vehicle) { return vehicle.has_value(); });
-  // Where nobody answers it is done after the time-out.
+  // Without a transponder to ask, the result is reported after the time-out.
   sequence_ = asks ? core_.port().send(core_.now(), kBroadcastId, {},
                                        {.kind = modem_send_t::PING, .stamped = false, .rate_number = 0})
                    : kNotSent;
@@ -99,7 +102,7 @@ bool MicromodemLbl::obey(ClientId client, const NmeaSentence& sentence) {
 bool MicromodemLbl::takes(const modem_receipt_t& receipt) {
   if (!is_busy_ || receipt.packet_sequence != sequence_) return false;
   const SimDuration duration = SimDuration::from_seconds(receipt.duration_s);
-  // The answer takes as long as the ping.
+  // The answer lasts as long as the ping.
   until_ = is_accepted(receipt)
                ? SimTime::from_utime(receipt.start_utime) + duration + duration + kTurnaround + timeout_
                : core_.now();

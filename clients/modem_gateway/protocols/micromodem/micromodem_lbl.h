@@ -2,11 +2,11 @@
 // Long-baseline ranging of a Micromodem (CCPDT, CCPNT, CCPGT): the travel times to up to four transponders,
 // vehicles of the scenario whose modems answer pings.
 //
-// One ping asks all transponders at once (docs/packets.md). Each answers a turnaround after it has come, so
-// that answers may overlap: the modem has a filter for each. It waits for those that the host names, for the
-// host's time-out after ping, turnaround and answer. A transponder has a place, A to D, and may have a code:
-// the frequency or the sequence by which hosts name its answer in CCPNT and CCPGT. Without one they name it
-// by its place.
+// One ping asks all transponders at once (docs/packets.md). Each answers a fixed turnaround after the ping
+// arrives, so answers may overlap; the modem has a filter for each. It waits for the transponders that the
+// host names, for the host's time-out after ping, turnaround and answer. A transponder has a place, A to D.
+// It may also have a code, the frequency or sequence by which hosts name its answer in CCPNT and CCPGT;
+// without one they name it by its place.
 #pragma once
 
 #include <array>
@@ -30,16 +30,18 @@ class MicromodemLbl {
  public:
   static constexpr std::size_t kTransponders = 4;
 
-  // Both must outlive it.
+  // `core` and `addresses` must outlive it.
   MicromodemLbl(MicromodemCore& core, const AddressBook& addresses) : core_(core), addresses_(addresses) {}
 
-  // ADDRESS or ADDRESS:CODE, / between. Throws InvalidArgument for another text.
+  // Reads the option `lbl`: ADDRESS or ADDRESS:CODE, with / between. Throws InvalidArgument for any other
+  // text.
   void name_transponders(const std::string& text);
-  // Their vehicles, where an address has one.
+  // Returns the vehicles of all transponders.
   std::vector<std::int32_t> transponders() const;
-  // False for a command that is none of these.
+  // Returns false for a command that belongs to another part.
   bool obey(ClientId client, const NmeaSentence& sentence);
-  // Whether that packet is a ping of its own, and takes its receipt or answer; a late answer counts no more.
+  // Returns true when the packet is a ping of this object, whose receipt or answer it then takes. An answer
+  // after the time-out is ignored.
   bool takes(const modem_receipt_t& receipt);
   bool takes(const modem_receive_t& packet);
 
@@ -58,12 +60,12 @@ class MicromodemLbl {
   MicromodemCore& core_;
   const AddressBook& addresses_;
   std::array<std::optional<Transponder>, kTransponders> transponders_;
-  std::array<std::optional<std::int32_t>, kTransponders> asked_;  // vehicles
-  std::array<std::optional<double>, kTransponders> times_;        // one-way, s; none where not heard
+  std::array<std::optional<std::int32_t>, kTransponders> asked_;  // vehicle ids
+  std::array<std::optional<double>, kTransponders> times_;        // one-way travel times, s; none: not heard
   SimDuration timeout_;
-  std::int64_t sequence_ = kNotSent;  // of the last ping
+  std::int64_t sequence_ = kNotSent;  // packet_sequence of the last ping
   bool is_busy_ = false;
-  SimTime until_ = SimTime::never();  // it waits for answers; never() before the ping's receipt
+  SimTime until_ = SimTime::never();  // end of the wait for answers; never() before the ping's receipt
 };
 
 }  // namespace halocline::modem_gateway

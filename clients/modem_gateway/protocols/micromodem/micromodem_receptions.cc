@@ -46,7 +46,7 @@ MicromodemCycle cycle_of(const Listener& listener, const modem_receive_t& packet
           packet.num_frames};
 }
 
-// Calls `on_frame(number from 0, whether it was right, bytes)` for each frame.
+// Calls `on_frame(index, is_good, bytes)` for each frame, numbered from 0.
 template <class OnFrame>
 void for_each_frame(const modem_receive_t& packet, const OnFrame& on_frame) {
   std::size_t begin = 0;
@@ -62,7 +62,7 @@ void for_each_frame(const modem_receive_t& packet, const OnFrame& on_frame) {
 void add_data(const Listener& listener, const modem_receive_t& packet, std::vector<std::string>& lines) {
   const MicromodemCycle cycle = cycle_of(listener, packet);
   if (packet.rate_number != 0)
-    lines.push_back("CACYC," + cycle.fields());  // at rate 0 its own packet came before
+    lines.push_back("CACYC," + cycle.fields());  // rate 0: already reported with the cycle packet
   for_each_frame(packet, [&](std::size_t i, bool is_good, std::span<const std::uint8_t> bytes) {
     lines.push_back(is_good ? fmt::format("CARXD,{},{},{},{},{}", cycle.source, cycle.destination,
                                           cycle.wants_ack, i + 1, hex_of(bytes))
@@ -74,8 +74,10 @@ std::string arrival_of(const Listener& listener, const modem_receive_t& packet) 
   return listener.state.clock.iso_us(SimTime::from_utime(packet.arrival_utime));
 }
 
-// CARDP,src,dest,rate,ack,0,mini,data and CARFP,time,0,src,dest,rate of the mini-frame,rate of data (-1:
-// none),ack,0,,mini,data
+// Appends one of two lines; the rate of data is -1 when there is none:
+//
+//    CARDP,src,dest,rate,ack,0,mini,data
+//    CARFP,time,0,src,dest,rate of the mini-frame,rate of data,ack,0,,mini,data
 void add_flexible(const Listener& listener, const modem_receive_t& packet, std::vector<std::string>& lines) {
   std::string mini, data;
   const bool has_mini = kind_of(packet) == MicromodemKind::kFramedMini;
@@ -114,7 +116,7 @@ void add_ping(const Listener& listener, const modem_receive_t& packet, std::vect
   if (kind_of(packet) != MicromodemKind::kNewPing)
     return lines.push_back(fmt::format("CAMPA,{},{}", source, destination));
   const std::string time = arrival_of(listener, packet);
-  // Firmware from 3 on has what it is before the time.
+  // Firmware from version 3 on puts the type before the time.
   lines.push_back(fmt::format("CACMA,{},{},{},{},{:.1f},{:.2f},{},0,0",
                               listener.state.version == kNewestVersion ? "PNG" : time,
                               listener.state.version == kNewestVersion ? time : "PNG", source, destination,
@@ -213,7 +215,8 @@ std::vector<std::string> lines_of_ack(const Listener& listener, const modem_rece
   return lines;
 }
 
-// CACDR,time,0,src,dest,rate of the mini-frame,mask of mini-frames,mask of data frames,six reserved
+// The line is CACDR,time,0,src,dest,rate of the mini-frame,mask of mini-frames,mask of data frames,six
+// reserved.
 std::vector<std::string> lines_of_framed_ack(const Listener& listener, const modem_receive_t& ack,
                                              bool has_mini) {
   unsigned good = 0;

@@ -24,14 +24,14 @@ bool MicromodemRemote::obey(ClientId client, const NmeaSentence& sentence) {
   return true;
 }
 
-// Refuses what would have to go to another modem and cannot.
+// Refuses a command that must be transmitted to another modem while the transmit queue is full.
 bool MicromodemRemote::is_too_busy(ClientId client, std::int64_t destination) const {
   if (destination == core_.own_address() || core_.can_send()) return false;
   core_.refuse(client, NmeaError::kBusy, "transmit queue full");
   return true;
 }
 
-// CCMEC,source,destination,line,mode,argument
+// Handles CCMEC,source,destination,line,mode,argument.
 void MicromodemRemote::set_line(ClientId client, const NmeaSentence& sentence) {
   const auto n = sentence.numbers<5>();
   if (!n) return core_.refuse_argument(client, sentence);
@@ -46,8 +46,8 @@ void MicromodemRemote::set_line(ClientId client, const NmeaSentence& sentence) {
   core_.say_all(fmt::format("CAMER,{},{},{}", destination, destination, control_fields(packet)));
 }
 
-// CCMSC,source,destination,minutes; 0: reboot, -1: until it is woken, here for as long as can be told. What
-// follows is not looked at.
+// Handles CCMSC,source,destination,minutes. 0 reboots; -1 sleeps until woken, here for kMaxMinutes, the
+// longest time that the packet can encode. Further fields are ignored.
 void MicromodemRemote::sleep(ClientId client, const NmeaSentence& sentence) {
   const auto n = sentence.numbers<2>();
   const auto asked = integer_in(sentence.field(2), -1, kMaxMinutes);

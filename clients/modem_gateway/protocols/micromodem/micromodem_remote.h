@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands of a Micromodem's host that another modem may obey: a line of its connector (CCMEC), sleep
-// (CCMSC).
+// Commands of a Micromodem's host that may be addressed to another modem: setting a line of the connector
+// (CCMEC) and sleeping (CCMSC).
 //
-// For this modem they are obeyed at once; to another they go as a mini-packet. It sets the line, which
-// nothing is connected to, and answers with a mini-packet, of which CAMER tells the host that asked; a modem
-// that is told to sleep does not answer.
+// A command for this modem is executed at once; for another modem it is transmitted as a mini-packet. That
+// modem sets the line, to which nothing is connected, and answers with a mini-packet, which CAMER reports to
+// the host that asked. A modem that is told to sleep does not answer.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,14 @@ namespace halocline::modem_gateway {
 
 class MicromodemRemote {
  public:
-  // All must outlive it.
+  // The arguments must outlive it.
   MicromodemRemote(MicromodemCore& core, MicromodemTransmitter& transmitter,
                    MicromodemHousekeeping& housekeeping)
       : core_(core), transmitter_(transmitter), housekeeping_(housekeeping) {}
 
-  // False for a command that is none of these.
+  // Returns false for a command that belongs to another part.
   bool obey(ClientId client, const NmeaSentence& sentence);
-  // A mini-packet to this modem that has been reported.
+  // Executes a mini-packet to this modem, which has already been reported.
   void follow(const modem_receive_t& packet);
 
  private:

@@ -26,16 +26,16 @@ constexpr int kNewestTransmission = 7, kProbeLength = 200;
 double ratio_of(double db) { return elementary::exp10(db / 10); }
 double db_of(double ratio) { return 10 * elementary::log10(ratio); }
 
-// Bit 0: the clock was set; 1: it has pulses.
+// Clock mode: bit 0, the clock was set; bit 1, it receives pulses.
 int clock_mode(const ModemClock& clock) { return (clock.is_set() ? 1 : 0) + (clock.has_pps() ? 2 : 0); }
 
-// Of a reception by newer firmware. Bits 0 and 1: who set the clock (2 a user); 2 to 4: where pulses come
-// from (3 outside).
+// Clock mode of a reception, as newer firmware has it. Bits 0 and 1: who set the clock (2: a user); bits 2 to
+// 4: source of the pulses (3: external).
 int clock_sources(const ModemClock& clock) {
   return (clock.is_set() ? 2 : 0) + (clock.has_pps() ? 3 << 2 : 0);
 }
 
-// Least mean square error of symbols of power 1: 1 / (1 + SINR).
+// Least mean square error of symbols of unit power, dB: MSE = 1 / (1 + SINR).
 double mse_db(double sinr_db) { return -db_of(1 + ratio_of(sinr_db)); }
 
 }  // namespace
@@ -71,7 +71,7 @@ ReceptionReport report_of(const packet_outcome_t& loss, SimTime arrival) {
   report.noise_db = loss.noise_level_db;
   report.snr_db = loss.snr_db;
   report.sinr_db = loss.sinr_db;
-  // Eb/N0 = SINR B / R.
+  // Eb/N0 = SINR B / R, with bandwidth B and bit rate R.
   const MicromodemRate& rate = micromodem_rate(std::clamp(loss.rate_number, 0, kMicromodemRates - 1));
   report.snr_out_db = loss.sinr_db + db_of(rate.bandwidth_hz / rate.bit_rate_bps);
   report.doppler_factor = loss.strongest_path_doppler_factor;

@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a Micromodem reports of a reception (CACST) and of a transmission (CAXST), filled from the reception
-// itself.
+// Reports of a Micromodem on a reception (CACST) and on a transmission (CAXST), filled from the simulated
+// packet.
 //
-//   CACST   mode, time of arrival, clock mode, peak, power, ratio, level, gain, 4 shifts, rate, source,
-//           destination, PSK error, packet type, frames, bad frames, SNR RSS, SNR in, SNR out, SNR of
-//           symbols, MSE, quality, Doppler, noise, carrier, bandwidth
-//   CAXST   date, time, clock mode, transmit mode, probe length, bandwidth, carrier, rate, source,
-//           destination, acknowledgement, frames expected, frames sent, packet type, bytes
+//    CACST   mode, time of arrival, clock mode, peak, power, ratio, level, gain, 4 shifts, rate, source,
+//            destination, PSK error, packet type, frames, bad frames, SNR RSS, SNR in, SNR out,
+//            SNR of symbols, MSE, quality, Doppler, noise, carrier, bandwidth
+//    CAXST   date, time, clock mode, transmit mode, probe length, bandwidth, carrier, rate, source,
+//            destination, acknowledgement, frames expected, frames sent, packet type, bytes
 //
-// The second generation sends version 6: the version first, and the time of arrival as yyyymmddhhmmss.ffffff
-// in the place of hhmmss.ssss. Firmware from 3 on sends CACST in version 8, with four more fields
-// (0,-1,-1,00), and CAXST in version 7, with microseconds and the carrier once more. Numbers that are the
-// modem's own:
-//   peak     of the matched filter, 32767 at 180 dB re 1 uPa;  power = 20 log10(peak), dB;  ratio = SNR, dB
-//   SNR in   of all paths into the receiver, SNR of symbols after its window, SNR out per bit, RSS as in; dB
-//   quality  255 SINR / (1 + SINR)
-//   Doppler  1500 m/s (f_rx / f_tx - 1)
+// The second generation sends version 6, with the version first and the time of arrival as
+// yyyymmddhhmmss.ffffff instead of hhmmss.ssss. Firmware from version 3 on sends CACST in version 8, with
+// four more fields (0,-1,-1,00), and CAXST in version 7, with microseconds and the carrier repeated at the
+// end. Quantities on scales of the modem:
+//
+//    peak             output of the matched filter, 32767 at 180 dB re 1 uPa
+//    power            20 log10(peak), dB
+//    ratio            SNR, dB
+//    SNR in           at the receiver, over all paths, dB; SNR RSS is the same
+//    SNR of symbols   after the receiver's equaliser window, dB
+//    SNR out          per bit, dB
+//    quality          255 SINR / (1 + SINR)
+//    Doppler          1500 m/s (f_rx / f_tx - 1)
 #pragma once
 
 #include <cstdint>
@@ -27,15 +32,15 @@
 
 namespace halocline::modem_gateway {
 
-// Sizes of the Micromodem's packets by rate.
+// Packet sizes of the Micromodem at one rate.
 struct MicromodemRate {
   int max_frames;
   int frame_bytes;
   double bit_rate_bps;
-  double bandwidth_hz;  // 4 kHz of FSK, 5 kHz of PSK
+  double bandwidth_hz;  // 4 kHz for FSK, 5 kHz for PSK
 };
 inline constexpr int kMicromodemRates = 7;
-// `rate`: 0 to 6.
+// Returns the sizes at `rate`, 0 to 6.
 const MicromodemRate& micromodem_rate(int rate);
 
 enum class MicromodemPacket { kUnknown = -1, kFsk = 1, kFskMini = 2, kPsk = 3, kPskMini = 4, kFlexible = 5 };
@@ -46,15 +51,15 @@ struct ReceptionReport {
   SimTime arrival;
   int rate = 0;
   std::int32_t source = 0, destination = 0;  // addresses
-  int psk_error = 0;                         // 0 none, 3 CRC of a frame, 5 time-out of the equaliser
+  int psk_error = 0;                         // 0 none, 3 CRC error of a frame, 5 time-out of the equaliser
   MicromodemPacket type = MicromodemPacket::kUnknown;
   int num_frames = 0, num_bad = 0;
   double level_db = 0, noise_db = 0, snr_db = 0, sinr_db = 0, snr_out_db = 0;
   double doppler_factor = 1;
 };
-// All but addresses and kind, which the door knows.
+// Fills all fields except addresses and packet type, which the caller knows.
 ReceptionReport report_of(const modem_receive_t& packet);
-// `arrival`: by the vehicle's clock.
+// `arrival` is in time of the vehicle's clock.
 ReceptionReport report_of(const packet_outcome_t& loss, SimTime arrival);
 
 struct TransmissionReport {
@@ -69,17 +74,17 @@ struct TransmissionReport {
   int bytes = 0;
 };
 
-// Of the modem that reports.
+// Versions of CACST that the modem reports; the first generation has none.
 inline constexpr int kOldVersion = 0, kVersion = 6, kNewestVersion = 8;
 struct ReporterState {
   const ModemClock& clock;
-  int version = kVersion;         // of CACST
-  bool has_clock_sources = true;  // in its clock mode, firmware from 2.0.26038 on
-  int gain = 0;                   // of the receiver, its setting AGN
+  int version = kVersion;         // version of CACST
+  bool has_clock_sources = true;  // clock mode with sources, firmware from 2.0.26038 on
+  int gain = 0;                   // gain of the receiver, setting AGN
   int carrier_hz = 0;
-  int level = 0;  // of the transmitter, its setting pwramp.txlevel
+  int level = 0;  // level of the transmitter, setting pwramp.txlevel
 };
-// Bodies of sentences, without $ and checksum.
+// Return the bodies of the sentences, without $ and checksum.
 std::string cacst(const ReporterState& modem, const ReceptionReport& report);
 std::string caxst(const ReporterState& modem, const TransmissionReport& report);
 

@@ -7,8 +7,8 @@
 
 namespace halocline::modem_gateway {
 
-// Those that change what the door does: CST, RXP, XST (lines), REV, SRC, SNV (start on whole seconds), DTO
-// (seconds for data), AGN, FC0.
+// Factory settings. These have an effect on the emulation: CST, RXP, XST (which lines are written), REV, SRC,
+// SNV (start on whole seconds), DTO (time-out for data, s), AGN, FC0.
 MicromodemSettings::MicromodemSettings()
     : values_{{"AGC", "1"},     {"AGN", "250"}, {"ASD", "0"},  {"BND", "0"}, {"BW0", "5000"}, {"CPR", "1"},
               {"CST", "1"},     {"CTO", "10"},  {"DOP", "1"},  {"DQF", "1"}, {"DTH", "108"},  {"DTO", "5"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The settings of a Micromodem by name; what a host sets need not be known.
+// Settings of a Micromodem by name. A host may also set names that are unknown here.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ class MicromodemSettings {
 
   void reset() { *this = MicromodemSettings(); }
   void set(std::string_view name, std::string_view value) { values_[std::string(name)] = std::string(value); }
-  // "0" for one that was never set and has no factory value.
+  // Returns "0" for a setting that was never set and has no factory value.
   std::string value(std::string_view name) const;
-  // As a whole number; 0 for another text.
+  // Returns the value as a whole number; 0 when it is none.
   std::int64_t number(std::string_view name) const;
   bool is_on(std::string_view name) const { return number(name) != 0; }
   const std::map<std::string, std::string, std::less<>>& all() const { return values_; }

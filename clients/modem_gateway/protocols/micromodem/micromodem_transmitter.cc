@@ -12,9 +12,9 @@
 namespace halocline::modem_gateway {
 namespace {
 
-// Of frames that wait for a cycle: as many as the largest packet has.
+// Most frames that wait for a cycle, as many as the largest packet holds, and their largest size in bytes.
 constexpr std::size_t kMostFrames = 8, kLargestFrame = 256;
-// How long the kind of a packet is known, for its answer.
+// Time after its end for which a packet's kind is remembered, so that answers can be matched to it.
 constexpr SimDuration kRemembered = SimDuration::from_milliseconds(60'000);
 
 MicromodemPacket type_of(MicromodemTransmitter::Kind kind, int rate) {
@@ -83,7 +83,7 @@ void MicromodemTransmitter::take_data(std::vector<std::uint8_t> bytes, bool want
   complete();
 }
 
-// All data is there: transmits, or where the host had none is done.
+// Ends the gathering of data and transmits it, unless the host had none.
 void MicromodemTransmitter::complete() {
   const Cycle cycle = *std::exchange(cycle_, std::nullopt);
   if (cycle.frame_bytes.empty()) return;
@@ -97,7 +97,7 @@ void MicromodemTransmitter::send(Transmission transmission, clients::SendOptions
   transmit(std::move(transmission), std::move(options));
 }
 
-// kNotSent where the modem cannot take it, which is reported.
+// Returns kNotSent when the modem cannot accept the packet, which is reported to the host.
 std::int64_t MicromodemTransmitter::transmit(Transmission transmission, clients::SendOptions options) {
   OnItsWay sent;
   sent.report.rate = options.rate_number.value_or(0);
@@ -125,7 +125,7 @@ std::optional<MicromodemTransmitter::Kind> MicromodemTransmitter::sent_as(
   return found == sent_.end() ? std::nullopt : std::optional(found->second.transmission.packet);
 }
 
-// The cycle packet is over: its host is asked for the data. Where it was not sent nothing comes of the cycle.
+// Asks the host for the data once the cycle packet has ended. If it could not be sent, the cycle is dropped.
 void MicromodemTransmitter::end_announcement(std::int64_t sequence, bool was_sent) {
   if (!cycle_ || cycle_->announcement != sequence) return;
   if (!was_sent) return cycle_.reset();
@@ -133,7 +133,7 @@ void MicromodemTransmitter::end_announcement(std::int64_t sequence, bool was_sen
   ask_for_data();
 }
 
-// Its CAXST, or where the host gets none an error.
+// Reports with CAXST that nothing was sent, or with an error to a host that receives no CAXST.
 void MicromodemTransmitter::report_not_sent(TransmissionReport report) const {
   report.mode = TransmissionReport::Mode::kInhibited;
   report.frames_sent = 0;
@@ -182,7 +182,7 @@ void MicromodemTransmitter::step() {
     it = advance(it->first, it->second) ? ++it : sent_.erase(it);
 }
 
-// Writes what has happened to it by now; false when it may be forgotten.
+// Reports to hosts what has happened to the packet by now. Returns false when it may be forgotten.
 bool MicromodemTransmitter::advance(std::int64_t sequence, OnItsWay& sent) {
   const SimTime now = core_.now();
   if (now >= sent.begins) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sending side of a Micromodem: data cycles, and what it writes of each transmission.
+// Transmitting side of a Micromodem: data cycles, and the reports of each transmission.
 //
-// A cycle asks its host for its frames one by one (CADRQ), then sends them as one packet. At rate 0 a cycle
-// packet goes out first, and the host is asked when that has ended. Frames that a host gives without being
-// asked wait for the next cycle, which then does not ask for them. Of every transmission: CATXP when its
-// sound begins, CATXF when it ends, then CAXST. Data that does not come in time ends the cycle
+// A cycle asks its host for frames one by one (CADRQ) and then sends them as one packet. At rate 0 a cycle
+// packet is transmitted first, and the host is asked when it has ended. Frames that a host gives unasked wait
+// for the next cycle, which then does not ask for them. Each transmission is reported by CATXP at its begin
+// and by CATXF at its end, followed by CAXST. Data that does not come in time ends the cycle
 // (CAERR,...,DATA_TIMEOUT).
 #pragma once
 
@@ -24,7 +24,7 @@
 
 namespace halocline::modem_gateway {
 
-// How a mini-packet of that kind is sent.
+// Returns the options with which a mini-packet of that kind is sent.
 clients::SendOptions mini_packet(MicromodemKind kind);
 
 class MicromodemTransmitter {
@@ -32,26 +32,27 @@ class MicromodemTransmitter {
   enum class Kind { kData, kCycle, kMini, kPing, kNewPing, kFlexible, kFramed, kFramedMini };
   struct Transmission {
     Kind packet = Kind::kData;
-    std::int32_t to = 0;           // vehicle
-    std::int64_t destination = 0;  // its address
+    std::int32_t to = 0;           // vehicle id
+    std::int64_t destination = 0;  // address of that vehicle
     std::vector<std::uint8_t> payload = {};
   };
 
   // `core` must outlive it.
   explicit MicromodemTransmitter(MicromodemCore& core) : core_(core) {}
 
-  // Whether a cycle gathers its data or waits to be sent.
+  // Returns true while a cycle gathers its data or waits for its cycle packet to end.
   bool is_busy() const { return cycle_.has_value(); }
-  // A cycle whose data this modem's host is asked for; with a cycle packet before it where told.
+  // Begins a cycle in which this modem sends, whose data its host is asked for; `has_cycle_packet`: a cycle
+  // packet is transmitted before.
   void begin(const MicromodemCycle& cycle, std::int32_t to, bool has_cycle_packet);
-  // Whether a frame of that size is awaited, or may wait for a cycle.
+  // Returns true when a frame of that size is awaited, or may wait for a cycle.
   bool can_take(std::size_t bytes) const;
-  // The next frame, which can be taken; an empty one ends the data.
+  // Takes the next frame, for which can_take() must hold; an empty frame ends the data.
   void take_data(std::vector<std::uint8_t> bytes, bool wants_ack);
 
-  // One packet, at the modem's next start, or after those before it.
+  // Sends one packet, at the modem's next start or after the packets before it.
   void send(Transmission transmission, clients::SendOptions options);
-  // What was sent with that number; none where it is forgotten.
+  // Returns the kind of the packet that was sent with that number; nothing when it is forgotten.
   std::optional<Kind> sent_as(std::int64_t packet_sequence) const;
 
   void on_receipt(const modem_receipt_t& receipt);
@@ -62,11 +63,11 @@ class MicromodemTransmitter {
   struct Cycle {
     MicromodemCycle wanted;
     std::int32_t to = 0;
-    std::optional<std::int64_t> announcement = {};  // its cycle packet, until that has ended
+    std::optional<std::int64_t> announcement = {};  // number of its cycle packet, until that has ended
     std::vector<std::uint8_t> payload = {};
     std::vector<std::int32_t> frame_bytes = {};
     bool wants_ack = false;
-    SimTime asked = SimTime::never();  // for the next frame
+    SimTime asked = SimTime::never();  // time at which the next frame was asked for
   };
   struct Frame {
     std::vector<std::uint8_t> bytes;
@@ -78,7 +79,7 @@ class MicromodemTransmitter {
     SimTime begins = SimTime::never(), ends = SimTime::never(), forgotten = SimTime::never();
   };
 
-  // When the cycle is given up for want of data; never() without one.
+  // Returns the time at which the cycle ends for lack of data; never() without a cycle.
   SimTime data_due() const;
   std::size_t frame_size() const;
   void ask_for_data();
@@ -90,7 +91,7 @@ class MicromodemTransmitter {
 
   MicromodemCore& core_;
   std::optional<Cycle> cycle_;
-  std::deque<Frame> waiting_;  // for a cycle
+  std::deque<Frame> waiting_;  // frames that wait for a cycle
   std::map<std::int64_t, OnItsWay> sent_;
 };
 

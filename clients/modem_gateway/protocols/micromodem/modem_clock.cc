@@ -89,7 +89,7 @@ std::optional<std::int64_t> calendar_seconds(std::int64_t year, std::int64_t mon
 }
 
 std::optional<std::int64_t> calendar_seconds(std::string_view iso) {
-  // yyyy-mm-ddThh:mm:ss, perhaps with Z.
+  // The form is yyyy-mm-ddThh:mm:ss, optionally with Z.
   if (iso.size() < 19 || iso.size() > 20 || iso[4] != '-' || iso[7] != '-' || iso[10] != 'T' ||
       iso[13] != ':' || iso[16] != ':' || (iso.size() == 20 && iso[19] != 'Z'))
     return std::nullopt;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The calendar clock of a modem: its vehicle's clock, shifted by what a host has set. All times given to it
-// are readings of that clock.
+// Calendar clock of a modem: its vehicle's clock plus an offset that a host sets. All times passed to it are
+// readings of the vehicle's clock.
 //
-// Before it is set it shows the vehicle's clock from 1970 on. With `pps`, a pulse each whole second to which
-// all synchronised modems agree, here the whole seconds of the vehicle's clock, the time that a host sets
-// holds from the next pulse: so the fractions of a second of all such clocks are equal, as far as the
-// vehicles' clocks are, and that of an arrival is the travel time of what left on a second.
+// Until it is set, it shows the vehicle's clock counted from 1970. With `pps` the modem receives a pulse at
+// each whole second of the vehicle's clock, and the time that a host sets is valid from the next pulse. All
+// such clocks then agree in their fractions of a second, as far as the vehicles' clocks agree, and the
+// fraction of an arrival time is the travel time of a packet that left on a whole second.
 #pragma once
 
 #include <cstdint>
@@ -24,15 +24,15 @@ class ModemClock {
 
   bool has_pps() const { return has_pps_; }
   bool is_set() const { return is_set_; }
-  // `calendar_s`: seconds since 1970, UTC.
+  // Sets the clock to `calendar_s`, seconds since 1970, UTC.
   void set(SimTime now, std::int64_t calendar_s);
 
-  // Microseconds since 1970.
+  // Returns microseconds since 1970.
   std::int64_t calendar_us(SimTime time) const { return time.to_utime() + offset_us_; }
-  // The next whole second of the clock, `now` included.
+  // Returns the next whole second of the clock, which may be `now`.
   SimTime next_second(SimTime now) const;
 
-  std::string hhmmss(SimTime time, int decimals = 0) const;  // cut off, not rounded
+  std::string hhmmss(SimTime time, int decimals = 0) const;  // truncated, not rounded
   std::string yyyymmdd(SimTime time) const;
   std::string comma_separated(SimTime time) const {
     return comma_separated_of(calendar_us(time) / 1'000'000);
@@ -48,10 +48,10 @@ class ModemClock {
   std::int64_t offset_us_ = 0;
 };
 
-// Seconds since 1970 of a date and time of day, UTC; none where there is no such.
+// Converts a date and time of day, UTC, to seconds since 1970; nothing when there is no such date or time.
 std::optional<std::int64_t> calendar_seconds(std::int64_t year, std::int64_t month, std::int64_t day,
                                              std::int64_t hour, std::int64_t minute, std::int64_t second);
-// Of yyyy-mm-ddThh:mm:ssZ.
+// Converts a text of the form yyyy-mm-ddThh:mm:ssZ.
 std::optional<std::int64_t> calendar_seconds(std::string_view iso);
 
 }  // namespace halocline::modem_gateway

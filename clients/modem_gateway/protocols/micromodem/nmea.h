@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sentences as NMEA 0183 frames them: $ body * HH, HH the exclusive or of the body's bytes in two hexadecimal
-// digits.
+// Sentences framed as in NMEA 0183: $ body * HH, where HH is the exclusive or of the body's bytes in two
+// hexadecimal digits.
 #pragma once
 
 #include <array>
@@ -18,14 +18,15 @@ namespace halocline::modem_gateway {
 struct NmeaSentence {
   enum class Problem { kNone, kNoSentence, kChecksum };
   Problem problem = Problem::kNone;
-  std::string id;                        // what stands before the first comma, in capitals: CCCFG
-  std::vector<std::string_view> fields;  // what stands between commas after that, empty ones included
+  std::string id;                        // text before the first comma, in capitals: CCCFG
+  std::vector<std::string_view> fields;  // texts between the later commas, including empty ones
 
-  // "" beyond the last field.
+  // Returns the i-th field; "" beyond the last.
   std::string_view field(std::size_t i) const { return i < fields.size() ? fields[i] : std::string_view(); }
-  // The fields as they came, a comma before each.
+  // Returns the fields as received, with a comma before each.
   std::string all_fields() const;
-  // The whole numbers in `count` fields from `first` on; none where one is no number from 0 to 100000.
+  // Returns the whole numbers in `count` fields from `first` on; nothing when one is no number from 0 to
+  // 100000.
   template <std::size_t count>
   std::optional<std::array<std::int64_t, count>> numbers(std::size_t first = 0) const {
     std::array<std::int64_t, count> values{};
@@ -39,10 +40,10 @@ struct NmeaSentence {
 };
 
 std::uint8_t nmea_checksum(std::string_view body);
-// With $, checksum, carriage return and line feed.
+// Frames a body with $, checksum, carriage return and line feed.
 std::string nmea_line(std::string_view body);
-// A line without its end; the checksum may be missing, and in either case; blanks may follow. Refers to
-// `line`.
+// Parses a line without its line end. The checksum may be missing and may be in either case; blanks may
+// follow. The result refers to `line`.
 NmeaSentence nmea_sentence(std::string_view line);
 
 }  // namespace halocline::modem_gateway

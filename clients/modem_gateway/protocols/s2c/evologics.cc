@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// EvoLogics S2C: AT commands in command mode, which is that of a network interface, and data mode (`+++AT`),
-// instant, synchronous and piggy-back messages, bursts, positions of a USBL head.
+// EvoLogics S2C modem: AT commands in command mode, which is that of a network interface, and in data mode
+// (`+++AT`); instant, synchronous and piggy-back messages, bursts, and positions of a USBL head.
 //
-// Each host has its own mode; ATO and ATC change it. Bytes that are no commands in data mode go to the remote
-// address (!AR) as bursts of up to 1024 bytes, once 50 ms have passed without more; what comes of another's
-// stream is written as it is to hosts in data mode, and as RECV to the others. Options: `mode` (net or data,
-// of a host that connects; ?MODE says NET or AT).
+// Each host has its own mode, which ATO and ATC change. In data mode, bytes that are no commands go to the
+// remote address (!AR) as bursts of up to 1024 bytes, once 50 ms have passed without further bytes. Bytes
+// received from another modem's stream are written unchanged to hosts in data mode, and as RECV to the
+// others. Option: `mode` (net or data: the mode of a host when it connects, which ?MODE reports as NET or
+// AT).
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -42,15 +43,15 @@ namespace {
 
 constexpr SimDuration kStreamPause = SimDuration::from_milliseconds(50);
 constexpr std::size_t kMaxStreamBurst = 1024, kMaxStream = 16 * kMaxStreamBurst;
-// Packets whose bearing may still come.
+// Most packets that are remembered because their bearing may still arrive.
 constexpr std::size_t kMaxRecent = 32;
-// The table of ?P has as many lines, filled up with zeros: hosts read so many.
+// The table of ?P has at least this many lines, padded with zeros, because hosts read that many.
 constexpr std::size_t kLeastPaths = 8;
-// An answer to ?P that the channel does not give in time is empty.
+// Time-out of ?P: when the channel server has not replied by then, the table is empty.
 constexpr SimDuration kPathsWithin = SimDuration::from_milliseconds(800);
 
-// A message of the same number within this is a repetition: longer than all tries of one take, shorter than
-// seven messages' that fail.
+// A message with the same number within this time counts as a repetition. It is longer than all attempts of
+// one message take, and shorter than seven failing messages take, after which numbers recur.
 constexpr SimDuration kRepeatedWithin = SimDuration::from_milliseconds(30'000);
 
 class Evologics : public Protocol {
@@ -149,9 +150,9 @@ class Evologics : public Protocol {
  private:
   struct ShownPath {
     long long delay_us = 0;
-    long amplitude = 0;  // 1000 of the strongest
+    long amplitude = 0;  // relative to the strongest path, which has 1000
   };
-  // A packet whose bearing may come.
+  // A packet whose bearing may still arrive.
   struct Recent {
     std::int64_t session, sequence;
     std::int8_t kind;
@@ -186,7 +187,7 @@ class Evologics : public Protocol {
     if (const auto host = hosts_.find(client); host != hosts_.end()) host->second.set_data_mode(to_data);
   }
 
-  // ?P: the paths of sound from whom the modem heard last.
+  // Answers ?P with the sound paths from the modem that was heard last.
   void ask_paths(ClientId client) {
     const bool is_asked = !paths_client_ && last_source_ != kBroadcastId && port_.ask_paths(last_source_);
     if (!is_asked) return answer(client, "?P", paths_text({}));
@@ -204,7 +205,7 @@ class Evologics : public Protocol {
     return text;
   }
 
-  // Of a message whose acknowledgement was lost.
+  // Returns true for a message that is sent again because its acknowledgement was lost.
   bool is_repetition(const modem_receive_t& packet) {
     const int number = s2c_payload(packet).number;
     if (number == 0) return false;
@@ -265,7 +266,7 @@ class Evologics : public Protocol {
   S2cCore core_;
   ProtocolPort& port_;
   S2cSender sender_;
-  // The last of (source, destination, rate), and when it came.
+  // Last message number of each (source, destination, rate), and when it was received.
   std::map<std::tuple<std::int32_t, std::int32_t, std::int32_t>, std::pair<int, SimTime>> numbers_;
   S2cSettings settings_;
   bool begins_in_data_mode_ = false;

@@ -14,9 +14,9 @@ S2cPayload s2c_payload(const modem_receive_t& packet) {
 
 namespace {
 
-// Those that change what the door does: !AM (highest address), !AR (remote address of the stream), !RC, !RI
-// (tries after the first of bursts and of instant messages), !RT (milliseconds to wait for an answer, beyond
-// its own duration), !RP (promiscuous), @ZU, @ZX, @ZF.
+// Factory settings. These have an effect on the emulation: !AM (highest address), !AR (remote address of the
+// stream), !RC and !RI (retries of bursts and of instant messages), !RT (time to wait for an answer beyond
+// its own duration, ms), !RP (promiscuous), @ZU, @ZX, @ZF.
 std::map<std::string, std::int64_t, std::less<>> factory_settings() {
   return {{"!AM", 254}, {"!AR", 0}, {"!C", 0},  {"!CA", 1500}, {"!G", 0},     {"!KO", 0}, {"!L", 0},
           {"!LC", 0},   {"!RC", 3}, {"!RI", 1}, {"!RP", 0},    {"!RT", 4000}, {"!ZC", 0}, {"!ZI", 120},

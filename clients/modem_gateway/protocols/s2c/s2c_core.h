@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all parts of an EvoLogics modem share: settings, clock, addresses, and how it tells its hosts.
+// State that all parts of an EvoLogics modem share (settings, clock, addresses), and its messages to hosts.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,16 @@
 
 namespace halocline::modem_gateway {
 
-// The kinds of the modem's packets. The bus knows data of two rates; the number in the packet's header holds
-// kind (2 bits) and protocol id (3).
+// Kinds of the modem's packets. The bus carries them as data at two rates; the number in the packet's header
+// holds the kind (2 bits), the protocol id (3 bits) and the number of the message (3 bits).
 enum class S2cKind { kPlain = 0, kSynchronous = 1, kPiggyBack = 2, kForced = 3 };
-inline constexpr S2cKind kS2cStream = S2cKind::kSynchronous;  // of a burst
+inline constexpr S2cKind kS2cStream = S2cKind::kSynchronous;  // kind of a stream's burst
 
 struct S2cPayload {
   S2cKind kind = S2cKind::kPlain;
   int protocol = 0;
   std::vector<std::uint8_t> bytes;
-  int number = 0;  // 1 to 7 of what may be repeated, by which a repetition is known; 0: none
+  int number = 0;  // 1 to 7 for a message that may be repeated, to recognise repetitions; 0: none
 
   std::int32_t header_number() const { return static_cast<int>(kind) | protocol << 2 | number << 5; }
 };
@@ -36,7 +36,7 @@ inline constexpr std::int32_t kS2cImRate = 0, kS2cBurstRate = 1;
 
 class S2cCore {
  public:
-  // A message to all hosts, each in its own mode.
+  // Sends a message to all hosts, each in its own mode.
   using Tell = std::function<void(const std::string& body)>;
 
   S2cCore(ProtocolContext& context, Tell tell);
@@ -46,20 +46,20 @@ class S2cCore {
   std::int32_t vehicle_id() const { return vehicle_id_; }
   std::int32_t own_address() const { return addresses_.address_of(vehicle_id_).value_or(0); }
   void take_address(std::int32_t address) { addresses_.assign(vehicle_id_, address); }
-  // The address of all: all bits of addresses up to the highest (!AM), 255 for 254. 255 stands for it in any
+  // Broadcast address: the highest address (!AM) plus one, 255 for 254. 255 is a broadcast address in any
   // case.
   std::int32_t broadcast() const { return static_cast<std::int32_t>(setting("!AM")) + 1; }
   bool is_broadcast(std::int64_t address) const { return address == broadcast() || address == kAll; }
-  // Of vehicle and address, kBroadcastId and broadcast() standing for all.
+  // Convert between vehicle id and address; kBroadcastId corresponds to broadcast().
   std::int32_t vehicle_of(std::int64_t address) const;
   std::int32_t address_of(std::int32_t vehicle_id) const;
 
-  // A setting by its sign and letters (!RI, @ZX).
+  // Returns a setting by its sign and letters (!RI, @ZX).
   std::int64_t setting(std::string_view name) const { return setting_in(settings_, name); }
   void set(std::string_view name, std::int64_t value) { settings_[std::string(name)] = value; }
   const std::map<std::string, std::int64_t, std::less<>>& settings() const { return settings_; }
-  // Settings and the own address: those of the modem as it was delivered, which clears its non-volatile
-  // memory; to that memory; from it.
+  // Settings together with the own address: reset_settings() restores those of delivery and clears the
+  // non-volatile memory, store_settings() saves them to that memory, recall_settings() loads them from it.
   void reset_settings();
   void store_settings();
   void recall_settings();
@@ -67,15 +67,15 @@ class S2cCore {
   bool is_address_stored() const { return own_address() == stored_.address; }
   void archive(Archive& a);
 
-  // What the vehicle's clock shows, which is the modem's.
+  // Returns the reading of the vehicle's clock, which is the modem's clock.
   SimTime reading() const { return port_.clock_at(now()); }
-  // A reading as messages have it: microseconds, 32 bits.
+  // Returns a reading as messages contain it: the low 32 bits of its microseconds.
   static std::uint32_t clock_us(SimTime reading) { return static_cast<std::uint32_t>(reading.to_utime()); }
-  // The instant nearest to now at which the clock shows that.
+  // Returns the simulation time nearest to now at which the clock shows that.
   SimTime time_of(std::uint32_t clock_us) const;
 
   void tell(const std::string& body) const { tell_(body); }
-  // The same where extended notifications are on (@ZX1).
+  // Sends a message to all hosts when extended notifications are on (@ZX1).
   void tell_more(const std::string& body) const {
     if (setting("@ZX") != 0) tell_(body);
   }

@@ -26,7 +26,7 @@ S2cQuality quality(const S2cCore& core, double duration_s, double level_db, doub
           static_cast<double>(core.setting("!CA")) * (doppler_factor - 1)};
 }
 
-// "p3," where protocol ids are shown.
+// Returns "p3," for protocol id 3 when the setting @ZF shows protocol ids, else "".
 std::string protocol_field(const S2cCore& core, const S2cPayload& payload) {
   return core.setting("@ZF") != 0 ? fmt::format("p{},", payload.protocol) : "";
 }
@@ -62,7 +62,8 @@ std::string instant_message(const S2cCore& core, const modem_receive_t& packet, 
   return fmt::format("RECVIM,{},{},{}", head, flag, tail);
 }
 
-// Roll, pitch and yaw as the vehicle measures them, of a fixed one as it stands.
+// Returns roll, pitch and yaw as the vehicle's sensors measure them; for a node without sensors, the true
+// attitude.
 EulerAngles attitude_of(const ProtocolPort& port) {
   if (const vehicle_sensors_t* s = port.sensors()) return {s->roll_rad, s->pitch_rad, s->heading_rad};
   const vehicle_state_t* state = port.state();

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kEscape = "+++AT", kSend = "AT*SEND", kEnds = "\r\n", kSigns = "*!?&@";
 constexpr std::int64_t kMaxData = 1024;
 
-// Fields of commands that send, before their data: length, destination and one more of some.
+// Number of fields before the data of a command that sends: length, destination and, for some, one more.
 struct SendShape {
   std::string_view name;
   std::size_t num_fields;
@@ -23,10 +23,10 @@ constexpr std::array<SendShape, 4> kSendShapes{
 
 bool is_letter(char c) { return c >= 'A' && c <= 'Z'; }
 
-// The head of a command that sends, where `text` has all of it.
+// Head of a command that sends, that is everything before its data.
 struct SendHead {
   std::vector<std::string> fields;
-  std::size_t size = 0;  // up to the data
+  std::size_t size = 0;  // bytes before the data
   std::size_t data_bytes = 0;
 };
 enum class HeadState { kNone, kIncomplete, kComplete };
@@ -73,7 +73,7 @@ std::optional<S2cReader::Item> S2cReader::take() {
   return take_line(0);
 }
 
-// In data mode `begin` is 3, beyond +++.
+// Takes a command or a line of data mode. `begin` is the offset of the command: 3 in data mode, after +++.
 std::optional<S2cReader::Item> S2cReader::take_line(std::size_t begin) {
   const std::string_view text = std::string_view(buffer_).substr(begin);
   const std::size_t end = std::min(text.find_first_of(kEnds), text.size());
@@ -101,12 +101,12 @@ std::optional<S2cReader::Item> S2cReader::take_line(std::size_t begin) {
     return Item{S2cCommand{{}, {}, {}, {}, false}, {}};
   }
   Item item{s2c_command(text.substr(0, end)), {}};
-  if (text.starts_with(kSend)) item.command->is_well_formed = false;  // without a head
+  if (text.starts_with(kSend)) item.command->is_well_formed = false;  // incomplete head
   buffer_.erase(0, begin + end + 1);
   return item;
 }
 
-// Skips up to the end of the line that `size` bytes belong to.
+// Reports a malformed command and skips to the end of the line that contains byte `size`.
 S2cReader::Item S2cReader::wrong(std::size_t size) {
   S2cCommand command = s2c_command(std::string_view(buffer_).substr(buffer_.find("AT")));
   command.is_well_formed = false;
@@ -121,7 +121,7 @@ std::optional<S2cReader::Item> S2cReader::take_data() {
   if (discards_line_) return take_line(0);
   std::size_t size = buffer_.find(kEscape);
   if (size == std::string::npos) {
-    // The end may be the beginning of +++AT.
+    // The end may be an incomplete +++AT; it is kept until more arrives.
     size = buffer_.size();
     for (std::size_t held = std::min(kEscape.size() - 1, size); held > 0; --held) {
       if (!buffer_.ends_with(kEscape.substr(0, held))) continue;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands and data out of the bytes that a host writes to an EvoLogics modem, in any pieces.
+// Reader of an EvoLogics modem: splits the bytes of a host, in arbitrary pieces, into commands and data.
 //
-// In command mode there are commands, ended by a carriage return, a line feed or both; those that send hold
-// data of a stated length, which may contain anything. In data mode a command begins with +++AT, and all
-// other bytes are data of the burst connection.
+// In command mode everything is a command, which ends at a carriage return, a line feed or both. Commands
+// that send contain data of a stated length, which may be any bytes. In data mode a command begins with
+// +++AT, and all other bytes are data of the burst connection.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +16,17 @@
 namespace halocline::modem_gateway {
 
 struct S2cCommand {
-  std::string name;        // with its sign and without parameters: *SENDIM, !AL, ?CLOCK, &V, I, Z
-  std::string parameters;  // what follows it up to the end of the line: 12
+  std::string name;        // name with its sign, without parameters: *SENDIM, !AL, ?CLOCK, &V, I, Z
+  std::string parameters;  // text after the name, up to the end of the line: 12
   std::vector<std::string>
-      fields;        // of a command that sends: protocol id, length, destination, ... before its data
-  std::string data;  // of a command that sends
-  bool is_well_formed = true;  // false: a line that is no command, or data of another length than stated
+      fields;        // fields of a command that sends, before its data: protocol id, length, destination, ...
+  std::string data;  // data of a command that sends
+  bool is_well_formed = true;  // false: the line is no command, or the data has another length than stated
 };
 
 class S2cReader {
  public:
-  // What came: a command, or data of the burst connection.
+  // One command, or data of the burst connection.
   struct Item {
     std::optional<S2cCommand> command;
     std::string data;
@@ -38,9 +38,10 @@ class S2cReader {
   void set_data_mode(bool data_mode) { is_data_mode_ = data_mode; }
 
   void append(std::string_view bytes) { buffer_ += bytes; }
-  // The next that is complete; none while there is none. A change of mode holds for what follows.
+  // Takes the next complete item, if any. A change of mode applies to the bytes after it.
   std::optional<Item> take();
-  // In data mode, what looked like the beginning of a command and went no further; it is data.
+  // Takes, in data mode, bytes that looked like the beginning of a command but were not continued; they are
+  // data.
   std::string take_held();
 
  private:
@@ -50,10 +51,10 @@ class S2cReader {
 
   std::string buffer_;
   bool is_data_mode_ = false;
-  bool discards_line_ = false;  // the rest of one that was too long
+  bool discards_line_ = false;  // skips the rest of a line that was too long
 };
 
-// The name and the parameters of a line that begins with AT.
+// Splits a line that begins with AT into name and parameters.
 S2cCommand s2c_command(std::string_view line);
 
 }  // namespace halocline::modem_gateway

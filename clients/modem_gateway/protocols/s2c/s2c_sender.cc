@@ -15,13 +15,13 @@
 namespace halocline::modem_gateway {
 namespace {
 
-// Until a burst that a busy modem refused is tried again.
+// Time after which a burst that found the modem busy is tried again.
 constexpr SimDuration kBusyWait = SimDuration::from_milliseconds(200);
-// The channel's turnaround and an acknowledgement of one byte (docs/packets.md; models/modems/s2c-im.toml),
-// and a little more.
+// Delay of a piggy-back message: the channel's turnaround and an acknowledgement of one byte
+// (docs/packets.md; models/modems/s2c-im.toml), with a margin.
 constexpr SimDuration kAfterAck = SimDuration::from_milliseconds(100 + 173 + 27);
 constexpr std::size_t kMaxInstant = 64;
-// Longer than any packet: a burst of 1024 bytes takes 1.4 s.
+// Longer than the longest packet: a burst of 1024 bytes takes 1.4 s.
 constexpr SimDuration kLongestPacket = SimDuration::from_milliseconds(5000);
 
 const char* name_of(S2cMessage::Type type) {
@@ -49,7 +49,8 @@ S2cMessage::Type type_of(const std::string& command) {
   return command == "*SEND" ? S2cMessage::Type::kBurst : S2cMessage::Type::kInstant;
 }
 
-// The flag of an instant message, the time of a synchronous one; "" where that is well.
+// Reads the last field: the flag of an instant message, the time of a synchronous one. Returns "" or an
+// error.
 std::string take_last_field(const S2cCore& core, const S2cCommand& command, S2cMessage& message) {
   const std::string& last = command.fields.back();
   switch (message.type) {
@@ -76,7 +77,8 @@ std::string take_last_field(const S2cCore& core, const S2cCommand& command, S2cM
 
 }  // namespace
 
-// [pP,]length,destination, then the flag of an instant message or the time of a synchronous one.
+// The fields are [pP,]length,destination and then the flag of an instant message or the time of a synchronous
+// one.
 std::string S2cSender::take(const S2cCommand& command) {
   S2cMessage message;
   message.type = type_of(command.name);
@@ -134,7 +136,7 @@ void S2cSender::begin(std::optional<OnItsWay>& place, S2cMessage message, SimTim
   if (start >= core_.now() &&
       (!is_receiving() || is_burst || sent.message.payload.kind == S2cKind::kForced || start > core_.now()))
     return transmit(sent);
-  // Told by step(), after the answer to the command.
+  // A failure is reported by step(), so that it follows the answer to the command.
   sent.until = core_.now();
 }
 
@@ -196,7 +198,8 @@ void S2cSender::on_ack(const modem_receive_t& ack) {
   const bool is_good = !ack.payload.empty() && (ack.payload[0] & 1) != 0;
   if (place == nullptr || !is_good) return;
   note_propagation(ack.two_way_travel_time_s / 2);
-  // When it was decoded, and when what it acknowledges left.
+  // RECVSRV contains the time at which the acknowledgement was decoded and the time at which its message
+  // left.
   const S2cQuality q = quality_of(core_, ack);
   const std::uint32_t arrival_us = S2cCore::clock_us(SimTime::from_utime(ack.arrival_utime));
   core_.tell_more(fmt::format("RECVSRV,{},{},ack,{},{},{},{}", core_.address_of(ack.source_id),
@@ -220,7 +223,7 @@ void S2cSender::on_acknowledged(const modem_receive_t& packet) {
   begin(piggy_back_, *std::exchange(waiting_piggy_back_, std::nullopt), core_.now() + kAfterAck);
 }
 
-// `delivered`: acknowledged, or sent where no acknowledgement is wanted.
+// `delivered`: the message was acknowledged, or was sent and wants no acknowledgement.
 void S2cSender::finish(std::optional<OnItsWay>& place, bool delivered) {
   const S2cMessage message = std::exchange(place, std::nullopt)->message;
   last_address_ = message.address;
@@ -273,7 +276,7 @@ void S2cSender::step(std::optional<OnItsWay>& place) {
     sent.until = now + SimDuration::from_milliseconds(core_.setting("!RT"));
   }
   if (now < sent.until) return;
-  if (sent.sequence == kNotSent) return cancel(place);  // too late, or kept by a reception
+  if (sent.sequence == kNotSent) return cancel(place);  // too late, or prevented by a reception
   if (sent.tries_left-- <= 0 || !message.wants_ack) return finish(place, false);
   sent.start = now;
   transmit(sent);

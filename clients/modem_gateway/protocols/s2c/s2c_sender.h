@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an EvoLogics modem has to send: one instant message at a time, one piggy-back message that waits for
-// an acknowledgement to ride on, and a queue of bursts.
+// Messages that an EvoLogics modem has to send: at most one instant message, one piggy-back message, which
+// waits for an acknowledgement to follow, and a queue of bursts.
 //
-// Instant messages with acknowledgement are repeated !RI times, bursts !RC times, where none comes within !RT
-// milliseconds after the end of the transmission. A message is refused by the water's side (CANCELED...)
-// where the modem is receiving, unless forced. A piggy-back message goes out as a packet of its own as soon
-// as the modem's acknowledgement has ended.
+// An instant message with acknowledgement is repeated !RI times, and a burst !RC times, when no
+// acknowledgement arrives within !RT milliseconds after the end of the transmission. A message is cancelled
+// (CANCELED...) when the modem is receiving, unless it is forced. A piggy-back message is transmitted as a
+// packet of its own as soon as the modem's acknowledgement has ended.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ struct S2cMessage {
   std::int32_t address = 0;
   S2cPayload payload;
   bool wants_ack = false;
-  std::optional<std::uint32_t> at_us;  // by the modem's clock, of a synchronous one
+  std::optional<std::uint32_t> at_us;  // start of a synchronous message, by the modem's clock
 };
 
 class S2cSender {
@@ -39,22 +39,22 @@ class S2cSender {
   // `core` must outlive it.
   explicit S2cSender(S2cCore& core) : core_(core) {}
 
-  // Answers OK, or why it is refused. `command`: one that sends, with its fields and data.
+  // Takes a command that sends, with its fields and data. Returns OK, or the reason of a refusal.
   std::string take(const S2cCommand& command);
   std::string take(S2cMessage message);
-  // Forgets what was not sent, or not acknowledged.
+  // Forgets all messages that were not sent or not acknowledged.
   void clear();
 
   void on_receipt(const modem_receipt_t& receipt);
   void on_ack(const modem_receive_t& ack);
   void on_event(const modem_event_t& event);
-  // A packet of another that this modem acknowledges.
+  // Sends the waiting piggy-back message after the acknowledgement of this received packet.
   void on_acknowledged(const modem_receive_t& packet);
 
   SimTime next() const;
   void step();
 
-  // One way, as the last acknowledgement showed, us; 0 before one.
+  // Returns the one-way travel time that the last acknowledgement showed, us; 0 before the first.
   std::int64_t propagation_us() const { return propagation_us_; }
   void note_propagation(double one_way_s);
   std::int32_t last_address() const { return last_address_; }
@@ -77,17 +77,17 @@ class S2cSender {
   void finish(std::optional<OnItsWay>& place, bool delivered);
   void next_burst();
 
-  // The next number of what goes to that address.
+  // Returns the next message number for that address.
   int next_number(bool is_burst, std::int32_t address);
 
   S2cCore& core_;
-  std::map<std::pair<bool, std::int32_t>, int> numbers_;  // the last, of bursts or not, by address
-  std::optional<OnItsWay> instant_, burst_;               // under way
-  std::optional<OnItsWay> piggy_back_;                    // likewise
+  std::map<std::pair<bool, std::int32_t>, int> numbers_;  // last number, by (is a burst, address)
+  std::optional<OnItsWay> instant_, burst_;               // being sent
+  std::optional<OnItsWay> piggy_back_;                    // being sent
   std::optional<S2cMessage> waiting_piggy_back_;
   std::deque<S2cMessage> bursts_;
   SimTime burst_due_ = SimTime::never();
-  SimTime receiving_until_;  // of a packet that was detected, at the latest
+  SimTime receiving_until_;  // latest end of the packet that was detected
   std::int64_t bursts_done_ = 0, propagation_us_ = 0;
   std::int32_t last_address_ = 0;
 };

@@ -14,11 +14,11 @@ namespace halocline::modem_gateway {
 namespace {
 
 constexpr std::string_view kFirmware = "1.9", kVersions = "phy: 03, mac: v1.2";
-// Our choice: a pack of 24 V when full that falls to 20 V; the bus knows energy alone. Without a battery,
-// mains.
+// Assumed supply: a battery of 24 V when full that falls to 20 V (the bus carries its energy alone). A node
+// without a battery has 24 V.
 constexpr double kFull_v = 24, kEmpty_v = 20;
 
-// Settings by name and the values that they take.
+// A setting and the range of its values.
 struct Setting {
   std::string_view name;
   std::int64_t lowest, highest;
@@ -95,8 +95,8 @@ std::optional<std::string> S2cSettings::query(const std::string& name) const {
   return "ERROR UNKNOWN COMMAND";
 }
 
-// Closed by an empty line; the end of the last is that of every answer. [*] marks what was changed and not
-// stored.
+// Lists one setting a line; the line end that follows every answer makes an empty line after the last one.
+// [*] marks a setting that was changed and not stored.
 std::string S2cSettings::all_settings() const {
   const auto mark = [](bool is_stored) { return is_stored ? "" : "[*]"; };
   std::string text =

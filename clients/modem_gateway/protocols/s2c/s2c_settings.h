@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands of an EvoLogics modem that set, ask and reset: !, @, ?, &, Z, I and the like.
+// Commands of an EvoLogics modem that set, query and reset: !, @, ?, &, Z, I and others.
 #pragma once
 
 #include <functional>
@@ -15,13 +15,14 @@ namespace halocline::modem_gateway {
 
 class S2cSettings {
  public:
-  // Both must outlive it. `on_stored`: the modem's non-volatile memory has changed.
+  // `core` and `sender` must outlive it. `on_stored` is called when the modem's non-volatile memory has
+  // changed.
   S2cSettings(S2cCore& core, S2cSender& sender, std::function<void()> on_stored)
       : core_(core), sender_(sender), on_stored_(std::move(on_stored)) {}
 
-  // The body of the answer; none for a command that is none of these.
+  // Returns the body of the answer; nothing for a command that belongs to another part.
   std::optional<std::string> answer(const S2cCommand& command);
-  // The last position by the USBL, for ?UP.
+  // Stores the last position measured by the USBL, for ?UP.
   void note_position(std::string position) { position_ = std::move(position); }
 
  private:

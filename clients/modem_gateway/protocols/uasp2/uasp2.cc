@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// UASP2, the acoustic streaming protocol of UnetStack: an ADC and a DAC over the network, of one channel
-// each.
+// UASP2, the acoustic streaming protocol of UnetStack: an ADC and a DAC of one channel each over the network.
 //
 // Format: "UnetStack acoustic streaming protocol v2" (org-arl/VirtualAcousticOcean.jl, 2025). Commands are
-// lines of JSON over TCP; what the DAC is to play comes in them, in base 64; what the ADC records goes by UDP
-// to the port that a host names. A unit of data, big-endian:
-//   uint64 time of the first sample, us; uint32 number; uint16 samples; uint16 channels; float32 samples
-// Full scale is 1: at the DAC a sine of amplitude 1 has the source level of the vehicle's modem, at the ADC
-// the pressure of 1 uPa is 10^(sensitivity_db / 20). Time is simulation time, since the last `ireset`.
+// lines of JSON over TCP. Samples for the DAC come in them, in base 64; samples of the ADC go by UDP to the
+// port that a host names. A unit of data, big-endian:
 //
-// Options: `rate` and `output_rate`, samples a second of ADC and DAC until a host sets others;
-// `sensitivity_db`, dB re 1/uPa. The ADC runs while a host has it streamed; a unit goes out a few tenths of a
-// second after its time (sound_field.h), its time is exact. The DAC plays one buffer after another. The
-// protocol has no errors: {"error": text} is ours. `quit` is ignored.
+//    uint64 time of the first sample, us; uint32 number; uint16 samples; uint16 channels; float32 samples
+//
+// Full scale is 1. At the DAC a sine of amplitude 1 has the source level of the vehicle's modem; at the ADC a
+// pressure of 1 uPa gives 10^(sensitivity_db / 20). Time is simulation time since the last `ireset`.
+//
+// Options: `rate` and `output_rate`, samples per second of ADC and DAC until a host sets others;
+// `sensitivity_db`, dB re 1/uPa. The ADC runs while a host streams it. A unit is sent a few tenths of a
+// second after its time (sound_field.h); the time in it is exact. The DAC plays one buffer after another. The
+// published protocol defines no errors: {"error": text} is an addition of Halocline. `quit` is ignored.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -48,8 +49,8 @@ using nlohmann::json;
 
 constexpr std::size_t kHeaderBytes = 16, kSampleBytes = 4;
 constexpr std::size_t kMaxBuffer = 2'880'000;  // samples
-constexpr std::int64_t kBlock = 256;           // samples of a unit: 1040 bytes
-constexpr double kBatch_s = 0.1;               // units are computed together
+constexpr std::int64_t kBlock = 256;           // samples of a unit, 1040 bytes
+constexpr double kBatch_s = 0.1;               // duration that is computed at a time, s
 constexpr std::array<int, 4> kRates{24'000, 48'000, 96'000, 192'000};
 constexpr std::int64_t kMaxTimeUs = 1'000'000'000'000'000;
 constexpr double kMaxGainDb = 200;
@@ -67,7 +68,7 @@ bus::Bytes unit_of(std::int64_t time_us, std::uint32_t number, const double* sam
   return bytes;
 }
 
-// Empty of what is no unit of one channel.
+// Decodes a unit; nothing unless it is a unit of one channel with finite samples.
 std::optional<std::vector<float>> samples_of(const bus::Bytes& unit) {
   if (unit.size() < kHeaderBytes) return std::nullopt;
   const std::uint32_t sizes = bus::uint32_at(unit, 12), count = sizes >> 16, channels = sizes & 0xffff;
@@ -157,7 +158,7 @@ class Uasp2 : public Protocol {
     say(client, answer);
   }
 
-  // The answer; null of none.
+  // Returns the answer; null when there is none.
   json obey(ClientId client, const json& request) {
     const std::string action = text_of(request, "action");
     if (action == "version")
@@ -218,7 +219,7 @@ class Uasp2 : public Protocol {
     return json();
   }
 
-  // Of the ADC from now on.
+  // Returns the number of the first block of the ADC that begins now or later.
   std::int64_t first_block() const {
     return static_cast<std::int64_t>(
         std::ceil(port_.now().seconds() * in_.rate / static_cast<double>(kBlock)));
@@ -299,18 +300,18 @@ class Uasp2 : public Protocol {
   }
 
   ProtocolPort& port_;
-  SoundField* sound_;  // null while options are checked alone: then nothing is asked of it
+  SoundField* sound_;  // null while options alone are checked, which uses no sound
   std::int32_t vehicle_id_;
   double sensitivity_db_ = 0;
   Converter in_, out_;
   bool is_mute_ = false;
   std::map<ClientId, LineReader> readers_;
   std::map<ClientId, Stream> streams_;
-  SimTime origin_;               // of time as hosts see it
-  std::uint32_t number_ = 0;     // of the next unit
-  std::int64_t next_block_ = 0;  // since time 0
+  SimTime origin_;               // start of the time that hosts see
+  std::uint32_t number_ = 0;     // number of the next unit
+  std::int64_t next_block_ = 0;  // number of the next block, counted from simulation time 0
   std::vector<float> buffer_;
-  SimTime free_at_;  // the DAC
+  SimTime free_at_;  // time from which the DAC is free
   std::multimap<SimTime, Notice> notices_;
 };
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// UnetStack gateway: JSON lines of fjage, agents node, arp, phy, ranging and uwlink.
+// UnetStack gateway: JSON lines of fjage, with the agents node, arp, phy, ranging and uwlink.
 //
-// A frame's protocol number goes in its header. Frames are sent one after the other; up to 16 wait. With
-// `reliability` a datagram is acknowledged by the receiver's modem and repeated twice; its one notification
-// is DatagramDeliveryNtf or DatagramFailureNtf. Those to one node go one after the other, and do not hold up
-// those to others. A frame that is received is reported when it is detected (RxFrameStartNtf) and when it
-// ends (RxFrameNtf, BadFrameNtf or CollisionNtf). The modem's time is the vehicle's clock. Left out: baseband
-// signals, fragmentation. Options: none.
+// A frame's protocol number is in its header. Frames are sent one after the other; up to 16 wait. A datagram
+// with `reliability` is acknowledged by the receiver's modem and sent up to three times; its one notification
+// is DatagramDeliveryNtf or DatagramFailureNtf. Such datagrams to one node are sent one after the other,
+// without delaying those to other nodes. A received frame is reported when it is detected (RxFrameStartNtf)
+// and when it ends (RxFrameNtf, BadFrameNtf or CollisionNtf). The modem's time is the vehicle's clock.
+// Baseband signals and fragmentation are not supported. Options: none.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -45,7 +45,8 @@ using nlohmann::json;
 
 constexpr std::ptrdiff_t kMaxWaiting = 16;
 constexpr int kTries = 3;
-// Beyond the end of a frame, for an acknowledgement or a ping's answer of the greatest range.
+// Time after the end of a frame within which an acknowledgement or a ping's answer comes from the greatest
+// range.
 constexpr SimDuration kAnswerWithin = SimDuration::from_milliseconds(5000);
 
 const std::string kPhyTopic = "#phy__ntf", kRangingTopic = "#ranging__ntf";
@@ -125,7 +126,7 @@ class Unet : public Protocol {
   }
   void step() override {
     for (auto job = jobs_.begin(); job != jobs_.end();) {
-      const auto this_job = job++;  // may be over
+      const auto this_job = job++;  // the job may be erased
       if (port_.now() >= this_job->ends)
         end_of_sound(this_job);
       else if (port_.now() >= this_job->until)
@@ -163,7 +164,7 @@ class Unet : public Protocol {
   }
   void refuse(const UnetRequest& request, const std::string& reason) { hosts_.refuse(request, reason); }
 
-  // All that wait, or the one with that id; their hosts are told.
+  // Cancels all frames that wait, or the one with the given id, and tells their hosts.
   void cancel(const UnetRequest& request) {
     agree(request);
     const std::string id = text_of(request.data, "id");
@@ -234,7 +235,8 @@ class Unet : public Protocol {
                         [&](const Job& job) { return job.has_begun() && job.sequence == sequence; });
   }
 
-  // The first that waits for its turn, and for no answer of the same node to one before it.
+  // Sends the first job in the queue, except those to a node from which an earlier job still awaits an
+  // answer.
   void send_next() {
     if (std::any_of(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.is_sending(); })) return;
     for (auto job = jobs_.begin(); job != jobs_.end(); ++job) {
@@ -271,7 +273,7 @@ class Unet : public Protocol {
     jobs_.erase(job);
   }
 
-  // Refused, or without an answer.
+  // Repeats a frame that was refused, or that had no answer in time.
   void try_again(Jobs::iterator job) {
     if (job->tries_left <= 0) return fail(job);
     job->start = SimTime();

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// As clients compare it, byte by byte.
+// Exact text: clients compare it byte by byte.
 constexpr std::string_view kAlive = "{\"alive\": true}\n";
 constexpr std::size_t kMaxWants = 1000;
 
@@ -27,7 +27,7 @@ constexpr std::array<Agent, 5> kAgents{{{"node", "org.arl.unet.nodeinfo.NodeInfo
                                         {"phy", "org.arl.unet.phy.Physical"},
                                         {"ranging", "org.arl.unet.localization.Ranging"},
                                         {"uwlink", "org.arl.unet.link.ECLink"}}};
-// Of several agents for one service the first serves where one is wanted.
+// Services and their agents. For one service with several agents the first is preferred.
 struct Service {
   const char* name;
   const char* agent;
@@ -77,7 +77,7 @@ void UnetHosts::take(ClientId client, std::string_view bytes) {
       [&](std::string_view beginning, std::string_view end) { refuse_long_line(client, beginning, end); });
 }
 
-// Fields may stand in any order, so those that name the request stand before or behind its data.
+// The fields that name the request may be before or after its data, because JSON does not order them.
 void UnetHosts::refuse_long_line(ClientId client, std::string_view beginning, std::string_view end) {
   const auto text = [&](const char* name) {
     json value = value_in_piece(beginning, name);
@@ -110,7 +110,7 @@ void UnetHosts::take_line(ClientId client, std::string_view line) {
   port_.write(client, answer.dump() + "\n");
 }
 
-// Null where none is due.
+// Returns null when no answer is due.
 json UnetHosts::answer_to(Host& host, const json& request) {
   const std::string action = text_of(request, "action");
   if (action == "agents") {
@@ -124,7 +124,7 @@ json UnetHosts::answer_to(Host& host, const json& request) {
   if (action == "agentForService") return agents.empty() ? json::object() : json{{"agentID", agents.front()}};
   if (action == "agentsForService") return {{"agentIDs", agents}};
   if (action == "auth") return {{"auth", true}};
-  // No request stays without an answer, nor one that fjage does not know.
+  // A request with an id is always answered, even when fjage does not define it.
   if (action != "wantsMessagesFor") return request.contains("id") ? json::object() : json();
   if (!request.contains("agentIDs") || !request["agentIDs"].is_array()) return nullptr;
   host.wants.clear();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hosts of a UnetStack gateway: requests of fjage answered by themselves (agents, services,
-// subscriptions), messages to agents handed on, messages to hosts that want them.
+// Hosts of a UnetStack gateway: answers fjage requests about agents, services and subscriptions, passes on
+// messages to agents, and sends messages to the hosts that want them.
 #pragma once
 
 #include <cstdint>
@@ -23,19 +23,19 @@ class UnetHosts {
  public:
   using OnRequest = std::function<void(const UnetRequest&)>;
 
-  // `on_request`: a message to one of the agents.
+  // `on_request` receives the messages to one of the agents.
   UnetHosts(ProtocolPort& port, OnRequest on_request) : port_(port), on_request_(std::move(on_request)) {}
 
   void open(ClientId client);
   void close(ClientId client) { hosts_.erase(client); }
   void take(ClientId client, std::string_view bytes);
 
-  // The answer of the agent to a request; fields with the class under "clazz".
+  // Sends an agent's answer to a request; `fields` contains the class of the message under "clazz".
   void answer(const UnetRequest& request, nlohmann::json fields);
   void refuse(const UnetRequest& request, const std::string& reason);
-  // A notification that belongs to a request, to whom it came from.
+  // Sends a notification about a request to the host that made it.
   void reply(const UnetRequest& request, const std::string& clazz, nlohmann::json fields);
-  // A notification to a topic.
+  // Sends a notification to a topic.
   void notify(const std::string& topic, const std::string& clazz, nlohmann::json fields);
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A frame, or a ping, that a host of a UnetStack gateway asked for, on its way to the water and back.
+// Job of a UnetStack gateway: a frame or a ping that a host asked for, from its acceptance to its
+// notification.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +24,13 @@ struct UnetJob {
   SimTime start;
   int tries_left = 1;
   std::int64_t sequence = kNotSent, began_us = 0;
-  SimTime ends = SimTime::never(), until = SimTime::never();  // end of its sound, of the wait for its answer
+  SimTime ends = SimTime::never(), until = SimTime::never();  // ends of transmission and of the wait
 
   bool has_begun() const { return sequence != kNotSent; }
   bool is_sending() const { return has_begun() && until == SimTime::never(); }
 };
 
-// The protocols that UnetStack has itself, and those of users.
+// Returns true for a protocol number that UnetStack itself uses or that is free for users.
 inline bool is_unet_protocol(std::int64_t number) {
   return (number >= 0 && number <= 7) || (number >= 32 && number <= 63);
 }

@@ -18,7 +18,7 @@ std::string_view without_blanks(std::string_view text) {
   return text.substr(std::min(text.find_first_not_of(kBlanks), text.size()));
 }
 
-// The size of a text in quotes, or of a number, that `text` begins with.
+// Returns the length of the quoted string or number at the beginning of `text`.
 std::size_t size_of_value(std::string_view text) {
   if (!text.starts_with('"')) return std::min(text.find_first_of(",}] \t"), text.size());
   std::size_t size = 1;
@@ -72,7 +72,7 @@ std::int64_t integer_of(const json& object, const char* field, std::int64_t othe
   const auto found = object.find(field);
   if (found == object.end() || !found->is_number()) return otherwise;
   const double number = found->get<double>();
-  constexpr double kExact = 9e15;  // an integer as JSON has it
+  constexpr double kExact = 9e15;  // largest magnitude of an exact integer in JSON, about 2^53
   return number >= -kExact && number <= kExact ? static_cast<std::int64_t>(number) : otherwise;
 }
 

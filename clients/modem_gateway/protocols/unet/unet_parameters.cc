@@ -30,7 +30,7 @@ const std::vector<std::string>& names_of(const std::string& agent, std::int64_t 
   return agent == "uwlink" ? kLinkNames : kNone;
 }
 
-// What hosts may set; all else is read only.
+// Returns true for the parameters that hosts may set; all others are read-only.
 bool is_settable(const std::string& name) {
   constexpr std::array<std::string_view, 4> kSettable{"address", "rxEnable", "propagationSpeed",
                                                       "powerLevel"};
@@ -119,11 +119,11 @@ bool UnetParameters::set(const std::string& agent, std::int64_t index, const std
   return true;
 }
 
-// One parameter is in `param` and `value`, further ones in `values`. A value that cannot be set leaves the
-// old one, which the answer has.
+// The first parameter is in `param` and `value`, further ones in `values`. A value that cannot be set is
+// ignored, and the answer contains the present one.
 json UnetParameters::answer(const UnetRequest& request) {
   const std::int64_t index = integer_of(request.data, "index", -1);
-  std::vector<std::pair<std::string, json>> asked;  // with values to set
+  std::vector<std::pair<std::string, json>> asked;  // names, with the values to set
   const auto add = [&](const json& one) {
     if (const std::string name = text_of(one, "param"); !name.empty())
       asked.emplace_back(name, one.contains("value") ? one["value"] : json());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parameters of the agents node and phy, and what they stand for.
+// Parameters of the agents node, phy and uwlink, with their meaning in the simulation.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@
 
 namespace halocline::modem_gateway {
 
-// The two channels of a modem: CONTROL, DATA. Numbers of models/modems/unet-control.toml and unet-data.toml.
+// The two channels of a modem, CONTROL and DATA, with the numbers of models/modems/unet-control.toml and
+// unet-data.toml.
 inline constexpr int kUnetControl = 1, kUnetData = 2;
 struct UnetChannel {
   double data_rate_bps;
@@ -27,20 +28,20 @@ struct UnetChannel {
     return overhead_s + 8 * static_cast<double>(frame_bytes) / data_rate_bps;
   }
 };
-// `index`: kUnetControl or kUnetData.
+// Returns the channel `index`: kUnetControl or kUnetData.
 const UnetChannel& unet_channel(int index);
 
 class UnetParameters {
  public:
-  // Of the door that `context` makes; the references must outlive it.
+  // Parameters of the modem interface of `context`, whose references must outlive it.
   explicit UnetParameters(const ProtocolContext& context);
 
-  // The answer to a ParameterReq that `agent` got: ParameterRsp, or NOT_UNDERSTOOD. Fields of the answer,
-  // with clazz under "clazz".
+  // Returns the answer to a ParameterReq, a ParameterRsp or NOT_UNDERSTOOD, as fields with the class under
+  // "clazz".
   nlohmann::json answer(const UnetRequest& request);
 
   double sound_speed_mps() const { return sound_speed_mps_; }
-  // Of a channel, where a host has set it.
+  // Returns the source level of a channel, dB re 1 uPa at 1 m; nothing unless a host has set it.
   std::optional<double> source_level_db(int index) const {
     return levels_.at(static_cast<std::size_t>(index));
   }
@@ -49,7 +50,7 @@ class UnetParameters {
   void note_busy(bool busy) { is_busy_ = busy; }
 
  private:
-  // The value of a parameter; null where there is none.
+  // Returns the value of a parameter; null when there is none.
   nlohmann::json value(const std::string& agent, std::int64_t index, const std::string& name) const;
   nlohmann::json node_value(const std::string& name) const;
   nlohmann::json channel_value(int index, const std::string& name) const;
@@ -63,7 +64,7 @@ class UnetParameters {
   std::string name_;
   double latitude_deg_, longitude_deg_;
   double sound_speed_mps_ = 1500;
-  std::array<std::optional<double>, 3> levels_;  // by index
+  std::array<std::optional<double>, 3> levels_;  // key: index of the channel
   bool receives_ = true, is_busy_ = false;
   double noise_db_ = 0;
 };
