@@ -34,7 +34,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::chrono::milliseconds kTick{50};
-// Of each tick, for requests of all pages together.
+// Time that the requests of all pages together may take in a tick.
 constexpr SimDuration kRequestTime = SimDuration::from_milliseconds(25);
 
 std::unique_ptr<Source> open_source(const MonitorOptions& options) {
@@ -107,7 +107,7 @@ void Monitor::tick_foxgloves(double now_s) {
 void Monitor::start_again() {
   run_ = source_->run();
   packets_ = PacketIndex();
-  // They connect again.
+  // The pages connect again by themselves.
   while (!pages_.empty()) server_->close(pages_.begin()->first);
   while (!foxgloves_.empty()) server_->close(foxgloves_.begin()->first);
 }
@@ -223,10 +223,10 @@ void Monitor::begin_link(ConnectionId id, const json& request) {
 }
 
 void run_monitor(MonitorOptions options, std::ostream& out, const std::function<bool()>& should_stop) {
-  options.web.socket = listening_socket(options.web.access);  // in the network of who looks at the pages
+  options.web.socket = listening_socket(options.web.access);  // before the run's network is entered
   const RunNetwork network(options.network);
   Monitor monitor(options);
-  out << monitor.url() << std::endl;  // at once: a script waits for it
+  out << monitor.url() << std::endl;  // flushed: a script waits for it
   while (!should_stop() && !network.has_ended()) monitor.tick();
   if (network.has_ended()) std::cerr << "halocline-monitor: the run has ended" << std::endl;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The monitor: a source of messages, the pages that are open, and the loop between them.
+// Monitor: a source of messages, the connected pages, and the loop between them.
 #pragma once
 
 #include <functional>
@@ -26,25 +26,27 @@ namespace halocline::monitor {
 
 class Monitor {
  public:
-  // Opens the source and listens. Throws InvalidArgument for options that cannot be met.
+  // Opens the source and listens. Throws InvalidArgument for options that cannot be satisfied.
   explicit Monitor(const MonitorOptions& options);
 
   std::string url() const { return server_->url(); }
-  // Serves for one tick, and brings what came to the pages.
+  // Serves connections for one tick, and passes new messages to the pages.
   void tick();
 
  private:
   void open(ConnectionId id, WebProtocol protocol);
-  // False when the time for requests of this tick is spent.
+  // Returns false when the time for requests of this tick is spent; the message is then delivered again
+  // later.
   bool receive(ConnectionId id, std::string_view message);
   void answer(ConnectionId id, PageSession& session, std::string_view message);
-  // Those that are answered later, and by others. False for another request.
+  // Begins a request that is answered later. Returns false for any other request.
   bool begin(ConnectionId id, PageSession& session, const nlohmann::json& request);
   void begin_terrain(ConnectionId id, PageSession& session, const nlohmann::json& request);
   void begin_command(ConnectionId id, const nlohmann::json& request);
   void begin_link(ConnectionId id, const nlohmann::json& request);
   void finish(ConnectionId id, nlohmann::json reply);
-  // The terrain is published once: who came later queries it.
+  // Queries the overview of the terrain, which the bathymetry service publishes only once, perhaps before
+  // this program started.
   void request_overview(double now_s);
   void tick_pages(double now_s);
   void tick_foxgloves(double now_s);
@@ -54,7 +56,7 @@ class Monitor {
   bool may_command_;
   QueryDesk queries_;
   int run_;
-  double overview_due_s_ = 0;  // steady
+  double overview_due_s_ = 0;  // next query of the overview, steady time
   CommandDesk commands_;
   PacketIndex packets_;
   std::map<ConnectionId, PageSession> pages_;
@@ -63,12 +65,12 @@ class Monitor {
     Playback playback;
   };
   std::map<ConnectionId, Foxglove> foxgloves_;
-  SimDuration request_time_;           // spent in this tick
-  std::unique_ptr<WebServer> server_;  // last: its callbacks use the others
+  SimDuration request_time_;           // time spent in this tick
+  std::unique_ptr<WebServer> server_;  // last member: its callbacks use the others
 };
 
-// Prints the URL to `out` and serves until `should_stop`, which is called at least every 0.1 s, or until the
-// run whose network was entered has ended.
+// Prints the URL to `out` and serves until `should_stop` returns true (it is called at least every 0.1 s), or
+// until the run whose network is shown has ended.
 void run_monitor(MonitorOptions options, std::ostream& out, const std::function<bool()>& should_stop);
 
 }  // namespace halocline::monitor

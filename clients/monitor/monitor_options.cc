@@ -24,8 +24,8 @@ constexpr char kFooter[] =
     "  halocline-monitor --address 0.0.0.0 --port 8080 --token \"$(openssl rand -hex 16)\"\n\n"
     "Exit codes: 0 done, 1 failed, 2 wrong command line or configuration.";
 
-// share/halocline/monitor beside the folder of an installed program, or build/monitor/page, of one in
-// build/<preset>/bin.
+// Returns the folder of the page: share/halocline/monitor beside the bin folder of an installed program, or
+// build/monitor/page for a program in build/<preset>/bin.
 std::string page_of_program() {
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line of halocline-monitor.
+// Command line of halocline-monitor.
 #pragma once
 
 #include <optional>
@@ -12,17 +12,17 @@ namespace halocline::monitor {
 
 struct MonitorOptions {
   std::vector<std::string> logs;  // one log, or its parts in order; empty: the bus
-  std::string lcm_url;            // empty: the default
-  int network = 0;                // a process in whose network the bus is; 0: in this one's
+  std::string lcm_url;            // empty: the default URL
+  int network = 0;                // process whose network has the bus; 0: this one's
   std::string accept;             // hosts of the bus (bus/runtime/receive_filter.h)
-  std::string scenario;           // configuration of a log; empty: what the log holds, or the file beside it
-  double history_s = 3600;        // of a bus: what is older is dropped
+  std::string scenario;           // configuration of a log; empty: the one in the log or beside it
+  double history_s = 3600;        // age beyond which messages of a bus are dropped, s
   bool may_command = false;
   WebServer::Options web;
 };
 
-// Empty when the command line only requested output (--help, --version), which was printed. Throws
-// InvalidArgument for a wrong one.
+// Returns nothing when the command line only requested output (--help, --version), which was printed. Throws
+// InvalidArgument for an invalid command line.
 [[nodiscard]] std::optional<MonitorOptions> parse_monitor_command_line(int argc, char** argv);
 
 }  // namespace halocline::monitor

@@ -16,7 +16,7 @@
 namespace halocline::monitor {
 namespace {
 
-// Whether this process is in that namespace of the other one now. Leaves errno.
+// Moves this process to a namespace of another one. Returns true on success; else errno says why.
 bool enter(int pid, const char* space, int kind) {
   const int file = open(("/proc/" + std::to_string(pid) + "/ns/" + space).c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;
@@ -33,7 +33,7 @@ RunNetwork::RunNetwork(int pid) {
   if (pid == 0) return;
   process_ = static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
   require(process_ >= 0, "--network is " + std::to_string(pid) + ": there is no such process");
-  // Without root the network belongs to a namespace of users, which has to be entered first.
+  // The network of a run without root belongs to a user namespace, which must be entered first.
   const bool is_entered = enter(pid, "net", CLONE_NEWNET) ||
                           (enter(pid, "user", CLONE_NEWUSER) && enter(pid, "net", CLONE_NEWNET));
   require(is_entered, "cannot enter the network of process " + std::to_string(pid) + ": " +
@@ -45,7 +45,7 @@ RunNetwork::~RunNetwork() {
 }
 
 bool RunNetwork::has_ended() const {
-  pollfd process{process_, POLLIN, 0};  // below 0: ignored
+  pollfd process{process_, POLLIN, 0};  // a negative descriptor is ignored
   return poll(&process, 1, 0) > 0;
 }
 

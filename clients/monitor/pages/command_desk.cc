@@ -19,7 +19,7 @@ namespace halocline::monitor {
 namespace {
 
 constexpr double kMostRpm = 6e6;
-// For the bus to bring a SEND back.
+// Time within which the bus must show a published SEND.
 constexpr double kShown_s = 2;
 
 const clients::MissionVehicle& commanded_vehicle(const clients::MissionStore& mission,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands and messages from pages to vehicles, checked as the bus checks them. Pure: steady time is passed
-// in.
+// Publisher of commands and messages from pages to vehicles, which it checks as the bus does. It reads no
+// clock: steady time is passed in.
 #pragma once
 
 #include <cstdint>
@@ -23,16 +23,16 @@ class CommandDesk {
  public:
   static constexpr double kPeriod_s = 0.1, kMaxDuration_s = 60;
   using Post = std::function<void(const std::string& channel, bus::Bytes bytes)>;
-  // With the key of the packet; empty when the bus did not show it.
+  // Receives the key of the packet; empty when the bus did not show it.
   using Sent = std::function<void(const std::string& key)>;
 
-  // `session` differs for each start of the program.
+  // `session` must differ for each start of the program.
   CommandDesk(std::int64_t session, Post post) : session_(session), post_(std::move(post)) {}
 
-  // Repeats a command for a while; a new one for the vehicle takes its place. Throws InvalidArgument for one
-  // that cannot be.
+  // Repeats a command every kPeriod_s for the requested time; a new command for the vehicle replaces it.
+  // Throws InvalidArgument for an invalid request.
   void command(const clients::MissionStore& mission, const nlohmann::json& request);
-  // Publishes one SEND at `now`. Throws likewise.
+  // Publishes one SEND at `now`. Throws InvalidArgument for an invalid request.
   void send(const clients::MissionStore& mission, const nlohmann::json& request, SimTime now, Sent sent);
 
   void tick(double steady_s, const clients::MissionStore& mission, SimTime now);
@@ -51,8 +51,8 @@ class CommandDesk {
   std::int64_t session_;
   Post post_;
   double now_s_ = 0;
-  std::map<std::string, Command> commands_;          // by vehicle
-  std::map<std::string, std::int64_t> next_number_;  // by vehicle, of commands
+  std::map<std::string, Command> commands_;          // key: vehicle
+  std::map<std::string, std::int64_t> next_number_;  // number of the next command; key: vehicle
   std::int64_t next_packet_ = 0;
   std::vector<Awaited> awaited_;
 };

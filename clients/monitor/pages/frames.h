@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The binary messages to a page: README.md has their bytes. Pure.
+// Encoder of the binary messages to a page; README.md has their layout.
 #pragma once
 
 #include <cstdint>
@@ -11,26 +11,26 @@
 
 namespace halocline::monitor {
 
-// A state older than this is marked.
+// Age beyond which a vehicle's state is marked as stale.
 inline constexpr SimDuration kStaleAfter = SimDuration::from_milliseconds(2000);
 
-// Kind 1: where the vehicles are at an instant.
+// Encodes a message of kind 1: positions and attitudes of all vehicles at one time.
 std::string vehicle_frame(const clients::MissionStore& mission, SimTime at);
 
-// Depths of a grid: row by row from the south, each from the west; NaN where no ground is known.
+// Grid of depths: rows from south to north, each from west to east; NaN where the depth is unknown.
 struct DepthGrid {
   double south_m = 0, west_m = 0, spacing_m = 0;
   std::uint16_t rows = 0, columns = 0;
   std::vector<float> depth_m;
 };
-// Kind 2, the answer to request `id`.
+// Encodes a message of kind 2, the answer to request `id`.
 std::string terrain_frame(const DepthGrid& grid, std::int64_t id);
 
 struct LinkValue {
   std::uint16_t from = 0, to = 0;  // indices of vehicles
   float value = 0;
 };
-// Kind 3: one column of the table.
+// Encodes a message of kind 3: one quantity of the link table.
 std::string link_frame(std::uint16_t column, SimTime at, const std::vector<LinkValue>& values);
 
 }  // namespace halocline::monitor

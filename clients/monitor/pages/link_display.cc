@@ -30,7 +30,8 @@ constexpr LinkCategory kUsed[] = {{link_t::USED_STRAIGHT, "straight", true},
                                   {link_t::USED_STRAIGHT_NOT_SEARCHED, "straight, not searched", false},
                                   {link_t::USED_RAYS_BEYOND_TERRAIN, "rays, beyond the terrain", false}};
 
-// Thresholds of ratios lie about where half of a modem's packets survive; a modem's own are in its ladder.
+// The centers of diverging scales lie about where half of a modem's packets survive; the exact threshold of a
+// modem is in its rate ladder.
 constexpr std::array kDisplays = std::to_array<LinkDisplay>({
     {.key = "snr_db",
      .label = "SNR",

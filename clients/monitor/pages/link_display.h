@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The columns of the link table as the page shows them: in units for people, with the scale of their colours.
+// Columns of the link table as the page shows them: display units, and the scale of their colours.
 #pragma once
 
 #include <cstddef>
@@ -22,34 +22,35 @@ struct LinkCategory {
 };
 
 struct LinkDisplay {
-  const char* key;  // of clients::link_columns(), or kReceivedShare
+  const char* key;  // key of a clients::link_columns() entry, or kReceivedShare
   const char* label;
   const char* unit;
-  double factor = 1;  // shown: factor * (value + offset)
+  double factor = 1;  // the page shows factor * (value + offset)
   double offset = 0;
   int digits = 0;
   const char* scale = "sequential";  // diverging, sequential, category
   double center = 0, low = 0, high = 1;
   const char* better = "none";  // high, low, none
-  bool needs_path = true;       // does not exist without a path of sound
+  bool needs_path = true;       // undefined when no sound path exists
   const char* help = "";
   std::span<const LinkCategory> categories = {};
 };
 
 inline constexpr std::string_view kReceivedShare = "received_share";
-// Packets of so long ago count in it.
+// Duration over which packets count towards the received share.
 inline constexpr SimDuration kShareWindow = SimDuration::from_milliseconds(300'000);
-// Rows that are older are not shown.
+// Age beyond which rows of the link table are not shown.
 inline constexpr SimDuration kRowsKept = SimDuration::from_milliseconds(10'000);
 
-// SNR first.
+// Returns all columns, SNR first.
 std::span<const LinkDisplay> link_displays();
-// Its index; size() of them when there is none.
+// Returns the index of a column; the number of columns when there is none with this key.
 std::size_t find_display(std::string_view key);
 
-// In the unit shown; NaN where the quantity does not exist. Not for kReceivedShare.
+// Returns the value in the display unit; NaN where the quantity does not exist. Not for kReceivedShare.
 double shown_value(const LinkDisplay& display, const link_t& link);
-// Of all pairs at an instant. `recent`: the packets of kShareWindow before it.
+// Returns the values of all pairs at one time. `recent`: the packets that departed within kShareWindow before
+// it.
 std::vector<LinkValue> shown_values(const clients::MissionStore& mission, const LinkDisplay& display,
                                     SimTime at, std::span<const clients::PacketRecord* const> recent);
 

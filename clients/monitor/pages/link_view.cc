@@ -62,7 +62,7 @@ json paths_json(const link_paths_t& paths, double surface_m) {
   return all;
 }
 
-// A waterfall: steps add to the start, totals hold the sum so far.
+// Rows of a waterfall chart: steps add to the start, totals show the sum so far.
 class Waterfall {
  public:
   void start(const char* label, double value, const char* unit, const char* help) {
@@ -73,7 +73,7 @@ class Waterfall {
     sum_ += value;
     add(label, "step", value, "dB", json(), help);
   }
-  // Steps to `value` are in one of this label, where they are more than rounding.
+  // Adds a total. Its value may differ from the sum of the steps by rounding only.
   void total(const char* label, double value, const char* unit, const json& limit, const char* help) {
     sum_ = value;
     add(label, "total", value, unit, limit, help);
@@ -100,7 +100,7 @@ json threshold_of(const LinkSubject& link) { return link.threshold_db ? json(*li
 json budget_json(const LinkSubject& subject, const link_t& link, const link_paths_t& paths) {
   constexpr double kRounding_db = 0.005;
   Waterfall fall;
-  // A server that knows no paths leaves the level out.
+  // A channel server that reports no paths leaves the source level out (0).
   const bool is_known = paths.source_level_db > 0;
   fall.start("Source level",
              is_known ? paths.source_level_db : link.received_level_db + link.transmission_loss_db,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One link in detail: the query for its paths, and what a page is shown of the reply (README.md, `link`).
-// Pure.
+// Detailed view of one link: the query for its paths, and the JSON of the reply for a page (README.md,
+// `link`).
 #pragma once
 
 #include <optional>
@@ -20,15 +20,17 @@ struct LinkSubject {
   const clients::MissionVehicle& from;
   const clients::MissionVehicle& to;
   SimTime at;
-  std::optional<double> threshold_db = {};  // SINR that the sender's modem needs
+  std::optional<double> threshold_db = {};  // SINR at which half of the sender's packets survive, dB
 };
 
-// Both ends by name and by where they were. Empty when one of them had no state then.
+// Returns a query with names and past positions of both ends; nothing when one of them had no state at that
+// time.
 std::optional<link_query_t> link_query(const LinkSubject& link);
-// The same for positions of the past: without names, which stand for the present.
+// Removes the names from a query about the past, because names refer to the present, and gives the modems
+// explicitly.
 void use_positions(const clients::MissionStore& mission, link_query_t& query);
 
-// `reply` is null where there is none; `problem` is then the notice.
+// Returns the view. `reply` is null when there is none; `problem` is then shown as the notice.
 nlohmann::json link_view_json(const clients::MissionStore& mission, PacketIndex& packets,
                               const LinkSubject& link, const link_reply_t* reply, const std::string& problem);
 

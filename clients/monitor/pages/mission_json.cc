@@ -96,7 +96,7 @@ json modem_json(const Source& source, const clients::MissionVehicle& vehicle) {
   return modem;
 }
 
-// Of the modems, that of most vehicles.
+// Returns the threshold that most vehicles share; null when none is known.
 json threshold_json(const Source& source) {
   std::map<double, int> vehicles;
   for (const clients::MissionVehicle& vehicle : source.mission().vehicles()) {
@@ -142,7 +142,7 @@ json terrain_json(const clients::MissionStore& mission) {
     least = std::fmin(least, depth_m);
     greatest = std::fmax(greatest, depth_m);
   }
-  // Another terrain has other numbers.
+  // The revision is a hash of the depths: a page fetches the terrain again when it differs.
   std::size_t revision = 14695981039346656037U;
   for (const float depth_m : grid->depth_m)
     revision = (revision ^ std::hash<float>()(depth_m)) * 1099511628211U;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a page is shown of the mission as a whole, as JSON: README.md has its members. Pure.
+// Messages to a page about the run as a whole, in JSON; README.md has their members.
 #pragma once
 
 #include <optional>
@@ -19,19 +19,19 @@ namespace halocline::monitor {
 
 nlohmann::json hello_json(const Source& source, bool may_command);
 
-// The scenario, vehicles and water as of an instant.
+// Returns the scenario, its vehicles and the water at one time.
 nlohmann::json mission_json(const Source& source, SimTime at);
 
-// The overview of the terrain; empty where none is known.
+// Returns the overview of the terrain; nothing when none is known.
 std::optional<DepthGrid> overview_grid(const clients::MissionStore& mission);
 
 nlohmann::json state_json(const Source& source, const Playback& playback);
-// Whether what differs is more than numbers that change all the time.
+// Returns true when two states differ at most in numbers that change all the time.
 bool is_same_condition(const nlohmann::json& state, const nlohmann::json& other);
 
-// "rudder stuck at 5 degrees".
+// Returns a fault as text: "rudder stuck at 5 degrees".
 std::string fault_text(const vehicle_fault_t& fault);
-// Those that hold at an instant.
+// Returns the faults that are active at one time.
 std::vector<vehicle_fault_t> faults_at(const clients::MissionVehicle& vehicle, SimTime at);
 
 }  // namespace halocline::monitor

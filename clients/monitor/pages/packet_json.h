@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packets as the page is shown them: README.md has their members. Pure.
+// Packets in JSON for a page; README.md has their members.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +18,13 @@
 
 namespace halocline::monitor {
 
-// The packets of a mission by departure, found without looking at all of them.
+// Index of the packets of a run by time of departure.
 class PacketIndex {
  public:
-  // Takes up what is new; to be called before the others.
+  // Adds packets that are new in the book. Must be called before departing().
   void refresh(const clients::PacketBook& book);
-  // Those with from <= departure <= to, by departure. Valid until the book changes.
+  // Returns the packets with from <= departure <= to, ordered by departure. The pointers are valid until the
+  // book changes.
   std::vector<const clients::PacketRecord*> departing(const clients::PacketBook& book, SimTime from,
                                                       SimTime to) const;
 
@@ -37,7 +38,7 @@ class PacketIndex {
   std::uint64_t revision_ = 0;
 };
 
-// Its name in the protocol, and back; empty for a text that is none.
+// Returns a packet's name in the protocol; packet_number() parses it, and returns nothing for any other text.
 std::string packet_key(const clients::PacketRecord& packet);
 std::optional<std::uint64_t> packet_number(std::string_view key);
 
@@ -45,7 +46,7 @@ nlohmann::json packet_json(const clients::MissionStore& mission, const clients::
 nlohmann::json packets_json(const clients::MissionStore& mission,
                             std::span<const clients::PacketRecord* const> packets);
 
-// Of the water at a depth below the surface, m/s; 1500 where no water is known.
+// Returns the sound speed at a depth below the surface, m/s; 1500 when the water is unknown.
 double sound_speed_at(const clients::MissionStore& mission, double depth_m, SimTime at);
 
 }  // namespace halocline::monitor

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-// Seconds of steady time.
+// Periods of the messages, s of steady time.
 constexpr double kStatePeriod = 1, kStateCheckPeriod = 0.2, kMissionPeriod = 0.5, kLinksPeriod = 1;
 
 }  // namespace
@@ -59,7 +59,7 @@ void PageSession::send_mission(double steady_s) {
 }
 
 void PageSession::send_packets(PacketIndex& packets) {
-  // Of a log those are shown that depart soon, so that a page need not wait for a tick.
+  // From a log, packets are sent shortly before they depart, so that a page need not wait for a tick.
   constexpr double kAhead_s = 0.5;
   constexpr std::size_t kMostRecent = 2000;
   const clients::PacketBook& book = source_.mission().packets();

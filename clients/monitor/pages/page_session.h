@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one page is shown by itself: positions, packets, links and the state, each when it changed and no
-// faster than the connection takes it. Pure: messages go to an outbox, steady time is passed in.
+// Session of one page: sends positions, packets, links and the state, each when it has changed and no faster
+// than the connection accepts it. Messages go to an outbox, and steady time is passed in.
 #pragma once
 
 #include <cstddef>
@@ -24,18 +24,18 @@ using Outbox = std::function<void(std::string message, bool binary)>;
 
 class PageSession {
  public:
-  // Packets that departed so long before the instant are shown from the start.
+  // Packets that departed within this time before the shown instant are sent at the start.
   static constexpr SimDuration kPacketsShown = SimDuration::from_milliseconds(60'000);
 
   // `source` must outlive it.
   PageSession(const Source& source, bool may_command, Outbox outbox);
 
-  // What is due at `steady_s`. Nothing that comes many times a second unless `idle`: the connection has sent
-  // everything.
+  // Sends what is due at `steady_s`. Frequent messages are sent only when `idle`, that is when the connection
+  // has sent everything before.
   void tick(double steady_s, bool idle, PacketIndex& packets);
 
-  // Requests that change what is shown: watch, play, pause, speed, seek, live. False for another one. Throws
-  // InvalidArgument for one that cannot be.
+  // Takes a request that changes what is shown: watch, play, pause, speed, seek, live. Returns false for any
+  // other request. Throws InvalidArgument for an invalid one.
   [[nodiscard]] bool take(const nlohmann::json& request);
 
   SimTime at() const { return playback_.at(); }
@@ -59,10 +59,10 @@ class PageSession {
   double state_sent_s_ = 0, mission_seen_s_ = 0, links_seen_s_ = 0;
   nlohmann::json last_state_, last_mission_;
   std::string last_frame_;
-  std::map<std::size_t, std::string> last_links_;  // frames without their time, by column
+  std::map<std::size_t, std::string> last_links_;  // frames without their time; key: column
   bool packets_restart_ = true;
-  SimTime packets_until_;           // departures up to it were shown
-  std::uint64_t packets_seen_ = 0;  // revision
+  SimTime packets_until_;           // latest departure that was shown
+  std::uint64_t packets_seen_ = 0;  // revision of the packet book
 };
 
 }  // namespace halocline::monitor

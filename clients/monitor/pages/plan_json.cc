@@ -35,7 +35,8 @@ const char* end_text(const vehicle_plan_t& plan) {
   }
 }
 
-// The waypoint steered for among all; null when there is none.
+// Returns the index, among all waypoints of the plan, of the one that is steered for; null when there is
+// none.
 json leg_of(const vehicle_plan_t& plan) {
   if (plan.plan_ended != 0 || clients::waypoints_of(plan, plan.behaviour_index).empty()) return nullptr;
   const auto before = std::count_if(plan.waypoint_behaviour.begin(), plan.waypoint_behaviour.end(),
@@ -43,7 +44,7 @@ json leg_of(const vehicle_plan_t& plan) {
   return before + plan.waypoint_index;
 }
 
-// Of a vehicle, as a sentence begins.
+// Returns the activity of a vehicle with a capital first letter.
 std::string activity_of(const clients::MissionVehicle& vehicle, const autopilot_status_t& status,
                         SimTime at) {
   std::string text = clients::activity_text(status, vehicle.plan_at(at));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a vehicle's autopilot is to do, and does: README.md has the members. Pure.
+// Plan and activity of a vehicle's autopilot in JSON; README.md has the members.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@
 
 namespace halocline::monitor {
 
-// The plan that held at an instant; null when none is known.
+// Returns the plan that was valid at one time, else the first one known; null when none is known.
 nlohmann::json plan_json(const clients::MissionVehicle& vehicle, SimTime at);
 
-// "Follows leg 2 of 4, avoiding the seabed"; empty when it is not known.
+// Returns a sentence such as "Follows leg 2 of 4, avoiding the seabed"; empty when the activity is unknown.
 std::string activity_at(const clients::MissionVehicle& vehicle, SimTime at);
-// Each with the instant from which on it did so.
+// Returns the activities within the window, each with the time of its beginning.
 nlohmann::json activities_json(const clients::MissionVehicle& vehicle, const Window& window);
 
 }  // namespace halocline::monitor

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The instant that a connection shows: it follows the newest message, plays at a speed, or stands. Pure:
-// steady time is passed in, in seconds.
+// Playback position of a connection: it follows the newest message, advances at a speed, or is paused. Steady
+// time is passed in, s.
 #pragma once
 
 #include "core/sim_time.h"
@@ -11,18 +11,18 @@ class Playback {
  public:
   static constexpr double kMinSpeed = 0.1, kMaxSpeed = 100;
 
-  // `live`: follows a bus from the start; otherwise it stands at the beginning of a log.
+  // `live`: follows a bus from the start; otherwise playback is paused at the beginning of a log.
   explicit Playback(bool live) : live_(live), playing_(live), follows_(live) {}
 
-  // Advances to `steady_s`; the instant lies within begin..end.
+  // Advances to `steady_s` and clamps the position to begin..end.
   void advance(double steady_s, SimTime begin, SimTime end);
 
-  // At the end of a log it begins again at `begin`.
+  // Starts playback; at the end of a log it restarts from `begin`.
   void play(SimTime begin, SimTime end);
   void pause();
   void set_speed(double speed);  // kMinSpeed to kMaxSpeed
   void seek(SimTime at);
-  void follow();  // of a bus: the newest message again
+  void follow();  // shows the newest message of a bus again
 
   SimTime at() const { return at_; }
   bool is_live() const { return live_; }
@@ -31,7 +31,7 @@ class Playback {
 
  private:
   bool live_, playing_;
-  bool follows_;  // a bus, whose end moves
+  bool follows_;  // the source is a bus, whose end advances
   double speed_ = 1, last_s_ = 0;
   bool advanced_ = false;
   SimTime at_ = SimTime();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Queries to a channel server and a bathymetry service that are under way: repeated each second, given up
-// after kPatience_s. A reply is matched by the request's number. Pure: steady time is passed in.
+// Pending queries to a channel server and a bathymetry service: each is repeated every second and fails after
+// kPatience_s. A reply is matched by the number of its request. Steady time is passed in.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,16 @@ class QueryDesk {
   static constexpr double kPatience_s = 10;
   static constexpr std::size_t kMostUnderWay = 64;
   using Post = std::function<void(const std::string& channel, bus::Bytes bytes)>;
-  // Null when there is no reply; `problem` is then a sentence.
+  // Receives the reply; null when there is none, and `problem` is then a sentence.
   using LinkDone = std::function<void(const link_reply_t* reply, const std::string& problem)>;
   using TileDone = std::function<void(const terrain_tile_t* tile, const std::string& problem)>;
 
-  // Replies come on the channels of `client`.
+  // Replies arrive on the channels of `client`.
   QueryDesk(std::string client, Post post) : client_(std::move(client)), post_(std::move(post)) {}
 
   void ask(link_query_t query, LinkDone done);
   void ask(terrain_query_t query, TileDone done);
-  // Whether it is the channel of a reply to this client.
+  // Returns true for the channel of a reply to this client.
   bool is_reply(std::string_view channel) const;
   void take(const BusMessage& reply);
   void tick(double steady_s);
@@ -50,7 +50,7 @@ class QueryDesk {
   Post post_;
   double now_s_ = 0;
   std::int64_t last_id_ = 0;
-  std::map<std::int64_t, Query> under_way_;  // by request
+  std::map<std::int64_t, Query> under_way_;  // key: number of the request
 };
 
 }  // namespace halocline::monitor

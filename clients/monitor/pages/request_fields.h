@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Members of a request, checked.
+// Readers of the members of a request, with checks.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,8 @@
 
 namespace halocline::monitor {
 
-// Each throws InvalidArgument, naming the member and what is allowed, when it is missing or another thing.
+// Each throws InvalidArgument, which names the member and the allowed values, when the member is missing or
+// invalid.
 double number_in(const nlohmann::json& request, const char* member, double lowest, double highest);
 std::int64_t integer_in(const nlohmann::json& request, const char* member, std::int64_t lowest,
                         std::int64_t highest);
@@ -23,11 +24,11 @@ std::string text_in(const nlohmann::json& request, const char* member);
 struct Window {
   SimTime from, to;
 };
-// from_s and to_s.
+// Reads the members from_s and to_s.
 Window window_in(const nlohmann::json& request);
-// max_points, 1000 where it is missing.
+// Reads the member max_points; 1000 when it is missing.
 std::size_t max_points_in(const nlohmann::json& request);
-// A vehicle by its index.
+// Reads a vehicle, given by its index.
 const clients::MissionVehicle& vehicle_in(const clients::MissionStore& mission, const nlohmann::json& request,
                                           const char* member);
 

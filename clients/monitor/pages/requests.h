@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Answers to a page's requests that the mission holds: README.md lists them. Pure.
+// Answers to the requests of a page that need only the stored run; README.md lists them.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,11 @@
 
 namespace halocline::monitor {
 
-// The `id` of a request. Throws InvalidArgument when it is no object with a number of that name.
+// Returns the `id` of a request. Throws InvalidArgument when the request is no object or has no such number.
 std::int64_t request_id(const nlohmann::json& request);
 
-// The members of the reply. Throws InvalidArgument, with a sentence, for what cannot be answered.
+// Returns the members of the reply. Throws InvalidArgument, with a sentence, for a request that cannot be
+// answered.
 nlohmann::json answer_request(const clients::MissionStore& mission, PacketIndex& packets,
                               const nlohmann::json& request);
 

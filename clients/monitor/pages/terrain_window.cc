@@ -12,7 +12,7 @@
 namespace halocline::monitor {
 namespace {
 
-constexpr std::size_t kMostPosts = 10'000;  // of one query
+constexpr std::size_t kMostPosts = 10'000;  // most posts in one query
 
 struct Collection {
   DepthGrid grid;
@@ -22,7 +22,7 @@ struct Collection {
 
 void take(Collection& collection, std::size_t first_row, const terrain_tile_t* tile,
           const std::string& problem) {
-  if (!collection.done) return;  // it failed before
+  if (!collection.done) return;  // it has failed before
   DepthGrid& grid = collection.grid;
   const std::size_t begin = first_row * grid.columns;
   if (tile != nullptr && begin + tile->seabed_z_m.size() <= grid.depth_m.size()) {
@@ -70,7 +70,7 @@ void collect_terrain(QueryDesk& queries, const DepthGrid& window,
 
 void collect_overview(QueryDesk& queries, const std::function<void(const terrain_tile_t& overview)>& done) {
   constexpr double kMostIntervals = 96;
-  terrain_query_t any{};  // its reply has the extent
+  terrain_query_t any{};  // any query, for the extent in its reply
   any.post_spacing_m = 1;
   any.requested_rows = any.requested_columns = 1;
   queries.ask(std::move(any), [&queries, done](const terrain_tile_t* tile, const std::string&) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A window of the terrain in the detail that a page wants, from the bathymetry service: in as many queries as
-// it takes.
+// Window of the terrain at the resolution that a page requests, fetched from the bathymetry service in as
+// many queries as necessary.
 #pragma once
 
 #include <functional>
@@ -14,15 +14,16 @@
 
 namespace halocline::monitor {
 
-// South, west, spacing, rows and columns of a request; no depths. Throws InvalidArgument for what is missing.
+// Returns the window of a request: corner, spacing, rows and columns; its depths are NaN. Throws
+// InvalidArgument for missing members.
 DepthGrid terrain_window_in(const nlohmann::json& request);
 
-// Fills the depths. `done` is called once; with null and a sentence when the service does not answer.
+// Fetches the depths. `done` is called once; with null and a sentence when the service does not answer.
 void collect_terrain(QueryDesk& queries, const DepthGrid& window,
                      const std::function<void(const DepthGrid* grid, const std::string& problem)>& done);
 
-// The whole terrain at 97 x 97 posts at most, as TERRAIN has it, for who came after that was published.
-// `done` is not called when the service does not answer.
+// Fetches the whole terrain at 97 x 97 posts at most, like the message TERRAIN, for a program that started
+// after TERRAIN was published. `done` is not called when the service does not answer.
 void collect_overview(QueryDesk& queries, const std::function<void(const terrain_tile_t& overview)>& done);
 
 }  // namespace halocline::monitor

@@ -38,7 +38,7 @@ class Panels {
               {"digits", digits}, {"downward", downward}, {"series", json::array()}};
   }
 
-  // `value` gives NaN where the quantity does not exist; `sigma` its standard deviation.
+  // Adds a series. `value` returns NaN where the quantity does not exist.
   template <class Entry, class Value>
   void add(const char* label, const char* role, const TimedSeries<Entry>& series, const Value& value) {
     Values values;
@@ -78,7 +78,7 @@ auto field(Field Entry::*member, double factor = 1) {
   return [member, factor](const Entry& entry) { return factor * static_cast<double>(entry.*member); };
 }
 
-// A reading that was measured at its time.
+// Returns a reader of a measurement that yields NaN in messages without a fresh one.
 template <class Fresh>
 auto reading(Fresh vehicle_sensors_t::*fresh, double vehicle_sensors_t::*member, double factor = 1) {
   return [fresh, member, factor](const vehicle_sensors_t& s) {
@@ -147,7 +147,7 @@ double horizontal_error_m(const position_estimate_t& estimate) {
   return is_known ? elementary::hypot(estimate.error_ned_m[0], estimate.error_ned_m[1]) : kMissing;
 }
 
-// Of the horizontal position: the root of the sum of both variances.
+// Standard deviation of the horizontal position: sqrt(var_north + var_east), m.
 double deviation_m(const position_estimate_t& estimate) {
   if (estimate.estimate_status == position_estimate_t::NONE) return kMissing;
   return std::sqrt(std::max(0.0, estimate.covariance_ned_m2[0] + estimate.covariance_ned_m2[4]));

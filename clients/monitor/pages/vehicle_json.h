@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The series of one vehicle over a window of time: README.md has their members. Pure.
+// Time series of one vehicle over a window of time, in JSON; README.md has their members.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ nlohmann::json vehicle_series_json(const clients::MissionStore& mission,
                                    const clients::MissionVehicle& vehicle, const Window& window,
                                    std::size_t max_points);
 
-// Where all vehicles were.
+// Returns the tracks of all vehicles.
 nlohmann::json tracks_json(const clients::MissionStore& mission, const Window& window,
                            std::size_t max_points);
 

@@ -20,8 +20,7 @@ namespace halocline::monitor {
 namespace {
 
 constexpr std::int64_t kNoTime = INT64_MIN;
-// Messages that come within so long are taken off the bus together, which costs less; LCM holds them
-// meanwhile.
+// Period at which messages are taken off the bus, in batches to save time; LCM queues them meanwhile.
 constexpr int kTurnMs = 10;
 constexpr int kRetryMs = 2000;
 constexpr std::size_t kMaxPosted = 1000;
@@ -67,7 +66,7 @@ void BusReceiver::run() {
 }
 
 void BusReceiver::receive(lcm::LCM& lcm) {
-  bus::ReceiveFilter filter(lcm, url_, hosts_);  // before anything is subscribed to
+  bus::ReceiveFilter filter(lcm, url_, hosts_);  // must precede all subscriptions
   std::vector<BusMessage> batch;
   bus::Bus bus(lcm, {node_, 0});
   bus::ConductorTime clock(lcm, node_);
@@ -103,7 +102,7 @@ void BusReceiver::publish_posted(lcm::LCM& lcm) {
 }
 
 void BusReceiver::sleep_for(int milliseconds) const {
-  constexpr int kSlice = 50;  // a stop is seen within it
+  constexpr int kSlice = 50;  // a stop is noticed within this time
   for (; milliseconds > 0 && !stop_; milliseconds -= kSlice)
     std::this_thread::sleep_for(std::chrono::milliseconds(std::min(milliseconds, kSlice)));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The thread that receives every message of a bus, and publishes what is posted to it. It waits for nobody:
-// messages go into a hand-over of bounded size. A bus that cannot be opened is tried again.
+// Receiver thread of a bus: receives every message and publishes those posted to it. It never waits: messages
+// go to a queue of bounded size. A bus that cannot be opened is retried.
 #pragma once
 
 #include <atomic>
@@ -24,21 +24,21 @@ namespace halocline::monitor {
 
 class BusReceiver {
  public:
-  // `node` is its name in what it logs.
+  // `node` is the name of the thread in its log messages.
   BusReceiver(std::string lcm_url, bus::AcceptedHosts hosts, std::string node);
   ~BusReceiver();
   BusReceiver(const BusReceiver&) = delete;
   BusReceiver& operator=(const BusReceiver&) = delete;
 
-  // What came since the last call. A message without channel marks the begin of another run.
+  // Returns the messages since the last call. A message without a channel marks the beginning of another run.
   std::vector<BusMessage> take() { return handover_.take(); }
   std::int64_t dropped() const { return handover_.dropped(); }
 
-  // To be published by the thread, within some hundredths of a second.
+  // Queues a message, which the thread publishes within some hundredths of a second.
   void post(std::string channel, bus::Bytes bytes);
 
   bool is_open() const { return is_open_; }
-  // By the conductor's CLOCK; empty while none was received.
+  // Returns the simulation time according to the conductor's CLOCK; nothing until one was received.
   std::optional<SimTime> conductor_time() const;
 
  private:
@@ -54,7 +54,7 @@ class BusReceiver {
   std::vector<BusMessage> posted_;
   std::atomic<bool> is_open_ = false, stop_ = false;
   std::atomic<std::int64_t> conductor_ns_;
-  std::thread thread_;  // last: it uses the others
+  std::thread thread_;  // last member: it uses the others
 };
 
 }  // namespace halocline::monitor

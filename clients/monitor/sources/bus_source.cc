@@ -16,7 +16,7 @@ namespace halocline::monitor {
 namespace {
 
 constexpr double kSilent_s = 3;
-// A node publishes its STATUS each second.
+// Age of its last STATUS beyond which a node is not alive; nodes publish it each second.
 constexpr double kAlive_s = 3.5;
 
 }  // namespace
@@ -75,7 +75,7 @@ SourceState BusSource::state() const {
           .messages_dropped = receiver_.dropped()};
 }
 
-// A vehicle's clock may lead: by the conductor's where there is one.
+// The conductor's clock decides, if there is one, because a vehicle's clock may be ahead of it.
 SimTime BusSource::now() const {
   constexpr SimDuration kAhead = SimDuration::from_milliseconds(1000);
   const SimTime last = mission_.end();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bus as a source: what it carries now, and its recent past.
+// Bus as a source: its present messages and its recent past.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace halocline::monitor {
 
 class BusSource : public Source {
  public:
-  // `history`: how much of the past is kept.
+  // `history`: the duration of the past that is kept.
   BusSource(const std::string& lcm_url, const std::string& accept, SimDuration history);
 
   void update() override;
@@ -47,7 +47,7 @@ class BusSource : public Source {
 
  private:
   void begin_run();
-  // MODEM of the vehicles that published none, whenever another configuration was received.
+  // Adds MODEM messages, made from the recorded configuration, for vehicles that published none.
   void take_scenario_modems();
   bool is_alive(std::string_view prefix) const;
 
@@ -57,9 +57,9 @@ class BusSource : public Source {
   BusReceiver receiver_;
   std::function<bool(std::string_view channel)> is_reply_;
   std::vector<BusMessage> replies_;
-  std::string configuration_;  // of the scenario, whose modems were taken
+  std::string configuration_;  // configuration whose modems were added
   int run_ = 0;
-  SimTime last_message_;  // steady
+  SimTime last_message_;  // steady time
   std::int64_t received_ = 0;
 };
 

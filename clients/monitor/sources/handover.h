@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages on their way from the thread that receives the bus to the one that shows them. Bounded: what does
-// not fit is dropped and counted, so that the bus never waits. Thread-safe.
+// Bounded queue of messages from the thread that receives the bus to the one that shows them. Messages that
+// do not fit are dropped and counted, so that the receiver never waits. Thread-safe.
 #pragma once
 
 #include <cstddef>

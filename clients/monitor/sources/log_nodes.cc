@@ -22,7 +22,7 @@
 namespace halocline::monitor {
 namespace {
 
-// Publishes what is put, and hands on what the others publish.
+// Node that publishes the messages given to it, and passes on those of the other nodes.
 class DeskNode : public bus::Node {
  public:
   using Receive = std::function<void(std::string channel, bus::Bytes bytes)>;
@@ -55,7 +55,8 @@ class DeskNode : public bus::Node {
   std::vector<BusMessage> waiting_;
 };
 
-// Ends become positions with the modems that the vehicles have.
+// Replaces the named ends of a query by their positions and the modems that the configuration gives the
+// vehicles.
 bus::Bytes with_modems(const clients::ScenarioConfig& config, link_query_t query) {
   const auto modems = channel_server::make_modems(config.channel_server);
   for (auto* ends : {&query.transmitters, &query.receivers}) {
@@ -111,7 +112,7 @@ void LogNodes::serve() {
   bus::ConfigFile file = open_();
   clients::ScenarioConfig config = clients::load_scenario(file, clients::ScenarioUse::kWater);
   config.channel_server.rules.medium.shard = {};
-  config.channel_server.changes.clear();  // their clock is not that of the log
+  config.channel_server.changes.clear();  // their times are not those of the log
   lcm::LCM lcm("memq://");
   const auto hand_over = [this](std::string channel, bus::Bytes bytes) {
     std::vector<BusMessage> one(1);

@@ -51,7 +51,7 @@ void LogSource::update() {
   }
 }
 
-// A vehicle that published none has that of the scenario.
+// Returns true for the MODEM of a vehicle that published none; the one of the scenario is then used.
 bool LogSource::lacks_modem(std::string_view channel) const {
   constexpr std::string_view kPrefix = bus::channels::kModem.prefix;
   if (!channel.starts_with(kPrefix)) return false;
@@ -84,7 +84,7 @@ void LogSource::post(const std::string& channel, bus::Bytes bytes) {
 void LogSource::set_water(SimTime at) {
   const auto* water = mission_.water().at_or_before(std::max(at, SimTime()));
   if (water == nullptr) return;
-  // What the log began with is what its configuration begins with.
+  // The water at the beginning of the log is that of its configuration.
   if (!nodes_water_) nodes_water_ = mission_.water().all().front().value;
   auto change = change_between(*nodes_water_, water->value);
   if (!change) return;

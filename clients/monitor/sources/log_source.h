@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A whole log as a source. What its configuration gives is computed by the nodes of log_nodes.h.
+// Log of a whole run as a source. The nodes of log_nodes.h compute what can be derived from its
+// configuration.
 #pragma once
 
 #include <cstdint>
@@ -24,13 +25,13 @@ namespace halocline::monitor {
 
 class LogSource : public Source {
  public:
-  // Reads the log, or its parts in order. `scenario`: its configuration; empty: what it holds, or the file
-  // beside it. Throws InvalidArgument when the log cannot be read, or holds nothing.
+  // Reads the log, or its parts in order. `scenario`: file of its configuration; empty: the one in the log,
+  // or the file beside it. Throws InvalidArgument when the log cannot be read, or is empty.
   LogSource(const std::vector<std::string>& logs, const std::string& scenario);
 
   void update() override;
   const clients::MissionStore& mission() const override { return mission_; }
-  void set_terrain(const terrain_tile_t&) override {}  // update() takes that of the nodes
+  void set_terrain(const terrain_tile_t&) override {}  // update() adds that of the nodes
   int run() const override { return 0; }
   bool is_log() const override { return true; }
   std::string name() const override { return name_; }
@@ -48,11 +49,11 @@ class LogSource : public Source {
  private:
   LogSource(const std::vector<std::string>& logs, clients::MissionLog log, const std::string& scenario);
   bool lacks_modem(std::string_view channel) const;
-  // The nodes compute in the water that the log had at an instant.
+  // Changes the water in which the nodes compute to that which the log had at one time.
   void set_water(SimTime at);
 
   std::string name_;
-  std::vector<std::string> limits_;  // what of the log could not be read; empty for a whole one
+  std::vector<std::string> limits_;  // sentences on unreadable parts; empty for a whole log
   clients::MissionStore mission_;
   std::function<bool(std::string_view channel)> is_reply_;
   std::vector<BusMessage> replies_;

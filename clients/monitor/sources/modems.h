@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of modems beyond the messages: those that a configuration gives the vehicles, and what SINR a
-// modem needs.
+// Properties of modems beyond their messages: the modems that a configuration gives the vehicles, and the
+// SINR that a modem needs.
 #pragma once
 
 #include <map>
@@ -20,25 +20,25 @@ struct VehicleModem;
 
 namespace halocline::monitor {
 
-// MODEM of a vehicle from `from` on. A modem of a file of its own, which the message cannot name, is shown as
-// a generic one of its levels, band and rate: its framing is left out.
+// Makes the MODEM message of a vehicle, valid from `from` on. A modem defined in a file of its own, which the
+// message cannot name, is represented by a generic one with its levels, band and rate, without its framing.
 modem_config_t modem_message(const channel_server::VehicleModem& modem, SimTime from);
 
-// MODEM of each of these vehicles, as a configuration (TOML, as SCENARIO has it) gives it. None of one that
-// cannot be read.
+// Makes the MODEM message of each of these vehicles from a configuration (TOML, as in SCENARIO). Returns
+// nothing for a configuration that cannot be read.
 std::vector<BusMessage> modems_in(const std::string& configuration, std::span<const std::string> vehicles,
                                   SimTime from);
 
-// Of modems, the SINR at which half of their packets arrive without fading, dB:
-// acoustics/modem/half_delivery.h, for 32 bytes as in link_t.delivery_probability, or the modem's most. Each
-// is computed once.
+// Cache of the SINR at which half of a modem's packets are received without fading, dB
+// (acoustics/modem/half_delivery.h). The payload is 32 bytes, as in link_t.delivery_probability, or the
+// modem's maximum if that is less.
 class ModemThresholds {
  public:
-  // None for a modem without one, or that cannot be.
+  // Returns nothing for a modem without such a threshold, and for an invalid one.
   std::optional<double> of(const modem_config_t& modem);
 
  private:
-  std::map<bus::Bytes, std::optional<double>> known_;  // by the message's bytes
+  std::map<bus::Bytes, std::optional<double>> known_;  // key: bytes of the message
 };
 
 }  // namespace halocline::monitor

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the monitor's messages come from: a bus or a log. Used by one thread; a bus is received by another
-// behind it.
+// Source of the monitor's messages: a bus or a log. It is used by one thread; a bus is received by another
+// thread behind it.
 #pragma once
 
 #include <cstdint>
@@ -23,42 +23,43 @@ enum class BusCondition { kLive, kSilent, kReconnecting, kNone };
 
 struct SourceState {
   BusCondition bus = BusCondition::kNone;
-  double silent_s = 0;                              // of kSilent, wall time
-  bool bathymetry = false, channel_server = false;  // answer requests now
+  double silent_s = 0;                              // duration of kSilent, wall time, s
+  bool bathymetry = false, channel_server = false;  // true: answers requests now
   std::optional<double> real_time_factor = {};
-  std::int64_t messages_dropped = 0;  // that the monitor was too slow for
+  std::int64_t messages_dropped = 0;  // messages for which the monitor was too slow
 };
 
 class Source {
  public:
   virtual ~Source() = default;
 
-  // Takes up what came since the last call; hands over answers.
+  // Adds the messages since the last call to mission(), and collects replies.
   virtual void update() = 0;
   virtual const clients::MissionStore& mission() const = 0;
-  // The terrain, where no TERRAIN was received.
+  // Sets the terrain when no TERRAIN was received.
   virtual void set_terrain(const terrain_tile_t& overview) = 0;
-  // Grows when another run has begun: mission() holds nothing of the one before.
+  // Returns a number that increases when another run begins; mission() then contains nothing of the previous
+  // one.
   virtual int run() const = 0;
 
   virtual bool is_log() const = 0;
-  virtual std::string name() const = 0;  // the log's path or the bus' URL
-  // Sentences: what it cannot show, why, and what to do.
+  virtual std::string name() const = 0;  // path of the log or URL of the bus
+  // Returns sentences on what cannot be shown, why, and what to do.
   virtual std::vector<std::string> limits() const = 0;
   virtual SourceState state() const = 0;
-  // Publishes a query, or a command; on the bus, or to the nodes that answer for a log.
+  // Publishes a query or a command, on the bus or to the nodes that answer for a log.
   virtual void post(const std::string& channel, bus::Bytes bytes) = 0;
-  // What was received since the last call on channels whose messages are for this program alone
-  // (set_replies).
+  // Returns the replies since the last call: messages on the channels of this program alone, which
+  // set_replies() defines.
   virtual std::vector<BusMessage> take_replies() = 0;
   virtual void set_replies(std::function<bool(std::string_view channel)> is_reply) = 0;
-  // Whether queries are answered for the present alone, by name.
+  // Returns true when queries by name are answered for the present only.
   virtual bool names_stand_for_now() const = 0;
-  // The newest instant; before the first message that of mission().begin() - anything.
+  // Returns the newest time; undefined before the first message, that is while mission() is empty.
   virtual SimTime now() const = 0;
-  // Of a modem, dB (modems.h).
+  // Returns the SINR threshold of a modem, dB (modems.h).
   std::optional<double> threshold_db(const modem_config_t& modem) const { return thresholds_.of(modem); }
-  // Of a node's last sign of life, seconds: wall time on a bus, simulation time in a log.
+  // Returns the age of a node's last STATUS, s: in wall time on a bus, in simulation time in a log.
   virtual double age_s(const clients::NodeRecord& node, SimTime at) const = 0;
 
  private:

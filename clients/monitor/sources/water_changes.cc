@@ -18,7 +18,7 @@ bool have_one_profile(const environment_t& a, const environment_t& b) {
 }
 
 void set_profile(environment_change_t& change, const environment_t& water) {
-  // One that was given as speeds has the same temperature and salinity in all rows.
+  // A profile given as sound speeds has the same temperature and salinity in all rows.
   const bool is_of_speeds = is_uniform(water.layer_temperature_degc) && is_uniform(water.layer_salinity_psu);
   change.profile_set =
       is_of_speeds ? environment_change_t::PROFILE_SPEED : environment_change_t::PROFILE_WATER;

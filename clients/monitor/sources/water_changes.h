@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What SET_ENVIRONMENT takes to make one water of another. Pure.
+// Difference between two states of the water as a SET_ENVIRONMENT message.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,8 @@
 
 namespace halocline::monitor {
 
-// Empty where they are alike in all that SET_ENVIRONMENT sets. It holds from its reception.
+// Returns nothing when both agree in everything that SET_ENVIRONMENT sets. The change is valid from its
+// reception.
 std::optional<environment_change_t> change_between(const environment_t& before, const environment_t& after);
 
 }  // namespace halocline::monitor

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uintmax_t kMaxFileBytes = 32 * 1024 * 1024;
 
-// A page without the bundle: it has no script, and its style is its own.
+// Page that needs no bundle: it has no script, and its style is inline.
 constexpr std::string_view kOwnPage = R"(<!doctype html>
 <html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <title>Halocline monitor</title><link rel="icon" href="data:,"><style>
@@ -63,7 +63,7 @@ WebAnswer without_token(std::string_view target) {
   return own_page(401, {kTokenNeeded, is_wrong ? kWrongToken : std::string_view(), kTokenForm});
 }
 
-// The bytes of a regular file within `folder`.
+// Returns the bytes of a regular file within `folder`.
 std::optional<std::string> read_file(const std::filesystem::path& folder, const std::string& name) {
   namespace fs = std::filesystem;
   std::error_code error;

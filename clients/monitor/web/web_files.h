@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the monitor's web server answers to a request for a file: a file of the bundle, or why not.
+// Answers of the monitor's web server to requests for files: a file of the bundle, or an error.
 #pragma once
 
 #include <string>
@@ -17,9 +17,9 @@ struct WebAnswer {
   std::string cookie = {};
 };
 
-// The answer to a request for a file in `folder`: the file; or why not, as `access` allows. Links that lead
-// out of the folder are not followed. Without a bundle `/` is a page that names the command that builds it,
-// without the token one with a form for it.
+// Returns the answer to a request for a file in `folder`: the file, or an error according to `access`. Links
+// that lead out of the folder are not followed. Without a bundle, `/` is a page that names the command that
+// builds it; without the token, a page with a form for it.
 WebAnswer answer_to(const WebAccess& access, const std::string& folder, std::string_view method,
                     const WebRequest& request);
 

@@ -15,7 +15,7 @@ int hex_value(char c) {
   return -1;
 }
 
-// Empty for a text whose percents are no percent encoding.
+// Returns nothing for a text with an invalid percent encoding.
 std::optional<std::string> percent_decoded(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -45,7 +45,7 @@ std::string_view take_part(std::string_view& rest, char separator) {
   return trimmed(part);
 }
 
-// The value of `name` in "name=value", parts separated by `separator`.
+// Returns the value of `name` in a list of "name=value" parts, separated by `separator`.
 std::string_view value_of(std::string_view rest, char separator, std::string_view name) {
   while (!rest.empty()) {
     const std::string_view part = take_part(rest, separator);
@@ -74,7 +74,7 @@ bool names_this_machine(const WebAccess& access, std::string_view host) {
 }
 
 bool is_allowed_origin(const WebAccess& access, const WebRequest& request) {
-  if (request.origin.empty()) return true;  // no page made it
+  if (request.origin.empty()) return true;  // the request was not made by a page
   if (lower(request.origin) == "http://" + lower(request.host)) return true;
   return std::find(access.allowed_origins.begin(), access.allowed_origins.end(), request.origin) !=
          access.allowed_origins.end();
@@ -121,7 +121,8 @@ bool is_loopback(std::string_view address) {
 }
 
 bool equal_in_constant_time(std::string_view given, std::string_view secret) {
-  // The secret's length shows, its characters do not.
+  // The time depends on the length of `given` only; the length of the secret may be revealed, its characters
+  // are not.
   unsigned difference = given.size() == secret.size() && !secret.empty() ? 0 : 1;
   for (std::size_t i = 0; i < given.size(); ++i) {
     const char other = secret.empty() ? '\0' : secret[i % secret.size()];

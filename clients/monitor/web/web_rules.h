@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who may reach the monitor's web server, and which file a request names. Pure: no socket, no file.
+// Access rules of the monitor's web server, and the file that a request names. No sockets or files are used
+// here.
 //
-// The server runs beside a browser that shows pages of strangers. A stranger's page can send requests to
-// 127.0.0.1, and by naming its own host 127.0.0.1 (DNS rebinding) even reads the answers. So a request names
-// this server in Host, and one that a page made names this server, or one that was allowed, in Origin (RFC
-// 6454). Where others reach the address, a token is demanded as well, which takes the place of the check of
-// Host.
+// The server runs on a machine whose browser also shows pages of strangers. Such a page can send requests to
+// 127.0.0.1, and can read the answers when it makes its own host name resolve to 127.0.0.1 (DNS rebinding). A
+// request must therefore name this server in Host. A request made by a page must also have an Origin (RFC
+// 6454) that is this server or an allowed one. On an address that others reach, a token is required as well,
+// which replaces the check of Host.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +20,11 @@ namespace halocline::monitor {
 struct WebAccess {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;
-  std::string token = {};                         // empty: none is demanded
-  std::vector<std::string> allowed_origins = {};  // of pages from elsewhere, "https://host"
+  std::string token = {};                         // empty: none is required
+  std::vector<std::string> allowed_origins = {};  // origins of other pages, "https://host"
 };
 
-// The parts of a request that decide; empty where the request has none.
+// Parts of a request that access depends on; empty when the request lacks them.
 struct WebRequest {
   std::string_view target = {}, host = {}, origin = {}, authorization = {}, cookie = {};
 };
@@ -31,32 +32,34 @@ struct WebRequest {
 enum class WebVerdict { kAllowed, kUnauthorized, kForbidden };
 WebVerdict judge(const WebAccess& access, const WebRequest& request);
 
-// Whether others than this machine's users reach it: then a token is needed.
+// Returns true for an address that only users of this machine reach; any other needs a token.
 bool is_loopback(std::string_view address);
 
-// Takes the same time for all texts of one length, so that the time reveals nothing of the token.
+// Compares in a time that depends on the length of `given` only, so that it reveals nothing of the token's
+// characters.
 bool equal_in_constant_time(std::string_view given, std::string_view secret);
 
-// Once a page was loaded with ?token=, its files come with this cookie.
+// Name and header of the cookie that carries the token to the page's files, once the page was loaded with
+// ?token=.
 std::string cookie_name(const WebAccess& access);
 std::string set_cookie(const WebAccess& access);
-// Whether the request carries the token in its target.
+// Returns true when the request has the token in its target.
 bool has_token_in_target(const WebAccess& access, std::string_view target);
 
-// Of the page, with the token.
+// Returns the URL of the page, with the token.
 std::string url_of(const WebAccess& access);
 
-// The path of a target without its query.
+// Returns the path of a target, without its query.
 std::string_view path_of(std::string_view target);
-// The file within the bundle, relative; empty for a path that no bundle has (.., hidden files, control
-// characters).
+// Returns the relative path of a file within the bundle; nothing for a path that no bundle contains (..,
+// hidden files, control characters).
 std::optional<std::string> bundle_file(std::string_view target);
 std::string_view mime_type(std::string_view file);
-// Names with a hash of their contents (assets/index-B3x_9aQk.js) never change; others are revalidated each
-// time.
+// Returns the Cache-Control header. Files with a hash of their contents in the name
+// (assets/index-B3x_9aQk.js) never change; others are revalidated each time.
 std::string_view cache_control(std::string_view file);
 
-// The first protocol of a list "a, b" that is in `known`; empty when none is.
+// Returns the first protocol in the list "a, b" that is in `known`; empty when there is none.
 std::string_view choose_protocol(std::string_view offered, const std::vector<std::string_view>& known);
 
 }  // namespace halocline::monitor

@@ -32,7 +32,7 @@ using Response = http::response<http::string_body>;
 
 constexpr std::chrono::seconds kRequestTime{10}, kIdleTime{30}, kPingTime{20};
 constexpr std::size_t kMaxHeaderBytes = 16 * 1024;
-// A connection is read no further while so much waits for it.
+// Number of queued bytes beyond which a connection is not read.
 constexpr std::size_t kEnoughQueuedBytes = 256 * 1024;
 constexpr std::string_view kMonitorProtocol = "halocline.monitor.v1",
                            kFoxgloveProtocol = "foxglove.websocket.v1";
@@ -90,7 +90,7 @@ class BeastServer : public WebServer {
 
   Options options_;
   WebHandlers handlers_;
-  std::size_t transports_ = 0;  // outlives the connections that io_ holds
+  std::size_t transports_ = 0;  // declared first: outlives the connections in io_
   asio::io_context io_{1};
   asio::ip::tcp::acceptor acceptor_{io_};
   ConnectionId last_id_ = 0;
@@ -98,7 +98,7 @@ class BeastServer : public WebServer {
   std::map<ConnectionId, std::shared_ptr<Connection>> connections_;
 };
 
-// Requests of one TCP connection, until it ends or becomes a WebSocket.
+// HTTP requests of one TCP connection, until it ends or becomes a WebSocket.
 class BeastServer::Exchange : public std::enable_shared_from_this<Exchange> {
  public:
   Exchange(BeastServer& server, asio::ip::tcp::socket socket) : server_(server), stream_(std::move(socket)) {
@@ -149,7 +149,7 @@ class BeastServer::Exchange : public std::enable_shared_from_this<Exchange> {
     if (request.method() == http::verb::head) response_.body().clear();
     stream_.expires_after(kIdleTime);
     http::async_write(stream_, response_, [self = shared_from_this()](error_code error, std::size_t) {
-      if (error || !self->response_.keep_alive()) return;  // ends the connection, with the last reference
+      if (error || !self->response_.keep_alive()) return;  // the last reference ends the connection
       self->response_ = {};
       self->read();
     });
@@ -185,7 +185,7 @@ class BeastServer::Connection : public std::enable_shared_from_this<Connection> 
     });
   }
 
-  // Takes up what was not taken; drops the client if it has stalled.
+  // Offers again a message that was refused; drops a client that has stalled.
   void resume() {
     if (overflows_ || (is_writing_ && Clock::now() - write_began_ > kMaxStall)) return drop();
     if (waits_ && is_open_) offer();
@@ -195,7 +195,7 @@ class BeastServer::Connection : public std::enable_shared_from_this<Connection> 
     if (is_gone_ || overflows_) return;
     queued_bytes_ += message->size();
     queue_.push_back({std::move(message), binary});
-    // One large answer may exceed the bound, but not wait behind others.
+    // One large message may exceed the bound, provided that no others wait before it.
     overflows_ = overflows_ || (queued_bytes_ > kMaxQueuedBytes && queue_.size() > 1);
     write();
   }
@@ -277,7 +277,7 @@ BeastServer::~BeastServer() {
 void BeastServer::accept() {
   acceptor_.async_accept([this](error_code error, asio::ip::tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
-    // One that finds no room is closed by leaving scope.
+    // A connection beyond the limit is closed when `socket` goes out of scope.
     if (!error && transports_ + connections_.size() < kMaxTransports) {
       socket.set_option(asio::ip::tcp::no_delay(true), error);
       std::make_shared<Exchange>(*this, std::move(socket))->read();
@@ -293,14 +293,14 @@ void BeastServer::open(beast::tcp_stream stream, const Request& request, WebProt
 }
 
 void BeastServer::remove(ConnectionId id) {
-  const auto kept = connections_.extract(id);  // until its own function has returned
+  const auto kept = connections_.extract(id);  // kept until its own function has returned
   if (!kept.empty()) handlers_.closed(id);
 }
 
 void BeastServer::resume() {
   std::vector<std::shared_ptr<Connection>> all;
   for (const auto& [id, connection] : connections_) all.push_back(connection);
-  // Another one is first each time, so that one flood does not take the time of all.
+  // Each call begins with another connection, so that one that floods does not take the time of all.
   if (!all.empty())
     std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(++turns_ % all.size()), all.end());
   for (const auto& connection : all) connection->resume();
