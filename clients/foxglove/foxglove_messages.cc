@@ -25,7 +25,7 @@ json vector_of(double x, double y, double z) { return {{"x", x}, {"y", y}, {"z",
 json enu(const Vec3& ned_m) { return vector_of(ned_m.y(), ned_m.x(), -ned_m.z()); }
 json colour(double r, double g, double b, double a) { return {{"r", r}, {"g", g}, {"b", b}, {"a", a}}; }
 
-// Forward along x, left y, up z in east, north, up.
+// Converts an attitude to a quaternion of the axes x forward, y left, z up in east, north, up.
 json orientation(const EulerAngles& attitude) {
   const EulerAngles turned{attitude.roll, -attitude.pitch, std::numbers::pi / 2 - attitude.yaw};
   const Quaternion q = to_quaternion(turned);
@@ -67,7 +67,7 @@ json vehicle_entity(const MissionVehicle& vehicle, const TrackPoint& point, SimT
   return shown;
 }
 
-// From no signal (red) by the middle (white) to a good one (blue).
+// Colour of a link by its SNR: red for -10 dB and less, white for 10 dB, blue for 30 dB and more.
 json colour_of_snr(double snr_db) {
   constexpr double kCenter_db = 10, kHalf_db = 20;
   const double share = std::clamp((snr_db - kCenter_db) / kHalf_db, -1.0, 1.0);

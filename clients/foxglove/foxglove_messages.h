@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission as messages of Foxglove's schemas: its scene, positions on the earth, and a log of what became of
-// packets. Pure.
+// Messages of a run in Foxglove's schemas: its scene, positions on the earth, and a log of the packets'
+// outcomes.
 //
-// The frame "world" is east, north, up in metres from the scenario's origin, as Foxglove's panels want it.
+// The frame "world" is east, north, up in metres from the scenario's origin, as Foxglove's panels expect.
 #pragma once
 
 #include <optional>
@@ -22,13 +22,13 @@ namespace halocline::clients {
 
 nlohmann::json foxglove_time(SimTime at);
 
-// foxglove.SceneUpdate: vehicles with their names, links coloured by SNR, and wavefronts of those of
-// `packets` that are on their way.
+// Returns a foxglove.SceneUpdate: vehicles with their names, links coloured by SNR, and the wavefronts of
+// those of `packets` that are under way.
 nlohmann::json foxglove_scene(const MissionStore& mission, SimTime at,
                               std::span<const PacketRecord* const> packets);
 
-// Between the earth and the scenario's frame, as the simulator has it by default; empty where the origin is
-// not known.
+// Returns the simulator's default transformation between the earth and the scenario's frame; nothing when the
+// origin is unknown.
 std::optional<bathymetry::LocalFrame> frame_of(const MissionStore& mission);
 
 struct PlaceOnEarth {
@@ -36,10 +36,10 @@ struct PlaceOnEarth {
 };
 PlaceOnEarth place_of(const bathymetry::LocalFrame& frame, const Vec3& position_ned_m);
 
-// foxglove.LocationFix; null before the first state.
+// Returns a foxglove.LocationFix; null before the first state.
 nlohmann::json foxglove_fix(const MissionVehicle& vehicle, const bathymetry::LocalFrame& frame, SimTime at);
 
-// foxglove.Log.
+// Return a foxglove.Log.
 nlohmann::json foxglove_log(SimTime at, bool is_loss, const std::string& name, const std::string& message);
 nlohmann::json foxglove_log_of(const MissionStore& mission, const packet_outcome_t& outcome);
 

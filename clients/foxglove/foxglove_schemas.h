@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The schemas of Foxglove's that messages of a mission are shown by, as JSON Schema.
+// JSON Schemas of the Foxglove messages that show a run.
 //
-// Names and members are those of foxglove/schemas (2023); members that are never filled are left out.
+// Names and members are those of foxglove/schemas (2023); members that are never filled are omitted.
 #pragma once
 
 #include <string_view>

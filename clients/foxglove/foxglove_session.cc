@@ -29,7 +29,7 @@ std::uint64_t nanoseconds(SimTime at) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(at.nanoseconds(), 0));
 }
 
-// The packets that may be under way at an instant.
+// Returns the packets that are under way at one time, of the latest kMostRecent.
 std::vector<const PacketRecord*> recent(const MissionStore& mission, SimTime at) {
   constexpr std::size_t kMostRecent = 500;
   std::vector<const PacketRecord*> found;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One connection by Foxglove's WebSocket protocol (foxglove.websocket.v1): channels are advertised, those
-// that the client subscribes to are sent. Of a bus the newest; a log plays from its beginning at its own
-// pace.
+// Connection of a Foxglove client by the WebSocket protocol foxglove.websocket.v1: channels are advertised,
+// and those to which the client subscribes are sent. A bus is shown at its newest time; a log is played from
+// its beginning in real time.
 //
-//   github.com/foxglove/ws-protocol, "Foxglove WebSocket Protocol Specification"
+// Source: github.com/foxglove/ws-protocol, "Foxglove WebSocket Protocol Specification".
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,10 @@ class FoxgloveSession {
 
   FoxgloveSession(const std::string& name, Outbox outbox);
 
-  // What is due at an instant of the mission; nothing unless `idle`: the connection has sent everything.
+  // Sends what is due at one time of the run, but only when `idle`, that is when the connection has sent
+  // everything before.
   void tick(double steady_s, bool idle, const MissionStore& mission, SimTime at);
-  // A message of the client; what is no request of the protocol is answered by a status.
+  // Takes a message of the client; anything that is no request of the protocol is answered by a status.
   void take(std::string_view message);
 
  private:
@@ -41,8 +42,8 @@ class FoxgloveSession {
   Outbox outbox_;
   double sent_s_ = -kPeriod_s;
   std::uint32_t last_channel_ = 0;
-  std::map<std::size_t, std::uint32_t> fixes_;         // channel of a vehicle's position, by its index
-  std::map<std::uint32_t, std::uint32_t> subscribed_;  // channel by subscription
+  std::map<std::size_t, std::uint32_t> fixes_;         // channel of a vehicle's position; key: index
+  std::map<std::uint32_t, std::uint32_t> subscribed_;  // channel; key: subscription
 
   SimTime outcomes_until_ = SimTime::at_once();
 };
