@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Python module `_halocline`: logs as arrays, arrivals and link budgets. clients/python/halocline wraps
-// it.
+// Python module `_halocline`: logs as arrays, arrivals and link budgets. The package clients/python/halocline
+// wraps it.
 //
 // Errors of the caller (InvalidArgument) become ValueError with their text, others RuntimeError. Long
 // computations release the interpreter's lock.
@@ -92,7 +92,7 @@ py::tuple read_log(const std::vector<std::string>& paths, const std::string& cha
   return py::make_tuple(families, damage.str());
 }
 
-// JSON of the budget, JSON of the paths, notes.
+// Returns the budget in JSON, the paths in JSON, and notes.
 std::tuple<std::string, std::string, std::vector<std::string>> link(
     const std::string& scenario, const std::string& from_text, const std::string& to_text,
     const std::vector<std::string>& overrides, const Vec3& from_velocity, const Vec3& to_velocity) {
@@ -106,7 +106,7 @@ std::tuple<std::string, std::string, std::vector<std::string>> link(
   return {to_json(from, to, answer), paths.str(), answer.notes};
 }
 
-// As the options of `halocline arrivals`, of the same names.
+// Sets an option of the sea; names and meanings are those of `halocline arrivals`.
 void set(SeaDescription& sea, const std::string& option, const py::handle& value) {
   static const std::vector<
       std::pair<const char*,

@@ -25,7 +25,7 @@ using Stored =
                        std::conditional_t<std::is_integral_v<T>, std::int64_t,
                                           std::conditional_t<kIsBytes<T>, LogColumn::Bytes, std::string>>>;
 
-// Appends one message to a table; of the first it makes the columns.
+// Appends one message to a table; the first message creates the columns.
 class RowAppender {
  public:
   explicit RowAppender(LogTable& table) : table_(table) {}
@@ -81,7 +81,7 @@ class RowAppender {
     prefix_ = outer;
   }
 
-  // Columns of an empty list of messages: made by one that is not stored.
+  // Creates the columns of an empty list of messages, from a message that is not stored.
   template <class Message>
   void declare_fields(const std::string& name) {
     const bool outer = std::exchange(only_declares_, true);
@@ -91,7 +91,7 @@ class RowAppender {
 
   template <class Value>
   LogColumn& declare(const std::string& name, std::size_t width, bool is_array) {
-    // Fields come in the order of their columns, but for those of the elements of a list, which come again.
+    // Fields arrive in the order of their columns, except for those of list elements, which repeat.
     if (next_ >= table_.size() || table_[next_].name != name) {
       const auto found =
           std::find_if(table_.begin(), table_.end(), [&](const LogColumn& c) { return c.name == name; });
@@ -124,7 +124,7 @@ std::string lower_case(std::string_view family) {
   return text;
 }
 
-// Finds one field of a type.
+// Visitor that finds one field of a message type, and lists the type's enumerations.
 struct FieldFinder {
   std::string_view wanted;
   bool found = false;

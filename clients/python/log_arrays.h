@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The messages of a log as columns: one table a channel family, one row a message.
+// Messages of a log as columns: one table for each channel family, one row for each message.
 //
-// Columns are event (number in the log), stamp_us, channel, then the fields of the type, in order, by the
-// names of `halocline log export`; a field of a message within a message has both names, "peers.snr_db".
-// Numbers are 64-bit integers or doubles. A field of fixed size has `width` numbers a row; a list has any
-// number of elements a row, each of `width` numbers; elements of lists within lists follow one another.
+// The columns are event (number in the log), stamp_us and channel, followed by the fields of the message
+// type, in order, named as by `halocline log export`. A field of a message within a message has both names,
+// "peers.snr_db". Numbers are 64-bit integers or doubles. A field of fixed size has `width` numbers a row. A
+// list has any number of elements a row, each of `width` numbers; the elements of lists within lists are
+// concatenated.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@ struct LogColumn {
   std::variant<std::vector<std::int64_t>, std::vector<double>, std::vector<std::string>, std::vector<Bytes>>
       values;
   std::size_t width = 1;
-  bool is_array = false;  // `width` is that of an array, not of a number
-  bool is_list = false;   // then row i ends before values[ends[i]]
+  bool is_array = false;  // the field is an array of `width` numbers, not a number
+  bool is_list = false;   // row i ends before values[ends[i]]
   std::vector<std::size_t> ends;
 };
 
@@ -32,15 +33,16 @@ using LogTable = std::vector<LogColumn>;
 
 struct LogTables {
   std::map<std::string, LogTable> by_family;  // "state", "outcome", ... in lower case
-  std::int64_t undecodable = 0;               // on our channels, but no sound message
+  std::int64_t undecodable = 0;               // messages on channels of Halocline that are invalid
 };
 
-// The events whose channel matches `channel_pattern` (a regular expression of RE2 for the whole name; empty:
-// all). Throws InvalidArgument for a bad pattern.
+// Reads the events whose channel matches `channel_pattern` (a regular expression of RE2 for the whole name;
+// empty: all). Throws InvalidArgument for an invalid pattern.
 LogTables read_tables(LogReader& log, const std::string& channel_pattern);
 
-// The names of the values of an enumeration, from its least value (0) on: names_of("outcome", "packet_kind").
-// Throws InvalidArgument for a family or a field that does not exist, or that is no enumeration.
+// Returns the names of an enumeration's values, from its least value (0) on: names_of("outcome",
+// "packet_kind"). Throws InvalidArgument for a family or field that does not exist, or that is no
+// enumeration.
 std::vector<std::string> names_of(const std::string& family, const std::string& field);
 
 }  // namespace halocline::clients
