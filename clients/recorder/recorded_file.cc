@@ -20,14 +20,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Bytes of the file; 0 where there is none.
+// Returns the size of the file, bytes; 0 when it does not exist.
 std::uintmax_t size_of(const std::string& path) {
   std::error_code none;
   const std::uintmax_t size = fs::file_size(path, none);
   return none ? 0 : size;
 }
 
-// A descriptor by which the file is locked until it is closed. Where the file system has no locks, it is not.
+// Returns a descriptor that locks the file until it is closed. On a file system without locks the file is not
+// locked.
 int lock_of(const std::string& path) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
   require(file >= 0, "cannot write the log " + path + ": " + std::strerror(errno));
@@ -38,7 +39,7 @@ int lock_of(const std::string& path) {
 
 void take_off_what_is_cut_short(const std::string& path, const LogReader& log) {
   if (log.bad_stretches().empty() || !log.bad_stretches().back().cut_short) return;
-  std::error_code stays;  // then it is damage within the log
+  std::error_code stays;  // on an error, the end counts as damage of the log
   fs::resize_file(path, static_cast<std::uintmax_t>(log.bad_stretches().back().offset), stays);
 }
 

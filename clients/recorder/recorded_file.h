@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The file that a recorder writes, which no other recorder writes meanwhile and nothing is taken from that
-// was there.
+// File that a recorder writes. It is locked against other recorders, and existing messages are never removed
+// unless it is replaced.
 #pragma once
 
 #include <functional>
@@ -14,21 +14,22 @@ namespace halocline::clients {
 
 class RecordedFile {
  public:
-  // What to do with a file that is there and not empty. kAppend is for the log of a recorder that was killed;
-  // an event that was cut short at its end is taken off.
+  // Treatment of an existing file that is not empty. kAppend is for the log of a recorder that was killed; an
+  // incomplete event at its end is removed.
   enum class Existing { kRefuse, kReplace, kAppend };
 
-  // Locks the file until the process ends. Throws InvalidArgument that names the file, and what is allowed.
+  // Locks the file for the lifetime of this object. Throws InvalidArgument, which names the file and what is
+  // allowed.
   RecordedFile(std::string path, Existing existing);
   ~RecordedFile();
   RecordedFile(const RecordedFile&) = delete;
   RecordedFile& operator=(const RecordedFile&) = delete;
 
   const std::string& path() const { return path_; }
-  // What an earlier recorder left; before log().
+  // Reads the messages of an earlier recorder; to be called before log().
   void read(const std::function<void(const LoggedEvent&)>& take) const;
-  bool goes_on() const { return existing_ == Existing::kAppend; }  // behind what one left
-  // Opened at the first call.
+  bool goes_on() const { return existing_ == Existing::kAppend; }  // appends to existing messages
+  // Returns the log, which the first call opens.
   bus::LogRecorder& log();
 
  private:

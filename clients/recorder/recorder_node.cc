@@ -24,7 +24,8 @@ RecorderNode::RecorderNode(lcm::LCM& lcm, bus::NodeIdentity identity, RecordedFi
   file_.log();
 }
 
-// Whatever of the file's flows is missing in it was published before or while no recorder was there.
+// Receives all messages of the file, so that those missing in it, published before or while no recorder ran,
+// are requested.
 void RecorderNode::recall() {
   recalls_ = true;
   file_.read([this](const LoggedEvent& event) {
@@ -39,7 +40,7 @@ std::optional<bus::FlowHead> RecorderNode::head_of(std::string_view channel,
                                                    std::span<const std::uint8_t> message) {
   auto found = types_.find(channel);
   if (found == types_.end()) {
-    if (types_.size() >= bus::FlowWatch::kMaxChannels) types_.clear();  // names without end
+    if (types_.size() >= bus::FlowWatch::kMaxChannels) types_.clear();  // bounds the memory
     found = types_.emplace(std::string(channel), bus::flow_type_of(channel)).first;
   }
   return bus::flow_head(found->second, message);
@@ -63,7 +64,7 @@ void RecorderNode::report_refusals() {
   refused_ = refused;
 }
 
-// Packets of a program without heartbeats are numbered as it likes.
+// Excludes packets of programs without heartbeats, which may number them arbitrarily.
 std::vector<bus::FlowWatch::Lacking> RecorderNode::lacking() const {
   std::vector<bus::FlowWatch::Lacking> all = bus().flows().lacking();
   std::erase_if(all, [](const bus::FlowWatch::Lacking& one) {
@@ -86,7 +87,7 @@ int RecorderNode::finish() {
   bool is_written = true;
   try {
     file_.log().close();
-  } catch (const std::runtime_error&) {  // the disk refused some, now or earlier
+  } catch (const std::runtime_error&) {  // the disk refused some messages, now or earlier
     is_written = false;
   }
   out_ << "recorded " << summary() << std::endl;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records every message of the bus, in the order in which they are received, each with the wall time at which
-// it was: the log that lcm-logger writes, but with nothing missing that its publisher still keeps.
+// Node that records every message of the bus in the order of reception, each with its wall time of reception:
+// the log that lcm-logger writes, but complete as far as the publishers still keep their messages.
 //
-// What is missing of a flow is requested, as every node does (bus/flow_repair.h), and written under its own
-// channel when it comes; of a flow each message is written once, but for SENDs, which their senders repeat on
-// purpose. HEARTBEAT and REPAIR_REQUEST are written as they are. What a publisher without sequence numbers
-// sent is written as often as it comes, and nobody knows what is missing of it.
+// Missing messages of a flow are requested, as by every node (bus/flow_repair.h), and are written under their
+// own channel when they arrive. Each message of a flow is written once, except for SENDs, which their senders
+// repeat on purpose. HEARTBEAT and REPAIR_REQUEST are written unchanged. Messages of a publisher without
+// sequence numbers are written as often as they arrive, and losses among them cannot be detected.
 #pragma once
 
 #include <cstdint>
@@ -31,19 +31,21 @@ namespace halocline::clients {
 
 class RecorderNode : public bus::Node {
  public:
-  // What was received is in the file within this and some milliseconds.
+  // Period after which received messages are written to the file, which takes some milliseconds more.
   static constexpr SimDuration kFlushPeriod = SimDuration::from_milliseconds(250);
   static constexpr int kExitLacking = 3;
 
-  // Subscribes, and only then opens the file, which must outlive this. A file that an earlier recorder left
-  // is read: what is missing in it, and since, is requested. Prints a line to `out` once it records.
+  // Subscribes, and then opens the file, which must outlive this. If an earlier recorder left messages in the
+  // file, they are read, and those missing in it, and since, are requested. Prints a line to `out` once it
+  // records.
   RecorderNode(lcm::LCM& lcm, bus::NodeIdentity identity, RecordedFile& file, std::ostream& out);
 
-  // What the log lacks, by channel: is missing now, or was given up.
+  // Returns by channel how many messages the log lacks: those missing now, and those whose request was given
+  // up.
   std::vector<bus::FlowWatch::Lacking> lacking() const;
   bool wants_repair() const override { return bus().flows().num_missing() > 0; }
-  // Closes the log and prints a last line. The exit code: 0 for a log that lacks nothing, kExitLacking, or 1
-  // where the disk refused some.
+  // Closes the log and prints a last line. Returns the exit code: 0 for a complete log, kExitLacking when
+  // messages are missing, 1 when the disk refused some.
   int finish();
 
  protected:
@@ -60,15 +62,15 @@ class RecorderNode : public bus::Node {
 
   RecordedFile& file_;
   std::ostream& out_;
-  bool recalls_ = false;       // messages come of the file
-  std::int64_t recalled_ = 0;  // of these
+  bool recalls_ = false;       // the messages come from the file
+  std::int64_t recalled_ = 0;  // number of messages in the file at the start
   SimTime next_flush_ = SimTime::at_once();
-  std::int64_t refused_ = 0;  // by the disk, and reported
-  // By channel.
+  std::int64_t refused_ = 0;  // messages that the disk refused, as reported
+  // Type of the flow on each channel.
   std::unordered_map<std::string, bus::FlowType, TextHash, std::equal_to<>> types_;
 };
 
-// "none", or "12: STATE.a 7, SENSORS.b 5", with the channels that lack most.
+// Returns "none", or "12: STATE.a 7, SENSORS.b 5" with the channels that lack most.
 std::string lacking_text(std::vector<bus::FlowWatch::Lacking> lacking);
 
 }  // namespace halocline::clients
