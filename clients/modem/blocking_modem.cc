@@ -11,7 +11,7 @@
 namespace halocline::clients {
 namespace {
 constexpr SimDuration kLongestWaitForClock = SimDuration::from_milliseconds(1000);
-// Between two looks at what is to be repeated.
+// Longest sleep between two checks for packets to be repeated.
 constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(50);
 
 void sleep_until_readable(lcm::LCM& lcm, SimDuration longest) {

@@ -29,44 +29,46 @@ class BlockingModem {
  public:
   BlockingModem(lcm::LCM& lcm, const ModemAddress& address, ResendPolicy policy = {});
 
-  // The simulation time by the conductor's CLOCK; waits for the first CLOCK up to `timeout`. Empty
-  // when none came.
+  // Returns the simulation time according to the conductor's CLOCK. Waits for the first CLOCK up to
+  // `timeout`; nothing when none arrived.
   [[nodiscard]] std::optional<SimTime> sim_now(SimDuration timeout);
 
-  // Sends at simulation time `start`, or now (empty when there is no CLOCK within a second); returns the
-  // packet_sequence at once. Throws as ModemClient::send.
+  // Sends at simulation time `start`, or now, and returns the packet_sequence at once. send() returns nothing
+  // when no CLOCK arrives within a second. Throws as ModemClient::send.
   std::int64_t send_at(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
                        SendOptions options = {});
   [[nodiscard]] std::optional<std::int64_t> send(std::int32_t destination,
                                                  std::span<const std::uint8_t> payload,
                                                  SendOptions options = {});
-  // Sends a PING and waits for its answer: the travel time out and back, s; empty after `timeout`. Packets
-  // that arrive meanwhile wait for wait_receive().
+  // Sends a PING and waits for its answer: returns the two-way travel time, s; nothing after `timeout`.
+  // Packets that arrive meanwhile are kept for wait_receive().
   [[nodiscard]] std::optional<double> ping(std::int32_t destination, SimDuration timeout);
 
-  // Sends a packet that wants an acknowledgement and waits for it: bit i is 1 where frame i was right; empty
-  // after `timeout`. Other packets that arrive meanwhile wait for wait_receive().
+  // Sends a packet with acknowledgement and waits for it. Bit i of the result is 1 when frame i was received
+  // correctly; nothing after `timeout`. Other packets that arrive meanwhile are kept for wait_receive().
   [[nodiscard]] std::optional<std::uint32_t> send_acknowledged(std::int32_t destination,
                                                                std::span<const std::uint8_t> payload,
                                                                SimDuration timeout, SendOptions options = {});
 
-  // Waits for the packet's receipt, repeating the SEND meanwhile; empty after `timeout`.
+  // Waits for the packet's receipt, repeating the SEND meanwhile; nothing after `timeout`.
   [[nodiscard]] std::optional<modem_receipt_t> wait_receipt(std::int64_t packet_sequence,
                                                             SimDuration timeout);
-  // Waits for a packet to arrive; empty after `timeout`. A timeout of 0 takes what is there.
+  // Waits for a packet to arrive; nothing after `timeout`. A timeout of 0 returns a packet that has already
+  // arrived.
   [[nodiscard]] std::optional<modem_receive_t> wait_receive(SimDuration timeout);
 
-  // How the modem listens from now on (ModemClient::listen): with `events`, wait_event() has what it reports.
-  // False where there is no CLOCK within a second: nothing was published. Throws as ModemClient::listen.
+  // Sets how the modem listens from now on (ModemClient::listen); with `events`, wait_event() returns what it
+  // reports. Returns false, and publishes nothing, when no CLOCK arrives within a second. Throws as
+  // ModemClient::listen.
   bool listen(const ListenOptions& options);
-  // Waits for an event of the modem; empty after `timeout`. The oldest of more than ModemClient::kMaxWaiting
-  // are forgotten.
+  // Waits for an event of the modem; nothing after `timeout`. Of more than ModemClient::kMaxWaiting events
+  // the oldest are discarded.
   [[nodiscard]] std::optional<modem_event_t> wait_event(SimDuration timeout);
 
   const ModemClient& client() const { return client_; }
 
  private:
-  // Dispatches until `done` or `timeout`.
+  // Dispatches messages until `done` returns true, or until `timeout`.
   void wait(SimDuration timeout, const std::function<bool()>& done);
 
   lcm::LCM& lcm_;

@@ -86,7 +86,7 @@ std::int64_t ModemClient::send(SimTime steady, SimTime start, std::int32_t desti
   require(problem.empty(), "no packet of this modem: " + problem);
   ++next_sequence_;
   ++changes_;
-  // Kept before it is published: on memq the receipt may be dispatched before publish() returns to the node.
+  // Stored before it is published: on memq the receipt may be dispatched before publish() returns.
   pending_[message.packet_sequence] = {message, steady + policy_.interval, steady + policy_.give_up_after};
   ++counters_.sent;
   bus_.publish(bus::channels::kSend.of(address_.vehicle), message);
@@ -168,7 +168,7 @@ void ModemClient::archive(Archive& a) {
 }
 
 void ModemClient::take_receipt(const modem_receipt_t& receipt) {
-  // Not pending: a packet of an earlier session, or the answer to a repetition.
+  // A receipt for a packet that is not pending answers an earlier session, or a repetition.
   if (receipt.send_session != address_.session || pending_.erase(receipt.packet_sequence) == 0) return;
   ++changes_;
   const bool accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
@@ -187,7 +187,7 @@ void ModemClient::take_packet(const modem_receive_t& packet) {
   }
   ++counters_.received;
   if (packet.packet_kind == modem_receive_t::ACK && packet.destination_id == address_.vehicle_id)
-    ++counters_.acknowledged;  // and none overheard
+    ++counters_.acknowledged;  // does not count overheard ones
   if (receive_handler_) return receive_handler_(packet);
   waiting_.push_back(packet);
   if (waiting_.size() > kMaxWaiting) {
