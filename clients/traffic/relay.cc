@@ -10,7 +10,8 @@
 namespace halocline::clients {
 namespace {
 
-// A modem that was busy is tried again after this, and a random part of the greater of the wait and this.
+// Retry after a refusal by a busy modem: kShortestRetry plus a random part of the greater of the longest wait
+// and kLongestRetry.
 constexpr SimDuration kShortestRetry = SimDuration::from_milliseconds(500);
 constexpr SimDuration kLongestRetry = SimDuration::from_milliseconds(2000);
 
@@ -72,7 +73,7 @@ void Relay::deliver(const RelayPacket& packet, SimTime at) {
   ++counters_.delivered;
   if (delivery_handler_) delivery_handler_(packet, at);
   if (packet.kind != RelayKind::kDataToConfirm) return;
-  // Its number is that of the packet confirmed.
+  // The confirmation bears the number of the confirmed packet.
   RelayPacket confirmation{RelayKind::kConfirmation,
                            packet.hops_allowed,
                            packet.hops_allowed - 1,
@@ -106,7 +107,7 @@ void Relay::on_sent(std::int64_t packet_sequence) {
   in_hand_->packet_sequence = packet_sequence;
   transmitted_.push_back(std::move(*in_hand_));
   in_hand_.reset();
-  if (transmitted_.size() > kMaxStored) transmitted_.erase(transmitted_.begin());  // nobody answered
+  if (transmitted_.size() > kMaxStored) transmitted_.erase(transmitted_.begin());  // never answered
 }
 
 void Relay::on_receipt(std::int64_t packet_sequence, Verdict verdict, SimTime at) {

@@ -18,7 +18,7 @@ std::uint32_t get(std::span<const std::uint8_t> bytes, std::size_t at, std::size
   return value;
 }
 
-// What stays the same on the way, but for the sum itself.
+// Hash of everything that relays do not change, except for the hash itself.
 std::uint16_t sum_of(std::span<const std::uint8_t> bytes) {
   std::uint64_t sum = fnv1a(bytes.first(kHopsAt));
   sum = fnv1a(bytes.subspan(kOriginAt, kSumAt - kOriginAt), sum);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A packet that other vehicles pass on, as it travels: a header before the payload.
+// Packet that other vehicles relay, in its transmitted form: a header before the payload.
 //
-// | bytes | content (little-endian) |
-// | --- | --- |
-// | 0 | kind: 0xF2 data, 0xF3 data to be confirmed, 0xF4 confirmation |
-// | 1 | transmissions on its way: allowed (high 4 bits) and left (low 4 bits) |
-// | 2-5 | id of the vehicle it comes from |
-// | 6-9 | id of the vehicle it goes to; 0: all |
-// | 10-11 | its number, counted by where it comes from, modulo 65536 |
-// | 12-13 | FNV-1a of bytes 0, 2-11 and of the payload, lowest 16 bits |
+//  bytes | content (little-endian) |
+//  --- | --- |
+//  0 | kind: 0xF2 data, 0xF3 data to be confirmed, 0xF4 confirmation |
+//  1 | transmissions end to end: allowed (high 4 bits) and left (low 4 bits) |
+//  2-5 | id of the vehicle of origin |
+//  6-9 | id of the destination vehicle; 0: all |
+//  10-11 | number, counted by the origin, modulo 65536 |
+//  12-13 | FNV-1a of bytes 0, 2-11 and of the payload, lowest 16 bits |
 #pragma once
 
 #include <cstddef>
@@ -30,13 +30,13 @@ struct RelayPacket {
 
   RelayKind kind = RelayKind::kData;
   int hops_allowed = 1;  // transmissions from end to end, 1 to kMostHops
-  int hops_left = 0;     // of them after this one, 0 to kMostHops - 1
+  int hops_left = 0;     // transmissions left after this one, 0 to kMostHops - 1
   std::int32_t origin = 0;
   std::int32_t destination = 0;  // kBroadcastId: all
   std::uint16_t number = 0;
   std::vector<std::uint8_t> payload = {};
 
-  // What tells it from all other packets, however often it is transmitted.
+  // Returns the fields that distinguish it from all other packets, however often it is transmitted.
   auto name() const { return std::tuple(origin, destination, kind == RelayKind::kConfirmation, number); }
   bool operator==(const RelayPacket&) const = default;
   void archive(Archive& a) { a(kind, hops_allowed, hops_left, origin, destination, number, payload); }
@@ -44,7 +44,7 @@ struct RelayPacket {
 
 std::vector<std::uint8_t> encode(const RelayPacket& packet);
 
-// Empty for bytes that are no such packet.
+// Returns nothing for bytes that are no such packet.
 [[nodiscard]] std::optional<RelayPacket> decode_relay_packet(std::span<const std::uint8_t> bytes);
 
 }  // namespace halocline::clients

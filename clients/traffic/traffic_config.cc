@@ -15,7 +15,7 @@ using bus::ConfigVisitor;
 
 constexpr std::string_view kAll = "all";
 
-// Kinds by name, and the bytes that a packet has beside payload_bytes, or in its place.
+// Kinds of packets by name, with the number of bytes besides payload_bytes.
 struct Kind {
   std::int8_t kind;
   const char* name;
@@ -130,7 +130,7 @@ void visit(ConfigVisitor& v, TrafficConfig& config) {
       [&](ConfigVisitor& item, std::size_t i) { visit_vehicle(item, config.vehicles[i]); });
   if (v.writing()) return;
   visit(v, config.clocks);
-  // Once all names are known.
+  // The second pass checks references to vehicles, once all their names are known.
   v.list(
       "vehicle", "", config.vehicles.size(), [](std::size_t) {},
       [&](ConfigVisitor& item, std::size_t i) { check_destination(item, config, config.vehicles[i]); });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sections [vehicle.traffic] of a scenario file: who sends what to whom, and how often.
+// Sections [vehicle.traffic] of a scenario file: the packets that vehicles send, their destinations and
+// periods.
 #pragma once
 
 #include <algorithm>
@@ -18,29 +19,30 @@
 
 namespace halocline::clients {
 
-// What one vehicle sends. It also counts what it receives, whether it sends or not.
+// Traffic of one vehicle. A vehicle also counts what it receives, whether it sends or not.
 struct VehicleTraffic {
   std::string vehicle;
   std::int32_t vehicle_id = 0;
-  SimDuration period;  // between packets; 0: none are sent
-  SimTime start;       // of the first packet, by the vehicle's clock
+  SimDuration period;  // time between packets; 0: none are sent
+  SimTime start;       // time of the first packet, by the vehicle's clock
   std::string destination = "all";
-  std::int32_t payload_bytes = 32;  // of data, and of JANUS's cargo; the other kinds have their own sizes
+  std::int32_t payload_bytes = 32;  // size of DATA and of JANUS cargo; other kinds have fixed sizes
   std::int8_t kind = modem_send_t::DATA;
   std::int32_t rate = -1;  // number of a rate of the modem; -1: its own
   bool ack = false;        // the receiver's modem acknowledges
-  RelayRules relay = {};   // with hops above 1 its packets are passed on
+  RelayRules relay = {};   // packets with hops above 1 are relayed
 
   bool is_relayed() const { return relay.hops > 1; }
-  // Of a packet as the modem has it.
+  // Returns the payload size of a packet as the modem sees it, bytes.
   std::size_t packet_bytes() const;
 };
 
 struct TrafficConfig {
-  std::vector<VehicleTraffic> vehicles;  // one for each of the scenario
+  std::vector<VehicleTraffic> vehicles;  // one for each vehicle of the scenario
   ClockSetConfig clocks = {};
 
-  // Whether packets may be passed on: otherwise nobody looks for the header of relays in what it receives.
+  // Returns true when packets may be relayed; otherwise received packets are not searched for the header of
+  // relays.
   bool uses_relays() const {
     return std::any_of(vehicles.begin(), vehicles.end(), [](const VehicleTraffic& traffic) {
       return traffic.is_relayed() || traffic.relay.passes_on;
@@ -50,8 +52,8 @@ struct TrafficConfig {
 
 void visit(bus::ConfigVisitor& v, TrafficConfig& config);
 
-// The id of `traffic.destination`; kBroadcastId for "all". Throws InvalidArgument for a name the scenario
-// does not have.
+// Returns the id of `traffic.destination`; kBroadcastId for "all". Throws InvalidArgument for a name that is
+// not in the scenario.
 std::int32_t destination_id(const TrafficConfig& config, const VehicleTraffic& traffic);
 
 }  // namespace halocline::clients

@@ -10,10 +10,10 @@ namespace halocline::clients {
 namespace {
 
 constexpr std::int32_t kNumberBytes = 8;
-// A stored packet that is due for longer, after a halt, starts now and not in the past.
+// A stored packet that has been due for longer than this, after a halt, starts now instead of in the past.
 constexpr SimDuration kPromptly = SimDuration::from_milliseconds(1000);
 
-// The first instant of start + k period that is not before `time`.
+// Returns the first time start + k period that is not before `time`.
 SimTime next_packet_at(const VehicleTraffic& traffic, SimTime time) {
   if (traffic.period == SimDuration()) return SimTime::never();
   if (time <= traffic.start) return traffic.start;
@@ -42,7 +42,7 @@ std::vector<std::uint8_t> payload_of(const VehicleTraffic& traffic, std::int64_t
   const bool is_mini = traffic.kind == modem_send_t::MINI_PACKET;
   std::uint64_t bits =
       static_cast<std::uint64_t>(number) & ((1ull << (is_mini ? kMiniBits : kJanusBits)) - 1);
-  for (std::size_t byte = is_mini ? 2 : 5; byte-- > 0; bits >>= 8)  // the high byte first
+  for (std::size_t byte = is_mini ? 2 : 5; byte-- > 0; bits >>= 8)  // most significant byte first
     payload[byte] = static_cast<std::uint8_t>(bits & 0xff);
   return payload;
 }
@@ -53,9 +53,10 @@ TrafficNode::TrafficNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Traffi
 }
 
 void TrafficNode::add_sender(const TrafficConfig& config, const VehicleTraffic& traffic) {
-  // A session for each vehicle, so that (session, packet_sequence) names a packet without its sender.
+  // Each vehicle has its own session, so that (session, packet_sequence) identifies a packet without its
+  // sender.
   const auto entropy = static_cast<std::uint64_t>(bus().identity().session);
-  // Only what may have to be passed on makes a packet due.
+  // Received packets make the node due only when they may have to be relayed.
   const auto wakeup = uses_relays_ ? bus::Wakeup::kMayAdvanceDue : bus::Wakeup::kStoreOnly;
   const ModemAddress address{traffic.vehicle, traffic.vehicle_id, bus::session_of(entropy, traffic.vehicle)};
   senders_.emplace_back(new Sender{traffic,
@@ -119,7 +120,7 @@ void TrafficNode::send_due(Sender& sender, const bus::Now& now) {
   const SimTime own = shown(sender, now.sim);
   if (own < sender.next_packet) return;
   const VehicleTraffic& traffic = sender.traffic;
-  // Started into a running simulation: packets of the past stay unsent.
+  // When the program is started into a running simulation, packets of the past are not sent.
   const SimTime latest = next_packet_at(traffic, own + SimDuration::from_nanoseconds(1)) - traffic.period;
   sender.set_next_packet(latest + traffic.period);
   if (traffic.is_relayed()) {

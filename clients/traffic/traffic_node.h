@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sends packets for the vehicles of a scenario on a time grid, through the modem library, and counts what
-// comes of them.
+// Node that sends packets for the vehicles of a scenario on a time grid, by the modem library, and counts
+// their outcomes.
 //
-// Packets start at start + k period. A payload begins with the packet's number (8 bytes, little-endian) as
-// far as it is long enough, and goes on with a pattern of it, so that a receiver can check what it got. A
-// packet whose instant passed while the program was not running is not sent late. Packets with hops above 1,
-// and those that a vehicle passes on, go through its Relay (relay.h); the status counts them from end to end.
+// Packets start at start + k period. A payload begins with the packet's number (8 bytes, little-endian), as
+// far as it is long enough, and continues with a pattern made from it, so that a receiver can check what it
+// received. A packet whose time passed while the program was not running is not sent late. Packets with hops
+// above 1, and packets that a vehicle relays, go through its Relay (relay.h); the status counts them from end
+// to end.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +25,10 @@
 
 namespace halocline::clients {
 
-// The payload of a packet: `size` bytes determined by its number.
+// Returns the payload of a packet: `size` bytes determined by its number.
 std::vector<std::uint8_t> traffic_payload(std::int64_t number, std::int32_t size);
-// Of a packet of this kind: a mini-packet and JANUS's application data hold the lowest bits of the number.
+// Returns the payload of a packet of any kind: a mini-packet and JANUS application data contain the lowest
+// bits of the number.
 std::vector<std::uint8_t> payload_of(const VehicleTraffic& traffic, std::int64_t number);
 
 class TrafficNode : public bus::Node {
@@ -34,7 +36,7 @@ class TrafficNode : public bus::Node {
   // Throws InvalidArgument for a destination that the scenario does not have.
   TrafficNode(lcm::LCM& lcm, bus::NodeIdentity identity, const TrafficConfig& config);
 
-  // Of the modem of the i-th vehicle in the configuration.
+  // Returns the counters of the modem of the i-th vehicle in the configuration.
   const ModemCounters& counters_of(std::size_t i) const { return senders_.at(i)->modem.counters(); }
   const RelayCounters& relay_counters_of(std::size_t i) const { return senders_.at(i)->relay.counters(); }
 
@@ -50,9 +52,9 @@ class TrafficNode : public bus::Node {
     VehicleTraffic traffic;
     std::int32_t destination;
     ModemClient modem;
-    Relay relay;  // in the vehicle's time, as next_packet
+    Relay relay;  // uses the vehicle's time, like next_packet
     SimTime next_packet;
-    std::uint64_t moves = 0;  // of next_packet
+    std::uint64_t moves = 0;  // number of changes of next_packet
 
     void set_next_packet(SimTime to) {
       next_packet = to;
