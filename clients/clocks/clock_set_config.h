@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The clocks of a scenario's vehicles, read from sections that other programs write: [vehicle.clock], and
-// what decides their readings in [scenario] and [channel_server].
+// Clocks of a scenario's vehicles, read from sections that belong to other programs: [vehicle.clock], and the
+// keys of [scenario] and [channel_server] on which the readings depend.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@
 namespace halocline::clients {
 
 struct ClockSetConfig {
-  std::vector<channel_server::ClockOf> clocks;               // of the vehicles that have one of their own
-  std::uint64_t seed = 1;                                    // of the scenario
-  SimDuration fix_lag = SimDuration::from_milliseconds(50);  // after which a GPS fix sets a clock
+  std::vector<channel_server::ClockOf> clocks;               // clocks of the vehicles that have their own
+  std::uint64_t seed = 1;                                    // seed of the scenario
+  SimDuration fix_lag = SimDuration::from_milliseconds(50);  // delay after which a GPS fix sets a clock
 };
 
-// Reads; writes nothing, as every key belongs to another program.
+// Reads the sections. It writes nothing, because every key belongs to another program.
 void visit(bus::ConfigVisitor& v, ClockSetConfig& config);
 
 }  // namespace halocline::clients

@@ -10,9 +10,9 @@
 namespace halocline::clients {
 namespace {
 
-// Fixes kept of each vehicle for a node that is restarted: the latest, and those that are not in force yet.
+// Fixes kept of each vehicle for a node that is restarted: the latest one, and those that do not apply yet.
 constexpr std::ptrdiff_t kFixesKept = 16;
-// The fastest clock, s/s: none gains more but by its random walk (VehicleClocks).
+// Bound on the rate of a clock, s/s; only its random walk may exceed it (VehicleClocks).
 constexpr double kFastest = 1.001;
 
 SimTime whole_microsecond_from(SimTime time) {
@@ -45,8 +45,9 @@ SimTime VehicleTime::shown(std::int32_t vehicle_id, SimTime at) const {
   return has_clock(vehicle_id) ? at + SimDuration::from_seconds(clocks_.error_s(vehicle_id, at)) : at;
 }
 
-// Steps that the clock cannot have passed, then microseconds: a walk that runs ahead meanwhile makes it late.
-// A fix that has come sets the clock within the lag: the first step ends there.
+// Advances by steps in which the clock cannot have passed the wanted reading, of at least a microsecond. If
+// its random walk runs ahead meanwhile, the result is late. A received fix sets the clock within the lag, so
+// the first step ends there at the latest.
 SimTime VehicleTime::due(std::int32_t vehicle_id, SimTime shown_time) const {
   const bool is_instant = shown_time != SimTime::never() && shown_time != SimTime::at_once();
   if (!is_instant || !has_clock(vehicle_id)) return shown_time;

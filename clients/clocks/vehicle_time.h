@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time as vehicles know it: what their clocks show at an instant of simulation time, and when they will show
-// a time.
+// Time of the vehicles' own clocks: their readings at a simulation time, and when they will show a reading.
 //
-// A program that acts for a vehicle keeps its schedules and deadlines in the vehicle's own time, and turns
-// them into simulation time where it says when it is due and when a packet starts. A vehicle without a clock
-// of its own shows simulation time, to the last bit. The clocks are those of the channel server
-// (channel_server/vehicles/vehicle_clocks.h): the same draws, set by the same GPS fixes after the same lag,
-// so that all programs agree on what a clock shows.
+// A program that acts for a vehicle keeps its schedules and deadlines in the vehicle's own time. It converts
+// them to simulation time when it states when it is due and when a packet starts. A vehicle without a clock
+// of its own shows simulation time, exactly. The clocks are those of the channel server
+// (channel_server/vehicles/vehicle_clocks.h): the same random draws, set by the same GPS fixes after the same
+// lag, so that all programs agree on a clock's reading.
 #pragma once
 
 #include <cstdint>
@@ -26,27 +25,29 @@ namespace halocline::clients {
 
 class VehicleTime {
  public:
-  // Subscribes to the fixes that set clocks. A member of a node, made with its bus.
+  // Subscribes to the fixes that set clocks. An object of this class is a member of a node and is made with
+  // its bus.
   VehicleTime(bus::Bus& bus, const ClockSetConfig& config);
   VehicleTime(const VehicleTime&) = delete;
   VehicleTime& operator=(const VehicleTime&) = delete;
 
-  // True where the vehicle's time is another than simulation time.
+  // Returns true when the vehicle's time differs from simulation time.
   bool has_clock(std::int32_t vehicle_id) const { return owners_.contains(vehicle_id); }
-  // The reading of the vehicle's clock at the instant `at`.
+  // Returns the reading of the vehicle's clock at the simulation time `at`.
   SimTime shown(std::int32_t vehicle_id, SimTime at) const;
-  // The first instant, not before the latest set_now(), at which it shows `shown` or more: a whole
-  // microsecond, late by what its random walk gains meanwhile at most. never() and at_once() stay as they
-  // are.
+  // Returns the first simulation time, not before the latest set_now(), at which the clock shows `shown` or
+  // more. It is a whole microsecond, and is late by at most what the clock's random walk gains meanwhile.
+  // never() and at_once() are returned unchanged.
   SimTime due(std::int32_t vehicle_id, SimTime shown) const;
-  // The instant that an action due at `shown`, and done at `now`, stands for.
+  // Returns the nominal simulation time of an action that was due at the reading `shown` and is done at
+  // `now`.
   SimTime instant_of(std::int32_t vehicle_id, SimTime shown, SimTime now) const;
 
-  // Sets the instant of the node's step.
+  // Sets the simulation time of the node's step.
   void set_now(SimTime now) { now_ = now; }
-  // Forgets the fixes: another run has begun.
+  // Forgets the fixes, because another run has begun.
   void restart(SimTime now);
-  // Passes the fixes that later instants need.
+  // Saves or loads the fixes on which later readings depend.
   void archive(Archive& a);
 
  private:
