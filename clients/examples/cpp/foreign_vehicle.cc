@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle with a modem, of LCM and the message types alone. It circles, announces its modem, sends packets,
-// and prints what becomes of them and what it receives. By hand, from the root of the tree (docs/extending.md
-// has the same in other languages):
+// Vehicle with a modem that uses LCM and the message types alone. It circles, announces its modem, sends
+// packets, and prints their outcomes and what it receives. To build and run it by hand from the root of the
+// tree (docs/extending.md shows the same in other languages):
 //
 //   $ mkdir -p build/mine && lcm-gen --cpp --cpp-std c++11 --cpp-hpath build/mine lcmtypes/*.lcm
 //   $ g++ -std=c++17 -I build/mine clients/examples/cpp/foreign_vehicle.cc -llcm -o build/mine/vehicle_cpp
@@ -49,7 +49,7 @@ double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// False for what does not decode: a corrupt count makes decode() throw.
+// Returns false for a message that cannot be decoded; an invalid count makes decode() throw.
 template <class Message>
 bool decode(const lcm::ReceiveBuffer* buffer, Message& message) {
   try {
@@ -59,7 +59,7 @@ bool decode(const lcm::ReceiveBuffer* buffer, Message& message) {
   }
 }
 
-// True once in `period`, and after time has jumped.
+// Returns true once in each `period`, and after time has jumped.
 bool due(std::int64_t now, std::int64_t period, std::int64_t& next) {
   if (period == 0 || (now < next && next - now <= period)) return false;
   next = (next > 0 && std::abs(now - next) < period ? next : now) + period;
@@ -74,9 +74,9 @@ class Vehicle {
         ->setQueueCapacity(0);
   }
 
-  // Does what is due. Simulation time is the last CLOCK, extrapolated by the wall clock at its rate.
+  // Does what is due. Simulation time is that of the last CLOCK, extrapolated by the wall clock at its rate.
   void step() {
-    if (clock_s_ == 0 && ++idle_steps_ == 300)  // of 10 ms
+    if (clock_s_ == 0 && ++idle_steps_ == 300)  // 300 steps of 10 ms
       std::cerr << "no CLOCK for 3 s: start this by ./scripts/join" << std::endl;
     if (clock_s_ == 0) return;
     const std::int64_t now = clock_.utime + std::llround((wall_s() - clock_s_) * clock_.clock_rate * 1e6);
@@ -165,11 +165,11 @@ class Vehicle {
 
   lcm::LCM& lcm_;
   Options options_;
-  std::int64_t session_ = std::random_device()() + 1LL;  // another one at each start
+  std::int64_t session_ = std::random_device()() + 1LL;  // differs at each start
   std::int64_t states_ = 0, packets_ = 0, next_state_ = 0, next_modem_ = 0, next_packet_ = 0;
   sim_clock_t clock_{};
   std::optional<modem_send_t> pending_;  // waits for its RECEIPT
-  double clock_s_ = 0, sent_s_ = 0;      // of the wall clock
+  double clock_s_ = 0, sent_s_ = 0;      // times of the wall clock
   int idle_steps_ = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Answers each packet that a vehicle receives, through the modem library: echo-modem VEHICLE ID
+// Answers each packet that a vehicle receives, by the modem library: echo-modem VEHICLE ID
 //
-// The vehicle itself is moved by another program: the vehicle simulator, or one that publishes STATE.VEHICLE.
+// Another program moves the vehicle: the vehicle simulator, or one that publishes STATE.VEHICLE.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -18,7 +18,7 @@ namespace {
 
 void answer_all(const char* vehicle, int id) {
   const auto lcm = halocline::bus::open_transport(halocline::bus::effective_url(""));  // LCM_DEFAULT_URL
-  const std::int64_t session = std::random_device()() + 1LL;  // another one at each start
+  const std::int64_t session = std::random_device()() + 1LL;  // differs at each start
   halocline::clients::BlockingModem modem(*lcm, {.vehicle = vehicle, .vehicle_id = id, .session = session});
   while (const auto packet = modem.wait_receive(SimDuration::from_seconds(120))) {
     std::printf("%.3f s: %d bytes from vehicle %d, %.1f dB SNR\n", static_cast<double>(packet->utime) * 1e-6,
@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   try {
     answer_all(argv[1], std::atoi(argv[2]));
     return 0;
-  } catch (const std::exception& error) {  // a name that is none; the network cannot be used
+  } catch (const std::exception& error) {  // an invalid name, or the network cannot be used
     std::fprintf(stderr, "echo-modem: %s\n", error.what());
     return dynamic_cast<const halocline::bus::NetworkError*>(&error) != nullptr ? 69 : 2;
   }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pure ALOHA (Abramson 1970): a frame is transmitted at once, or when the own transmission under way has
+// Pure ALOHA (Abramson 1970): a frame is transmitted at once, or when the vehicle's present transmission has
 // ended.
 //
-// With Poisson arrivals of G packets per packet's duration at a common receiver, no capture: S = G exp(-2 G)
-// (Abramson 1970).
+// With Poisson arrivals of G packets per packet duration at a common receiver, without capture, the
+// throughput is (Abramson 1970)
+//
+//   S = G exp(-2 G)
 #include <memory>
 #include <utility>
 

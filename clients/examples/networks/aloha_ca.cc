@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ALOHA with collision avoidance (Chirdchoo, Soh and Chua 2007): a vehicle knows how long sound takes between
-// all vehicles, and learns of each packet that it overhears who sent it and for whom. It so knows when sound
-// is wherever it is to be received, and sends nothing that would meet it there.
+// ALOHA with collision avoidance (Chirdchoo, Soh and Chua 2007): a vehicle knows the travel times of sound
+// between all vehicles, and learns the source and destination of each packet that it overhears. So it knows
+// when that packet arrives at any place, and transmits nothing that would overlap it at a receiver.
 //
-// A packet from i to j whose last bit arrives here at e left i at e - t_i - L, with t_i the travel time to
-// here and L its duration; it sounds at k from then + t_ik on, for L. A frame to d of duration P is not sent
-// at t where
+// A packet from i to j of duration L whose last bit arrives here at e left i at
+//
+//   t_0 = e - t_i - L        (t_i: travel time from i to here)
+//
+// and arrives at k during [t_0 + t_ik, t_0 + t_ik + L), with the travel time t_ik. A frame of duration P to d
+// is not transmitted at t when one of these holds, with t_d and t_j the travel times from here:
+//
 //   i = d: d transmits while the frame would arrive, [t + t_d, t + t_d + P)
-//   any:   the packet sounds at d then, or the frame would sound at j (not 0) while j receives the packet
-// It is tried again after a random wait, `tries` times in all. What is sent so late that its header is not
-// received yet collides all the same: the protocol gains where sound takes long against headers, and from
-// vehicles on the way of others' sound. Without a header of its own (header_bits of [modem]) a packet is
-// known at its last bit.
+//   any i: the packet arrives at d in that interval,
+//          or the frame would arrive at j (j not 0) while j receives the packet
+//
+// It is tried again after a random wait, `tries` times in all. A packet whose header has not been received
+// yet cannot be avoided: the protocol is useful where travel times exceed headers, and for vehicles between
+// the others. When packets have no header of their own (header_bits of [modem]), a packet is known only at
+// its last bit.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -57,7 +63,7 @@ class AlohaCa : public Mac {
   }
 
  private:
-  // Longer than sound takes through any network.
+  // Time for which an overheard packet is kept; longer than sound takes across any network.
   static constexpr SimDuration kKept = SimDuration::from_milliseconds(100'000);
   struct Overheard {
     std::int32_t source, destination;
@@ -65,7 +71,7 @@ class AlohaCa : public Mac {
     SimDuration duration;
   };
 
-  // Whether a frame of ours that leaves at `now` and what was overheard sound at `place` together.
+  // Returns true when a frame of this vehicle that leaves at `now` overlaps an overheard packet at `place`.
   bool meets_at(std::int32_t place, const Overheard& o, SimTime now) const {
     const SimTime ours = now + travel_(own_id_, place);
     const SimTime theirs = o.departure + travel_(o.source, place);
@@ -82,8 +88,8 @@ class AlohaCa : public Mac {
 
   std::int32_t own_id_;
   TravelTimes travel_;
-  std::vector<Overheard> overheard_;  // the latest of each vehicle
-  int tries_ = 0;                     // of the first frame
+  std::vector<Overheard> overheard_;  // latest packet of each vehicle
+  int tries_ = 0;                     // attempts of the first frame
 };
 
 }  // namespace

@@ -2,9 +2,12 @@
 // Non-persistent carrier sense multiple access (Kleinrock and Tobagi 1975): a frame is transmitted when no
 // carrier is sensed; else the channel is sensed again after a random wait, `tries` times in all.
 //
-// With a, the travel time over the packet's duration, and G attempts per packet's duration: S = G exp(-a G) /
-// (G (1 + 2 a) + exp(-a G)), all vehicles at the travel time a from each other. Carrier is the modem's: the
-// sound of others above its level.
+// With a, the travel time divided by the packet duration, and G attempts per packet duration, when all
+// vehicles are at the travel time a from each other:
+//
+//   S = G exp(-a G) / (G (1 + 2 a) + exp(-a G))
+//
+// The modem senses the carrier: the sound of others above its threshold.
 #include <memory>
 #include <utility>
 
@@ -32,7 +35,7 @@ class Csma : public Mac {
   }
 
  private:
-  int tries_ = 0;  // of the first frame
+  int tries_ = 0;  // attempts of the first frame
 };
 
 }  // namespace

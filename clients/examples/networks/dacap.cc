@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // DACAP, the distance-aware collision avoidance protocol (Peleato and Stojanovic 2007): MACA whose sender
-// waits between the leave to send and its data, and drops the exchange when others threaten it meanwhile.
+// waits between the receiver's leave to send (CTS) and its data, and abandons the exchange when others
+// threaten it meanwhile.
 //
 // A sender that overhears a request or a leave of others before its data leave tries again later. A receiver
-// that hears one after its leave sends a warning, which tells its sender the same. The wait is long enough
-// for that, and no longer than the distance asks for. With U the travel time to the receiver, by the time
-// between the end of the request and the leave's arrival,
-//   t_1 = (t_min - min(D, t_data, 2 T - t_min)) / 2
-//   wait = max(t_min - 2 U where U < t_1, 2 (U + D) - t_min elsewhere, 2 D)
-// t_min: `shortest_handshake`, of all pairs; T: `longest_travel`, to the furthest vehicle that is received;
-// t_data: `packet`; D: `tolerance`, how much longer than its sender's sound that of an interferer has to
-// travel to a receiver so as not to disturb it.
+// that hears one after its leave transmits a warning, which makes its sender do the same. The wait is long
+// enough for that, and no longer than the distance requires. With U the travel time to the receiver, half the
+// time from the end of the request to the leave's arrival:
 //
-// What is promised. Without capture, D >= T + half of request, leave and warning: the warning against a
-// request that crossed the leave is there before the data leave, and whoever sent no request by then has
-// heard the leave. Left out: the form with acknowledgements.
+//   t_1  = (t_min - min(D, t_data, 2 T - t_min)) / 2
+//   wait = max(t_min - 2 U,       2 D)    where U < t_1
+//          max(2 (U + D) - t_min, 2 D)    elsewhere
+//
+//   t_min   `shortest_handshake` of all pairs
+//   T       `longest_travel`, to the furthest vehicle that receives the sender
+//   t_data  `packet`
+//   D       `tolerance`: the travel time by which an interferer must be further from a receiver
+//           than its sender, so as not to disturb it
+//
+// Without capture, no data collide when D >= T + half of the durations of request, leave and warning: the
+// warning about a request that crossed the leave then arrives before the data leave, and every vehicle that
+// has sent no request by then has heard the leave. The variant with acknowledgements is not implemented.
 #include <algorithm>
 #include <cstdint>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flooding: every vehicle passes every packet on once, after a random wait (clients/traffic/relay.h has the
+// Flooding: every vehicle forwards every packet once, after a random wait (clients/traffic/relay.h has the
 // model).
 #include <algorithm>
 #include <cstdint>
@@ -47,7 +47,8 @@ class FloodingRouter : public Router {
 
   SimTime next() const override { return relay_.next(); }
 
-  // The MAC has taken it, so the relay needs not try again.
+  // The relay is told at once that the packet was accepted, because the MAC is responsible for it from here
+  // on.
   void step(SimTime now) override {
     while (auto transmission = relay_.transmit_due(now)) {
       relay_.on_sent(0);

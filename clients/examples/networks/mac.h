@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Medium access control: when a vehicle transmits the frames that wait in its queue.
+// Medium access control (MAC): decides when a vehicle transmits the frames in its queue.
 //
-// A protocol is a class with attempt(), which is called when the first frame is due, and what else it needs
-// of what the modem receives and notices. Frames are transmitted one after the other, first in first out; one
-// that comes while kMaxWaiting wait is dropped. Values in, values out: the node (network_node.h) passes
-// messages and time, all of it by the vehicle's clock.
+// A protocol is a class with attempt(), which is called when the first frame is due, and with handlers for
+// what the modem receives and senses, as needed. Frames are transmitted one after the other, first in, first
+// out; a frame that arrives while kMaxWaiting wait is dropped. The node (network_node.h) passes messages and
+// time; all times are those of the vehicle's clock.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +21,11 @@
 
 namespace halocline::networks {
 
-// What a MAC calls.
+// Functions that a MAC calls.
 struct MacPort {
   std::function<void(SimTime at, const Frame&)> transmit;  // hands a frame to the modem
-  std::function<void(SimTime at, const Frame&)> deliver;   // a frame for this vehicle, or for all
-  std::function<void(SimTime at, const Frame&)> drop;      // given up
+  std::function<void(SimTime at, const Frame&)> deliver;   // passes on a frame for this vehicle, or for all
+  std::function<void(SimTime at, const Frame&)> drop;      // the frame will not be transmitted
   std::function<double()> draw;                            // the vehicle's next random number in (0, 1)
 };
 
@@ -38,21 +38,21 @@ class Mac {
   Mac(const Mac&) = delete;
   Mac& operator=(const Mac&) = delete;
 
-  // A frame to be transmitted.
+  // Queues a frame for transmission.
   void offer(Frame frame, SimTime now);
-  // The modem received this, for whomever where it is promiscuous.
+  // Handles a packet that the modem received; for a promiscuous modem it may be for any vehicle.
   virtual void on_packet(const modem_receive_t& packet, std::int32_t own_id);
   virtual void on_event(const modem_event_t& event);
-  // The modem refused what was transmitted last.
+  // Handles the modem's refusal of the latest transmission.
   virtual void on_refused(SimTime now);
 
   virtual SimTime next() const;
   virtual void step(SimTime now);
 
  protected:
-  // The first frame is due: transmit it, or set due_.
+  // Called when the first frame is due: transmits it, or sets due_ to a later time.
   virtual void attempt(SimTime now) { transmit_first(now); }
-  // When a frame that is first in the queue from `now` on is due.
+  // Returns when a frame is due that becomes the first of the queue at `now`.
   virtual SimTime first_try(SimTime now) const { return now; }
 
   void transmit(Frame frame, SimTime now);
@@ -63,15 +63,15 @@ class Mac {
   MacPort port_;
   NetworkRules rules_;
   std::deque<Frame> queue_;
-  SimTime due_ = SimTime::never();  // of the first frame
+  SimTime due_ = SimTime::never();  // due time of the first frame
   bool transmits_ = false;
-  bool carrier_ = false;  // the sound of others is sensed
+  bool carrier_ = false;  // the sound of other vehicles is sensed
 };
 
-// How long sound takes from one vehicle to another, by their ids.
+// Returns the travel time of sound from one vehicle to another, given by their ids.
 using TravelTimes = std::function<SimDuration(std::int32_t from, std::int32_t to)>;
 
-// `index` of `count` vehicles that share the slots.
+// Make the protocols. `index` is the vehicle's place among the `count` vehicles that share the slots.
 std::unique_ptr<Mac> make_aloha(MacPort port, const NetworkRules& rules);
 std::unique_ptr<Mac> make_aloha_ca(MacPort port, const NetworkRules& rules, std::int32_t own_id,
                                    TravelTimes travel);

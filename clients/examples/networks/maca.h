@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MACA (Karn 1990): a short request to send, the receiver's short leave to send, then the data; who overhears
-// them is silent meanwhile.
+// MACA (Karn 1990): a short request to send, the receiver's short leave to send, then the data; vehicles that
+// overhear these are silent meanwhile.
 //
-// The first byte of each of its packets tells them apart. A request that is not answered within `handshake`
-// is repeated after a random wait, `tries` times in all. Who overhears a request is silent for `handshake`,
-// who overhears a leave for `exchange`: the one time holds the request, the leave and twice the greatest
-// travel time, the other the data and twice the greatest travel time. The modem has to be promiscuous. Frames
-// to all are sent without a handshake. Left out: acknowledgement.
+// The first byte of each packet tells its type. A request without an answer within `handshake` is repeated
+// after a random wait, `tries` times in all. A vehicle that overhears a request is silent for `handshake`,
+// which must cover the request, the leave and twice the greatest travel time. One that overhears a leave is
+// silent for `exchange`, which must cover the data and twice the greatest travel time. The modem must be
+// promiscuous. Broadcast frames are sent without a handshake. There are no acknowledgements.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +31,9 @@ class Maca : public Mac {
   enum class State { kIdle, kAwaitsLeave, kHasLeave, kAwaitsData };
 
   void attempt(SimTime now) override;
-  // The receiver gave leave to send the first frame.
+  // Called when the receiver gives leave to send the first frame.
   virtual void on_leave(const modem_receive_t& packet);
-  // Packets of a third vehicle may disturb the own exchange.
+  // Called when packets of a third vehicle may disturb the exchange.
   virtual void on_threat(SimTime /*at*/) {}
 
   void await(State state, SimTime deadline);
@@ -42,14 +42,14 @@ class Maca : public Mac {
   void try_again(SimTime now);
 
   State state_ = State::kIdle;
-  std::int32_t partner_ = 0;     // of the exchange, unless idle
+  std::int32_t partner_ = 0;     // the other vehicle of the exchange, unless idle
   std::optional<Frame> answer_;  // to be transmitted at once
 
  private:
   void on_request(const modem_receive_t& packet);
 
   SimTime deadline_, silent_until_;
-  int tries_ = 0;  // of the first frame
+  int tries_ = 0;  // attempts of the first frame
 };
 
 }  // namespace halocline::networks

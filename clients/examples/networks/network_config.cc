@@ -19,7 +19,7 @@ const std::vector<std::string> kMacs{"none", "aloha",    "slotted-aloha", "tdma"
                                      "maca", "aloha-ca", "dacap",         "t-lohi"};
 const std::vector<std::string> kRouters{"static", "flooding"};
 
-// Visits the keys of some protocols alone.
+// Visits keys that belong to some protocols only.
 void with_mac(ConfigVisitor& v, const NetworkRules& r, std::initializer_list<MacKind> macs,
               const std::function<void()>& body) {
   bus::when_one_of(v, "mac", r.mac, kMacs, macs, body);
@@ -30,7 +30,7 @@ void with_router(ConfigVisitor& v, const NetworkRules& r, RouterKind router,
   bus::when_one_of(v, "router", r.router, kRouters, {router}, body);
 }
 
-// Keys of a network that runs.
+// Visits keys that have an effect only when a network runs.
 void when_it_runs(ConfigVisitor& v, const NetworkRules& r, std::string_view choice,
                   const std::function<void()>& body) {
   v.when(r.mac != MacKind::kNone, choice, body);
@@ -58,7 +58,7 @@ void visit_times(ConfigVisitor& v, NetworkRules& r) {
   });
 }
 
-// How a protocol waits, listens and asks.
+// Visits the keys of timing, carrier sense and handshakes.
 void visit_access(ConfigVisitor& v, NetworkRules& r) {
   using Mac = MacKind;
   with_mac(v, r, {Mac::kSlottedAloha, Mac::kTdma}, [&] {
@@ -143,7 +143,7 @@ void visit(ConfigVisitor& v, NetworkConfig& config) {
       [&](ConfigVisitor& item, std::size_t i) { visit_member(item, config.rules, config.members[i]); });
   if (v.writing()) return;
   visit(v, config.clocks);
-  // Once all names are known.
+  // The second pass checks references to vehicles, once all their names are known.
   v.list(
       "vehicle", "", config.members.size(), [](std::size_t) {},
       [&](ConfigVisitor& item, std::size_t i) { check_member(item, config, config.members[i]); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sections [network] and [vehicle.network] of a scenario file: protocols and offered load of the example
+// Sections [network] and [vehicle.network] of a scenario file: protocols and offered load of the example
 // networks.
 #pragma once
 
@@ -20,7 +20,7 @@ enum class RouterKind { kStatic, kFlooding };
 struct NetworkRules {
   MacKind mac = MacKind::kNone;
   RouterKind router = RouterKind::kStatic;
-  SimDuration interval = SimDuration::from_seconds(60);  // mean, of the packets that a vehicle offers
+  SimDuration interval = SimDuration::from_seconds(60);  // mean time between a vehicle's offered packets
   std::int32_t data_bytes = 32;
   SimDuration slot = SimDuration::from_seconds(1);                // slotted ALOHA, TDMA
   SimDuration backoff = SimDuration::from_seconds(10);            // mean; CSMA, MACA, ALOHA-CA, DACAP
@@ -42,8 +42,8 @@ struct NetworkMember {
   std::string vehicle;
   std::int32_t vehicle_id = 0;
   Vec3 start_ned_m = Vec3::Zero();
-  std::string destination;  // of what it offers: a vehicle, or "all"; empty: it offers nothing
-  std::string via;          // static routing: the neighbour that all packets go to; empty: their destination
+  std::string destination;  // of the offered packets: a vehicle, or "all"; empty: none is offered
+  std::string via;          // static routing: neighbour for all packets; empty: their destination
 };
 
 struct NetworkConfig {
@@ -54,8 +54,8 @@ struct NetworkConfig {
 
 void visit(bus::ConfigVisitor& v, NetworkConfig& config);
 
-// The id of a member; kBroadcastId for "all" and "". Throws InvalidArgument for a name that the scenario
-// lacks.
+// Returns the id of a member; kBroadcastId for "all" and "". Throws InvalidArgument for a name that is not in
+// the scenario.
 std::int32_t id_of(const NetworkConfig& config, const std::string& name);
 
 }  // namespace halocline::networks

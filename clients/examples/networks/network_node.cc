@@ -15,7 +15,7 @@ namespace {
 constexpr SimDuration kListenPeriod =
     SimDuration::from_milliseconds(60'000);  // a server may be started later
 
-// A message holds whole microseconds.
+// Rounds up to whole microseconds, the resolution of messages.
 SimTime whole_microsecond_from(SimTime time) {
   return SimTime::from_utime((time + SimDuration::from_nanoseconds(499)).to_utime());
 }
@@ -54,7 +54,8 @@ SimTime NetworkNode::enter(Station& station, SimTime instant) const {
   return clocks_.shown(station.member.vehicle_id, instant);
 }
 
-// Its arrival is by the vehicle's clock as it is.
+// Passes a packet on with its reception time by the vehicle's clock; the modem already gives its arrival by
+// that clock.
 void NetworkNode::take_packet(Station& station, const modem_receive_t& packet) {
   const std::int32_t id = station.member.vehicle_id;
   const SimTime own = enter(station, SimTime::from_utime(packet.utime));
@@ -123,14 +124,14 @@ std::unique_ptr<Mac> NetworkNode::make_mac(MacPort port, std::size_t i, std::siz
   return make_aloha(std::move(port), rules_);
 }
 
-// ALOHA-CA overhears headers alone, which are events.
+// ALOHA-CA needs only the headers of others' packets, which events report.
 bool NetworkNode::overhears_packets() const {
   return rules_.mac == MacKind::kMaca || rules_.mac == MacKind::kDacap || rules_.mac == MacKind::kTLohi;
 }
 
 SimDuration NetworkNode::travel_time(std::int32_t from, std::int32_t to) const {
   const auto a = starts_.find(from), b = starts_.find(to);
-  if (a == starts_.end() || b == starts_.end()) return {};  // none of this network's
+  if (a == starts_.end() || b == starts_.end()) return {};  // not a vehicle of this network
   return SimDuration::from_seconds((a->second - b->second).norm() / rules_.sound_speed_mps);
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the example protocols for the vehicles of a scenario, on top of the modem library: each offers packets
-// at random instants, a router says to whom they go, a MAC when they are transmitted.
+// Node of the example networks: runs the protocols for all vehicles of a scenario, on top of the modem
+// library. Each vehicle offers packets at random times, a router decides to whom they go, and a MAC when they
+// are transmitted.
 //
-// Protocols run in the vehicle's own time (clients/clocks/vehicle_time.h): what the modem says is told to
-// them by the vehicle's clock, and their deadlines are turned into simulation time. Packets are offered as a
-// Poisson process: the time between two is exponentially distributed, drawn from seed, vehicle and number, in
-// simulation time. What becomes of them is published as NETWORK_EVENT. The modems are told to report events,
-// and to be promiscuous where the MAC overhears packets of others (LISTEN).
+// Protocols run in the vehicle's own time (clients/clocks/vehicle_time.h): messages of the modem are passed
+// to them with times of the vehicle's clock, and their deadlines are converted to simulation time. Packets
+// are offered as a Poisson process in simulation time: the time between two is exponentially distributed,
+// drawn from seed, vehicle and packet number. The fate of packets is published as NETWORK_EVENT. The modems
+// are told to report events, and to be promiscuous when the MAC overhears packets of others (LISTEN).
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,8 @@ namespace halocline::networks {
 
 class NetworkNode : public bus::Node {
  public:
-  // `seed`: of all draws. Throws InvalidArgument for a vehicle that the scenario lacks, and without a MAC.
+  // `seed` determines all draws. Throws InvalidArgument for a vehicle that is not in the scenario, and
+  // without a MAC.
   NetworkNode(lcm::LCM& lcm, bus::NodeIdentity identity, const NetworkConfig& config, std::uint64_t seed);
 
  protected:
@@ -60,10 +62,11 @@ class NetworkNode : public bus::Node {
   std::unique_ptr<Mac> make_mac(MacPort port, std::size_t i, std::size_t count) const;
   void take_packet(Station& station, const modem_receive_t& packet);
   void take_event(Station& station, const modem_event_t& event);
-  // The vehicle's own time, by which its protocols are called now for what happens at `instant`.
+  // Sets the simulation time at which the station's protocols are called next, and returns it by the
+  // vehicle's clock.
   SimTime enter(Station& station, SimTime instant) const;
   bool overhears_packets() const;
-  SimDuration travel_time(std::int32_t from, std::int32_t to) const;  // by the places at the start
+  SimDuration travel_time(std::int32_t from, std::int32_t to) const;  // from the positions at the start
   double draw(std::string_view purpose, const Station& station, std::uint64_t which) const;
   SimTime offer_after(const Station& station, SimTime before) const;
   void offer_due(Station& station, SimTime now);
@@ -73,11 +76,11 @@ class NetworkNode : public bus::Node {
   NetworkRules rules_;
   std::uint64_t seed_;
   clients::VehicleTime clocks_;
-  std::map<std::int32_t, Vec3> starts_;  // by vehicle
+  std::map<std::int32_t, Vec3> starts_;  // position at the start; key: vehicle
   std::vector<std::unique_ptr<Station>> stations_;
-  std::vector<std::pair<std::string, network_event_t>> reports_;  // by vehicle, for the next step
+  std::vector<std::pair<std::string, network_event_t>> reports_;  // vehicle and event, for the next step
   SimTime next_listen_;
-  SimTime steady_;  // of the step
+  SimTime steady_;  // steady time of the step
   std::int64_t offered_ = 0, delivered_ = 0, dropped_ = 0;
 };
 

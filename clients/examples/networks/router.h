@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Routing: to which neighbours a packet goes on its way.
+// Routing: decides to which neighbours a packet goes on its way to the destination.
 //
-// Values in, values out, as a MAC (mac.h), which transmits what a router hands down. Time is by the vehicle's
-// clock.
+// A router is called with packets and times, like a MAC (mac.h), which transmits the frames that the router
+// hands down. Times are those of the vehicle's clock.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace halocline::networks {
 
-// What a router calls.
+// Functions that a router calls.
 struct RouterPort {
   std::function<void(SimTime at, Frame)> hand_down;  // to the MAC
   std::function<void(SimTime at, const NetworkPacket&)> deliver;
@@ -31,11 +31,11 @@ class Router {
   Router(const Router&) = delete;
   Router& operator=(const Router&) = delete;
 
-  // A packet of this vehicle's own.
+  // Sends a packet that this vehicle offers.
   virtual void offer(const NetworkPacket& packet, SimTime now) = 0;
-  // A frame that the MAC received for this vehicle, or for all.
+  // Handles a frame that the MAC received for this vehicle, or for all.
   virtual void take(const Frame& frame, SimTime at) = 0;
-  // The packet in a frame of this router's; empty for what is none.
+  // Returns the packet in a frame of this router; nothing when it contains none.
   virtual std::optional<NetworkPacket> packet_in(const Frame& frame) const = 0;
   virtual SimTime next() const { return SimTime::never(); }
   virtual void step(SimTime /*now*/) {}
@@ -44,8 +44,8 @@ class Router {
   RouterPort port_;
 };
 
-// Of the vehicle `own_id`; `next_hop`: the neighbour that all packets go to; 0: they go to their destinations
-// directly.
+// Makes a static router of the vehicle `own_id`. `next_hop`: the neighbour to which all packets go; 0: they
+// go to their destinations directly.
 std::unique_ptr<Router> make_static_router(RouterPort port, std::int32_t own_id, std::int32_t next_hop);
 std::unique_ptr<Router> make_flooding_router(RouterPort port, std::int32_t own_id, const NetworkRules& rules,
                                              std::uint64_t seed);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MACs whose frames leave at the begin of a slot: slotted ALOHA (Roberts 1975) in any slot, TDMA in the
-// vehicle's own.
+// MACs whose frames leave at the beginning of a slot: slotted ALOHA (Roberts 1975) uses any slot, TDMA those
+// of the vehicle.
 //
-// Slots begin at multiples of `slot`, by the vehicle's clock. A slot that began more than a tenth of it ago,
-// because the clock was set ahead or the step came late, is left out: its end would not hold the packet.
-// Slotted ALOHA has S = G exp(-G) where all sound takes the same time to the receiver; different distances
-// bring it down to pure ALOHA unless slots are longer by the greatest difference (Syed, Ye, Heidemann and
-// Krishnamachari 2008). TDMA's slots never collide when they are longer by the greatest travel time.
+// Slots begin at multiples of `slot` by the vehicle's clock. A slot that began more than a tenth of its
+// length ago, because the clock was set ahead or the step came late, is skipped: the packet would not end
+// within it. The throughput of slotted ALOHA is
+//
+//   S = G exp(-G)
+//
+// if all sound takes the same time to the receiver. Different distances reduce it to that of pure ALOHA,
+// unless slots are longer by the greatest difference of travel times (Syed, Ye, Heidemann and Krishnamachari
+// 2008). Transmissions of TDMA never collide when slots are longer than a packet by the greatest travel time.
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -19,7 +23,7 @@ namespace {
 
 class SlottedMac : public Mac {
  public:
-  // The slots whose number is `index` modulo `count` are its own.
+  // A vehicle uses the slots whose number is `index` modulo `count`.
   SlottedMac(MacPort port, const NetworkRules& rules, std::int64_t index, std::int64_t count)
       : Mac(std::move(port), rules), index_(index), count_(count) {}
 

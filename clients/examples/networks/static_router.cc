@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Static routing: each vehicle hands all packets to one neighbour, as in a tree towards a sink; without one,
-// to their destinations.
+// Static routing: each vehicle hands all packets to one neighbour, as in a tree towards a sink, or directly
+// to their destinations if it has none.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -14,7 +14,7 @@
 namespace halocline::networks {
 namespace {
 
-constexpr std::uint8_t kMostHops = 16;  // a loop in the tree ends
+constexpr std::uint8_t kMostHops = 16;  // ends a loop in the tree
 
 class StaticRouter : public Router {
  public:

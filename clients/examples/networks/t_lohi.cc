@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // T-Lohi, conservative and unsynchronised (Syed, Ye and Heidemann 2008): vehicles contend for the channel
-// with tones; who hears no other's tone in a contention round sends its data.
+// with tones. A vehicle that hears no other tone in a contention round sends its data.
 //
-// A round begins with the own tone, a short packet, and lasts R = `contention`, at least the tone and twice
-// the greatest travel time T. Other tones are heard as carrier. A vehicle that heard some in its round counts
-// them, n, and waits a random number of 0 to n rounds before it contends again. One that hears a tone while
-// it does not contend is out of the frame: it waits until data have been received (the modem has to be
+// A round begins with the vehicle's own tone, a short packet, and lasts R = `contention`, at least the tone
+// and twice the greatest travel time T. Other tones are heard as carrier. A vehicle that heard n of them in
+// its round waits a random number of 0 to n rounds before it contends again. A vehicle that hears a tone
+// while it does not contend is out of the frame: it waits until data have been received (the modem must be
 // promiscuous), or for kFrameRounds without another tone.
 //
-// One winner. Let X hear nothing in the round that its tone at time 0 begins, and Y send a tone at s >= 0,
-// the sound taking d <= T between them. If s < d, X hears that tone at s + d < 2 T, within its round. If s >=
-// d, Y heard X's tone and is silent for R from then on, when X's data arrive. So no data collide where all
-// vehicles hear each other. At the best, one vehicle alone, the utilisation is t_data / (t_data + R + kGap).
+// There is one winner. Let X hear nothing in the round that its tone begins at time 0, and let Y send a tone
+// at s >= 0, with the travel time d <= T between them. If s < d, X hears that tone at s + d < 2 T, within its
+// round. If s >= d, Y has heard X's tone and is silent for R from then on, when X's data arrive. So no data
+// collide when all vehicles hear each other. The utilisation is greatest with a single vehicle:
 //
-// Tones that overlap are one carrier: a carrier of the duration c counts as c / t_tone, rounded up. So n is
-// never more than there were, less where tones fall together, as where a receiver of tones counts detections;
-// fewer rounds to choose from cost repeated contentions, not data. Who has sent data leaves the
-// others kGap to contend first. Frames to all are sent as those to one.
+//   t_data / (t_data + R + kGap)
+//
+// Tones that overlap are one carrier: a carrier of duration c counts as c / t_tone tones, rounded up. So n is
+// never more than the number of tones, and less where tones coincide, as in a receiver that counts detected
+// tones. Fewer rounds to choose from cause repeated contentions, but no lost data. A vehicle that has sent
+// data waits for kGap, so that others contend first. Broadcast frames are sent like others.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -35,7 +37,7 @@ namespace {
 constexpr std::uint8_t kData = 0xB0, kTone = 0xB1;
 constexpr std::size_t kToneBytes = 4;
 constexpr int kFrameRounds = 8;
-// Longer than a modem takes to notice that carrier ends and begins (docs/packets.md).
+// Longer than a modem takes to notice that a carrier begins or ends (docs/packets.md).
 constexpr SimDuration kGap = SimDuration::from_milliseconds(20);
 
 class TLohi : public Mac {
@@ -109,11 +111,11 @@ class TLohi : public Mac {
     others_ += std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(tones)));
   }
 
-  bool contends_ = false;  // its round is under way
+  bool contends_ = false;  // its contention round is in progress
   std::int64_t others_ = 0;
   SimTime round_end_, carrier_began_, sent_;
-  SimTime silent_until_;  // another's round may be under way
-  SimTime out_until_;     // of the frame
+  SimTime silent_until_;  // until then, the round of another vehicle may be in progress
+  SimTime out_until_;     // end of being out of the frame
   SimDuration tone_ = SimDuration::from_milliseconds(1);
 };
 
