@@ -51,7 +51,7 @@ class VehicleTime {
   void archive(Archive& a);
 
  private:
-  using Fix = std::pair<std::string, std::int64_t>;  // of a vehicle, microseconds
+  using Fix = std::pair<std::string, std::int64_t>;  // vehicle and time of the fix, us
   void add_fix(std::string_view vehicle, std::int64_t utime);
 
   channel_server::VehicleClocks clocks_;

@@ -29,7 +29,7 @@ class FoxgloveSession {
   // Sends what is due at one time of the run, but only when `idle`, that is when the connection has sent
   // everything before.
   void tick(double steady_s, bool idle, const MissionStore& mission, SimTime at);
-  // Takes a message of the client; anything that is no request of the protocol is answered by a status.
+  // Takes a message of the client; anything but a request of the protocol is answered by a status.
   void take(std::string_view message);
 
  private:

@@ -40,7 +40,7 @@ namespace halocline::clients {
 
 // Identity of the modem. `session` must differ each time the sender is started (bus::session_of).
 struct ModemAddress {
-  std::string vehicle;          // is_valid_name
+  std::string vehicle;          // satisfies is_valid_name()
   std::int32_t vehicle_id = 0;  // 1 and up
   std::int64_t session = 0;
 };
@@ -55,10 +55,10 @@ struct SendOptions {
   std::optional<double> source_level_db = {};    // dB re 1 uPa at 1 m, 0..250; none: the modem's own
   std::int32_t header_number = 0;                // carried by the packet's header, 0..255
   std::vector<std::int32_t> frame_bytes =
-      {};  // of each frame of DATA, together the payload; none: as the modem does
+      {};  // frame sizes of DATA, in sum the payload; none: the modem's default
 };
 
-// How the modem listens; the defaults are those of [modem].
+// Options of the modem's receiver; the defaults are those of [modem].
 struct ListenOptions {
   bool asleep = false;       // acquires nothing
   SimTime wakes = {};        // end of being asleep; 0: only another listen() ends it
@@ -119,8 +119,8 @@ class ModemClient {
   void listen(SimTime from, const ListenOptions& options);
 
   // Publishes a SEND that starts at `start` (simulation time) and returns its packet_sequence. `destination`:
-  // a vehicle's id, or kBroadcastId. `payload`: 0 to 32768 bytes; a modem's own limit is checked by the
-  // receipt. Throws InvalidArgument otherwise, and for options that contradict each other.
+  // a vehicle's id, or kBroadcastId. `payload`: 0 to 32768 bytes; beyond the modem's own limit the receipt is
+  // a refusal. Throws InvalidArgument otherwise, and for options that contradict each other.
   std::int64_t send(SimTime steady, SimTime start, std::int32_t destination,
                     std::span<const std::uint8_t> payload, SendOptions options = {});
   // Returns the reason why no modem can send such a packet; empty when there is none.

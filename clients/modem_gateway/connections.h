@@ -66,8 +66,8 @@ class Connections {
   // the network does not accept at once is lost.
   void send_datagram(ClientId client, std::uint16_t port, std::string_view bytes);
 
-  // Descriptor that is readable when take() has something to do, except for pseudo-terminals being opened,
-  // which are polled.
+  // Returns a descriptor that is readable when take() has something to do, except for pseudo-terminals being
+  // opened, which are polled.
   int ready_file() const { return epoll_.get(); }
   bool is_ready() const;
   // Returns the time (steady clock) of the next poll of pseudo-terminals; never() when none waits for a host.

@@ -39,12 +39,12 @@ class Door : private ProtocolPort {
   using Writer = std::function<void(ClientId client, std::string_view bytes)>;
   using DatagramWriter = std::function<void(ClientId client, std::uint16_t port, std::string_view bytes)>;
   using Disconnect = std::function<void(ClientId client)>;
-  // Records everything that passes, for a reader: `direction` is '<' from a host, '>' to a host, '*' from the
-  // bus. May be empty.
+  // Records everything that passes, for debugging: `direction` is '<' from a host, '>' to a host, '*' from
+  // the bus. May be empty.
   using Trace = std::function<void(char direction, std::string_view text)>;
 
   // Subscribes on the bus. `clocks` must outlive it, and so must `sound`, which may be null for a kind that
-  // needs none. Throws InvalidArgument for a configuration that makes no modem interface.
+  // needs none. Throws InvalidArgument for an invalid configuration.
   Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway,
        const clients::VehicleTime& clocks, AddressBook& addresses, SoundField* sound, Writer writer,
        DatagramWriter datagram_writer, Disconnect disconnect, Trace trace);

@@ -52,7 +52,7 @@ AddressBook book_of(const GatewayConfig& config, const DoorConfig& door) {
 }
 
 // Throws InvalidArgument for options that the kind does not know, or that name a vehicle as a transponder
-// that is none. `book` holds the addresses of the modem interface's kind.
+// which is not one. `book` holds the addresses of the modem interface's kind.
 void check_options(const GatewayConfig& config, const DoorConfig& door, AddressBook book) {
   NoPort port;
   const auto protocol = make_protocol(door.kind, {port, book, door.vehicle_id, DoorOptions(door.options)});

@@ -41,7 +41,7 @@ struct DoorConfig {
 struct GatewayConfig {
   std::vector<NamedVehicle> vehicles;  // the vehicles of the scenario
   std::vector<DoorConfig> doors;
-  // These are no keys of the section: the caller copies them from the scenario.
+  // The caller copies these from the scenario; they are not keys of the section.
   double rate = 1;                                           // simulated seconds per wall second
   double origin_latitude_deg = 0, origin_longitude_deg = 0;  // origin of the world frame
   clients::ClockSetConfig clocks;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Log of everything that passes through the modem interfaces, one line each, for a reader:
+// Log of everything that passes through the modem interfaces, one readable line each:
 //
 //    12.345678 auv-1 nm3 < $P002\r\n
 //    12.345678 auv-1 nm3 > $P002\r\n

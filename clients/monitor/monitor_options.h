@@ -13,7 +13,7 @@ namespace halocline::monitor {
 struct MonitorOptions {
   std::vector<std::string> logs;  // one log, or its parts in order; empty: the bus
   std::string lcm_url;            // empty: the default URL
-  int network = 0;                // process whose network has the bus; 0: this one's
+  int network = 0;                // process in whose network namespace the bus is; 0: the monitor's own
   std::string accept;             // hosts of the bus (bus/runtime/receive_filter.h)
   std::string scenario;           // configuration of a log; empty: the one in the log or beside it
   double history_s = 3600;        // age beyond which messages of a bus are dropped, s

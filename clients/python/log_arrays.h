@@ -41,8 +41,8 @@ struct LogTables {
 LogTables read_tables(LogReader& log, const std::string& channel_pattern);
 
 // Returns the names of an enumeration's values, from its least value (0) on: names_of("outcome",
-// "packet_kind"). Throws InvalidArgument for a family or field that does not exist, or that is no
-// enumeration.
+// "packet_kind"). Throws InvalidArgument for a family or field that does not exist, and for a field that is
+// not an enumeration.
 std::vector<std::string> names_of(const std::string& family, const std::string& field);
 
 }  // namespace halocline::clients

@@ -7,9 +7,9 @@
 // 5.2.3). A packet that the modem refuses because it is transmitting is kept and tried again. The destination
 // may confirm a packet by one of its own, which returns in the same way. The wait is uniform between 0 and
 // `longest_wait`, drawn from seed, vehicle and packet, so that two relays that received the same packet do
-// not transmit it at once. At most kMaxStored packets, the latest kMaxKnown names, and kMaxTries attempts are
-// kept. There are no routes and no acknowledgements between neighbours. The relay itself does no input or
-// output.
+// not transmit it at once. Bounds: kMaxStored stored packets, the latest kMaxKnown names of packets,
+// kMaxTries attempts of a transmission. There are no routes and no acknowledgements between neighbours. The
+// relay does no input or output of its own.
 #pragma once
 
 #include <cstddef>
@@ -94,7 +94,7 @@ class Relay {
     SimTime at;
     RelayPacket packet;
     int tries = 0;
-    std::int64_t packet_sequence = 0;  // of the modem, once transmitted
+    std::int64_t packet_sequence = 0;  // number given by the modem, once transmitted
     void archive(Archive& a) { a(at, packet, tries, packet_sequence); }
   };
   using Name = std::tuple<std::int32_t, std::int32_t, bool, std::uint16_t>;

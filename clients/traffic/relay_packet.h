@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Packet that other vehicles relay, in its transmitted form: a header before the payload.
 //
-//  bytes | content (little-endian) |
-//  --- | --- |
-//  0 | kind: 0xF2 data, 0xF3 data to be confirmed, 0xF4 confirmation |
-//  1 | transmissions end to end: allowed (high 4 bits) and left (low 4 bits) |
-//  2-5 | id of the vehicle of origin |
-//  6-9 | id of the destination vehicle; 0: all |
-//  10-11 | number, counted by the origin, modulo 65536 |
-//  12-13 | FNV-1a of bytes 0, 2-11 and of the payload, lowest 16 bits |
+// | bytes | content (little-endian)                                                |
+// | ----- | ---------------------------------------------------------------------- |
+// | 0     | kind: 0xF2 data, 0xF3 data to be confirmed, 0xF4 confirmation          |
+// | 1     | transmissions end to end: allowed (high 4 bits) and left (low 4 bits)  |
+// | 2-5   | id of the vehicle of origin                                            |
+// | 6-9   | id of the destination vehicle; 0: all                                  |
+// | 10-11 | number, counted by the origin, modulo 65536                            |
+// | 12-13 | FNV-1a of bytes 0, 2-11 and of the payload, lowest 16 bits             |
 #pragma once
 
 #include <cstddef>
@@ -44,7 +44,7 @@ struct RelayPacket {
 
 std::vector<std::uint8_t> encode(const RelayPacket& packet);
 
-// Returns nothing for bytes that are no such packet.
+// Returns nothing for bytes that are not such a packet.
 [[nodiscard]] std::optional<RelayPacket> decode_relay_packet(std::span<const std::uint8_t> bytes);
 
 }  // namespace halocline::clients

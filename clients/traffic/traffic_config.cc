@@ -15,7 +15,7 @@ using bus::ConfigVisitor;
 
 constexpr std::string_view kAll = "all";
 
-// Kinds of packets by name, with the number of bytes besides payload_bytes.
+// Kinds of packets by name, with the bytes that a packet has in addition to, or instead of, payload_bytes.
 struct Kind {
   std::int8_t kind;
   const char* name;

@@ -39,7 +39,7 @@ struct Options {
 };
 
 constexpr double kRadiusM = 100, kSpeedMps = 1.5, kRepeatS = 0.5;
-constexpr const char* kOutcomes[] = {  // by the number in packet_outcome_t
+constexpr const char* kOutcomes[] = {  // index: the number in packet_outcome_t
     "received", "below cutoff", "receiver gone", "shadow",     "blocked",      "out of band",
     "collided", "half duplex",  "doppler",       "bit errors", "not acquired", "foreign",
     "too weak", "too steep",    "out of reach",  "asleep",     "extra loss",   "no power"};

@@ -2,8 +2,8 @@
 // Non-persistent carrier sense multiple access (Kleinrock and Tobagi 1975): a frame is transmitted when no
 // carrier is sensed; else the channel is sensed again after a random wait, `tries` times in all.
 //
-// With a, the travel time divided by the packet duration, and G attempts per packet duration, when all
-// vehicles are at the travel time a from each other:
+// With a, the travel time divided by the packet duration, and G attempts per packet duration, the throughput
+// when all vehicles are at the travel time a from each other is
 //
 //   S = G exp(-a G) / (G (1 + 2 a) + exp(-a G))
 //

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // DACAP, the distance-aware collision avoidance protocol (Peleato and Stojanovic 2007): MACA whose sender
-// waits between the receiver's leave to send (CTS) and its data, and abandons the exchange when others
-// threaten it meanwhile.
+// waits between the receiver's leave to send (CTS) and its data, and abandons the exchange when packets of
+// others threaten it.
 //
 // A sender that overhears a request or a leave of others before its data leave tries again later. A receiver
 // that hears one after its leave transmits a warning, which makes its sender do the same. The wait is long

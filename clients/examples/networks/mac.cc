@@ -60,6 +60,7 @@ void Mac::drop_first(SimTime now) {
   due_ = first_try(now);
 }
 
+// Draws from the exponential distribution by its inverse: -mean log(u), u uniform in (0, 1).
 SimDuration Mac::random_wait(SimDuration mean) const {
   return SimDuration::from_seconds(-mean.seconds() * elementary::log(port_.draw()));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MACA (Karn 1990): a short request to send, the receiver's short leave to send, then the data; vehicles that
-// overhear these are silent meanwhile.
+// MACA (Karn 1990): a short request to send (RTS), the receiver's short leave to send (CTS), then the data;
+// vehicles that overhear these are silent meanwhile.
 //
 // The first byte of each packet tells its type. A request without an answer within `handshake` is repeated
 // after a random wait, `tries` times in all. A vehicle that overhears a request is silent for `handshake`,

@@ -24,7 +24,7 @@ struct NetworkRules {
   std::int32_t data_bytes = 32;
   SimDuration slot = SimDuration::from_seconds(1);                // slotted ALOHA, TDMA
   SimDuration backoff = SimDuration::from_seconds(10);            // mean; CSMA, MACA, ALOHA-CA, DACAP
-  int tries = 1;                                                  // likewise
+  int tries = 1;                                                  // attempts; CSMA, MACA, ALOHA-CA, DACAP
   double carrier_threshold_db = 6;                                // CSMA, MACA, DACAP, T-Lohi
   SimDuration handshake = SimDuration::from_seconds(5);           // MACA, DACAP
   SimDuration exchange = SimDuration::from_seconds(10);           // MACA, DACAP
@@ -42,7 +42,7 @@ struct NetworkMember {
   std::string vehicle;
   std::int32_t vehicle_id = 0;
   Vec3 start_ned_m = Vec3::Zero();
-  std::string destination;  // of the offered packets: a vehicle, or "all"; empty: none is offered
+  std::string destination;  // a vehicle, or "all"; empty: the vehicle offers no packets
   std::string via;          // static routing: neighbour for all packets; empty: their destination
 };
 

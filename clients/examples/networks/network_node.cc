@@ -13,7 +13,7 @@ namespace halocline::networks {
 namespace {
 
 constexpr SimDuration kListenPeriod =
-    SimDuration::from_milliseconds(60'000);  // a server may be started later
+    SimDuration::from_milliseconds(60'000);  // the channel server may be started later
 
 // Rounds up to whole microseconds, the resolution of messages.
 SimTime whole_microsecond_from(SimTime time) {

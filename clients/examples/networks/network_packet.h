@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Packet of the network layer, as a modem's packet carries it.
 //
-//  bytes | content (little-endian) |
-//  --- | --- |
-//  0-3, 4-7 | ids of the vehicles that it comes from and goes to; 0: all |
-//  8-11 | number of the packet, counted by its origin |
-//  12-19 | simulation time at which it was offered, microseconds |
-//  20 | transmissions so far, without this one |
+// | bytes    | content (little-endian)                                    |
+// | -------- | ---------------------------------------------------------- |
+// | 0-3, 4-7 | ids of the vehicles that it comes from and goes to; 0: all |
+// | 8-11     | number of the packet, counted by its origin                |
+// | 12-19    | simulation time at which it was offered, microseconds      |
+// | 20       | transmissions so far, without this one                     |
 #pragma once
 
 #include <cstddef>

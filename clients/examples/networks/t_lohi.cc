@@ -111,7 +111,7 @@ class TLohi : public Mac {
     others_ += std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(tones)));
   }
 
-  bool contends_ = false;  // its contention round is in progress
+  bool contends_ = false;  // a contention round of this vehicle is in progress
   std::int64_t others_ = 0;
   SimTime round_end_, carrier_began_, sent_;
   SimTime silent_until_;  // until then, the round of another vehicle may be in progress

@@ -23,7 +23,7 @@ struct NamedVehicle {
 
 class AddressBook {
  public:
-  // Destination of packets to an address that no modem has: an id that no vehicle bears.
+  // Destination of packets to an address that no modem has: an id that no vehicle has.
   static constexpr std::int32_t kNobody = 2'000'000'000;
 
   // Gives this address to `vehicle_id` alone, which loses any earlier address.

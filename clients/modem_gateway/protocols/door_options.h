@@ -20,8 +20,8 @@ class DoorOptions {
 
   // Returns the value of an option and marks it as known; `otherwise` when it is not given.
   std::string take(const std::string& name, std::string_view otherwise);
-  // Take the value of a yes/no option or a number likewise. They throw InvalidArgument, which names the
-  // allowed values.
+  // Take the value of a yes/no option or of a number. They throw InvalidArgument, which names the allowed
+  // values.
   bool take_flag(const std::string& name, bool otherwise);
   double take_number(const std::string& name, double otherwise, double lowest, double highest);
   // Throws InvalidArgument for a given option that was never taken; the message lists the known ones.

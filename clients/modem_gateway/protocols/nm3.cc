@@ -140,7 +140,7 @@ class CommandReader {
     return result;
   }
 
-  std::string buffer_;  // never longer than the longest command between calls
+  std::string buffer_;  // between calls shorter than the longest command
   std::size_t used_ = 0;
 };
 

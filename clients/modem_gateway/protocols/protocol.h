@@ -2,9 +2,9 @@
 // Interface of modem protocols: each is a state machine between the bytes of its hosts and the events of one
 // modem.
 //
-// A protocol is free of input and output: bytes and messages of the bus come in by calls, bytes and packets
-// go out through a ProtocolPort, and the time is given. It can be tested without sockets and without a
-// simulator. It is told everything in the order in which it happened and is never re-entered: the
+// A protocol does no input or output of its own: bytes and messages of the bus come in by calls, bytes and
+// packets go out through a ProtocolPort, and the time is given. It can be tested without sockets and without
+// a simulator. It is told everything in the order in which it happened and is never re-entered: the
 // consequences of a send() arrive in later calls.
 //
 // How to add a protocol: docs/modem_gateway.md.

@@ -21,8 +21,8 @@ constexpr std::array kKinds{
 
 }  // namespace
 
-// Inverts clock_at() by fixed-point iteration. Clocks gain at most 1e-3 and are at most 1e5 s off, so that
-// four iterations leave an error of 0.1 us.
+// Inverts clock_at() by the fixed-point iteration t = t + (reading - clock_at(t)). Clocks gain at most 1e-3
+// and are at most 1e5 s off, so that four iterations leave an error of 0.1 us.
 SimTime ProtocolPort::instant_of(SimTime reading) const {
   SimTime instant = reading;
   for (int i = 0; i < 4; ++i) instant = instant + (reading - clock_at(instant));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sound in the water as samples, which modem interfaces of waveforms emit and record.
+// Sound in the water as samples, for modem interfaces that exchange waveforms instead of packets.
 //
-// The owner of the scenario's water provides it (GatewayNode). A modem interface of waveforms exchanges no
+// The owner of the scenario's water provides it (GatewayNode). Such an interface sends and receives no
 // packets, and modems do not receive its sound.
 #pragma once
 

@@ -73,7 +73,7 @@ class Waterfall {
     sum_ += value;
     add(label, "step", value, "dB", json(), help);
   }
-  // Adds a total. Its value may differ from the sum of the steps by rounding only.
+  // Adds a total. The caller adds a step before it for any difference of more than rounding.
   void total(const char* label, double value, const char* unit, const json& limit, const char* help) {
     sum_ = value;
     add(label, "total", value, unit, limit, help);

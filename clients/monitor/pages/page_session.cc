@@ -59,7 +59,7 @@ void PageSession::send_mission(double steady_s) {
 }
 
 void PageSession::send_packets(PacketIndex& packets) {
-  // From a log, packets are sent shortly before they depart, so that a page need not wait for a tick.
+  // Packets of a log are sent shortly before they depart, so that a page need not wait for a tick.
   constexpr double kAhead_s = 0.5;
   constexpr std::size_t kMostRecent = 2000;
   const clients::PacketBook& book = source_.mission().packets();

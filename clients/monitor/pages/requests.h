@@ -11,7 +11,8 @@
 
 namespace halocline::monitor {
 
-// Returns the `id` of a request. Throws InvalidArgument when the request is no object or has no such number.
+// Returns the `id` of a request. Throws InvalidArgument when the request is not an object or lacks such a
+// number.
 std::int64_t request_id(const nlohmann::json& request);
 
 // Returns the members of the reply. Throws InvalidArgument, with a sentence, for a request that cannot be

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Receiver thread of a bus: receives every message and publishes those posted to it. It never waits: messages
-// go to a queue of bounded size. A bus that cannot be opened is retried.
+// Receiver thread of a bus: receives every message and publishes those posted to it. It never waits for the
+// reader: messages go to a queue of bounded size. A bus that cannot be opened is retried.
 #pragma once
 
 #include <atomic>

@@ -55,7 +55,7 @@ class Source {
   virtual void set_replies(std::function<bool(std::string_view channel)> is_reply) = 0;
   // Returns true when queries by name are answered for the present only.
   virtual bool names_stand_for_now() const = 0;
-  // Returns the newest time; undefined before the first message, that is while mission() is empty.
+  // Returns the newest time; before the first message, a time earlier than mission().begin().
   virtual SimTime now() const = 0;
   // Returns the SINR threshold of a modem, dB (modems.h).
   std::optional<double> threshold_db(const modem_config_t& modem) const { return thresholds_.of(modem); }

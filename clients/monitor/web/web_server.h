@@ -48,7 +48,7 @@ class WebServer {
   struct Options {
     WebAccess access = {};  // port 0: any free one
     std::string page = {};  // folder of the bundle
-    int socket = -1;        // of listening_socket(), owned; -1: it opens one
+    int socket = -1;        // socket of listening_socket(), owned; -1: opens one
   };
   virtual ~WebServer() = default;
 

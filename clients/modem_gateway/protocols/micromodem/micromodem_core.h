@@ -50,7 +50,7 @@ class MicromodemCore {
   // Must be called after each change of the settings, the address or the clock, which are in non-volatile
   // memory.
   void note_stored() const { on_stored_(); }
-  // Restores the state of delivery, except for the clock.
+  // Restores the factory state, except for the clock.
   void reset_settings();
   void archive(Archive& a);
   // Returns the vehicle at an address; kBroadcastId for the broadcast addresses.

@@ -22,7 +22,7 @@ constexpr SimDuration kRevisionPeriod = SimDuration::from_milliseconds(5000);
 constexpr SimDuration kRebootTime = SimDuration::from_milliseconds(300);
 constexpr int kNoiseValues = 14;
 constexpr std::size_t kMaxSettings = 1000;
-// Commands of test sounds that are no packets, which the simulated medium cannot carry.
+// Commands for test sounds, which are not packets, so that the simulated medium cannot carry them.
 constexpr std::array<std::string_view, 3> kSounds{"CCSWP", "CCMSQ", "CCRSP"};
 // Command levels of the generations, numbered as in pyacomms: CCTMS and CCTMQ are known from level 11 on.
 constexpr int kFirstLevel = 1, kSecondLevel = 11;

@@ -40,8 +40,8 @@ class MicromodemLbl {
   std::vector<std::int32_t> transponders() const;
   // Returns false for a command that belongs to another part.
   bool obey(ClientId client, const NmeaSentence& sentence);
-  // Returns true when the packet is a ping of this object, whose receipt or answer it then takes. An answer
-  // after the time-out is ignored.
+  // Take the receipt of a ping, or an answer to it. They return false when it belongs to no ping of this
+  // object. An answer after the time-out is ignored.
   bool takes(const modem_receipt_t& receipt);
   bool takes(const modem_receive_t& packet);
 

@@ -80,6 +80,7 @@ ReceptionReport report_of(const packet_outcome_t& loss, SimTime arrival) {
 
 std::string cacst(const ReporterState& modem, const ReceptionReport& r) {
   const double sinr = ratio_of(r.sinr_db);
+  // Peak of the matched filter: 32767 * 10^((level - 180 dB) / 20), at least 1 and at most 32767.
   const long peak =
       std::clamp(std::lround(kFullScale * elementary::exp10((r.level_db - kFullScale_db) / 20)), 1L, 32767L);
   const std::string arrival =

@@ -16,10 +16,10 @@
 //    peak             output of the matched filter, 32767 at 180 dB re 1 uPa
 //    power            20 log10(peak), dB
 //    ratio            SNR, dB
-//    SNR in           at the receiver, over all paths, dB; SNR RSS is the same
-//    SNR of symbols   after the receiver's equaliser window, dB
+//    SNR in           at the receiver's input, over all paths, dB; SNR RSS is the same
+//    SNR of symbols   SINR within the receiver's guard window, dB
 //    SNR out          per bit, dB
-//    quality          255 SINR / (1 + SINR)
+//    quality          255 SINR / (1 + SINR), SINR as a ratio
 //    Doppler          1500 m/s (f_rx / f_tx - 1)
 #pragma once
 

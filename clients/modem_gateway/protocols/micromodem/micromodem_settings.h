@@ -20,7 +20,7 @@ class MicromodemSettings {
   void set(std::string_view name, std::string_view value) { values_[std::string(name)] = std::string(value); }
   // Returns "0" for a setting that was never set and has no factory value.
   std::string value(std::string_view name) const;
-  // Returns the value as a whole number; 0 when it is none.
+  // Returns the value as a whole number; 0 when it is not one.
   std::int64_t number(std::string_view name) const;
   bool is_on(std::string_view name) const { return number(name) != 0; }
   const std::map<std::string, std::string, std::less<>>& all() const { return values_; }

@@ -3,8 +3,8 @@
 //
 // A cycle asks its host for frames one by one (CADRQ) and then sends them as one packet. At rate 0 a cycle
 // packet is transmitted first, and the host is asked when it has ended. Frames that a host gives unasked wait
-// for the next cycle, which then does not ask for them. Each transmission is reported by CATXP at its begin
-// and by CATXF at its end, followed by CAXST. Data that does not come in time ends the cycle
+// for the next cycle, which then does not ask for them. Each transmission is reported by CATXP when it
+// begins, and by CATXF and CAXST when it ends. Data that does not come in time ends the cycle
 // (CAERR,...,DATA_TIMEOUT).
 #pragma once
 

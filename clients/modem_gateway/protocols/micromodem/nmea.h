@@ -25,8 +25,8 @@ struct NmeaSentence {
   std::string_view field(std::size_t i) const { return i < fields.size() ? fields[i] : std::string_view(); }
   // Returns the fields as received, with a comma before each.
   std::string all_fields() const;
-  // Returns the whole numbers in `count` fields from `first` on; nothing when one is no number from 0 to
-  // 100000.
+  // Returns the whole numbers in `count` fields from `first` on; nothing when one of them is not a number
+  // from 0 to 100000.
   template <std::size_t count>
   std::optional<std::array<std::int64_t, count>> numbers(std::size_t first = 0) const {
     std::array<std::int64_t, count> values{};

@@ -2,7 +2,7 @@
 // EvoLogics S2C modem: AT commands in command mode, which is that of a network interface, and in data mode
 // (`+++AT`); instant, synchronous and piggy-back messages, bursts, and positions of a USBL head.
 //
-// Each host has its own mode, which ATO and ATC change. In data mode, bytes that are no commands go to the
+// Each host has its own mode, which ATO and ATC change. In data mode, bytes other than commands go to the
 // remote address (!AR) as bursts of up to 1024 bytes, once 50 ms have passed without further bytes. Bytes
 // received from another modem's stream are written unchanged to hosts in data mode, and as RECV to the
 // others. Option: `mode` (net or data: the mode of a host when it connects, which ?MODE reports as NET or

@@ -58,7 +58,7 @@ class S2cCore {
   std::int64_t setting(std::string_view name) const { return setting_in(settings_, name); }
   void set(std::string_view name, std::int64_t value) { settings_[std::string(name)] = value; }
   const std::map<std::string, std::int64_t, std::less<>>& settings() const { return settings_; }
-  // Settings together with the own address: reset_settings() restores those of delivery and clears the
+  // Settings together with the own address: reset_settings() restores the factory state and clears the
   // non-volatile memory, store_settings() saves them to that memory, recall_settings() loads them from it.
   void reset_settings();
   void store_settings();

@@ -105,6 +105,12 @@ S2cPosition position_message(const S2cCore& core, const S2cFix& fix) {
   const EulerAngles attitude = attitude_of(core.port());
   const auto bearing = elementary::sin_cos(fix.bearing_rad),
              elevation = elementary::sin_cos(fix.elevation_rad);
+  // Unit vector to the source in the head's frame (x to starboard, y forward, z up), with elevation e and
+  // bearing b:
+  //
+  //   x = cos(e) sin(b),   y = cos(e) cos(b),   z = sin(e)
+  //
+  // The attitude rotates (y, x, -z) to north, east, down.
   const double x = elevation.cosine * bearing.sine, y = elevation.cosine * bearing.cosine, z = elevation.sine;
   const Vec3 ned = to_quaternion(attitude) * Vec3(y, x, -z);
   const double now_s = core.reading().seconds(), measured_s = fix.measured.seconds();

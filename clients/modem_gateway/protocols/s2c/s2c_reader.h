@@ -21,7 +21,7 @@ struct S2cCommand {
   std::vector<std::string>
       fields;        // fields of a command that sends, before its data: protocol id, length, destination, ...
   std::string data;  // data of a command that sends
-  bool is_well_formed = true;  // false: the line is no command, or the data has another length than stated
+  bool is_well_formed = true;  // false: the line is not a command, or the data has another length than stated
 };
 
 class S2cReader {

@@ -158,7 +158,7 @@ class Uasp2 : public Protocol {
     say(client, answer);
   }
 
-  // Returns the answer; null when there is none.
+  // Returns the answer; null when none is due.
   json obey(ClientId client, const json& request) {
     const std::string action = text_of(request, "action");
     if (action == "version")

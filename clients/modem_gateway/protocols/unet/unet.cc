@@ -235,8 +235,8 @@ class Unet : public Protocol {
                         [&](const Job& job) { return job.has_begun() && job.sequence == sequence; });
   }
 
-  // Sends the first job in the queue, except those to a node from which an earlier job still awaits an
-  // answer.
+  // Sends the first waiting job, unless a transmission is in progress. Jobs to a node from which an earlier
+  // job still awaits an answer are skipped.
   void send_next() {
     if (std::any_of(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.is_sending(); })) return;
     for (auto job = jobs_.begin(); job != jobs_.end(); ++job) {

@@ -19,8 +19,8 @@ std::optional<std::vector<std::uint8_t>> unet_bytes(const nlohmann::json& value)
 // Encodes an array of bytes in the second form.
 nlohmann::json unet_array(std::span<const std::uint8_t> bytes);
 
-// Parses a line of JSON; the result is discarded (json::is_discarded) when the line is none. Values nested
-// deeper than 64 levels, more than any request has, are left out.
+// Parses a line of JSON; the result is discarded (json::is_discarded) when the line is not JSON. Values
+// nested deeper than 64 levels, more than any request has, are left out.
 nlohmann::json json_of(std::string_view line);
 // Finds the value of a field in a piece of a line that is too long to parse: the first string or number after
 // `"name":`. Null when there is none.
@@ -39,7 +39,7 @@ struct UnetRequest {
   std::string id, sender, recipient;
   nlohmann::json data;
 };
-// Decodes a message; nothing when it is none.
+// Decodes a message; nothing when its form is wrong.
 std::optional<UnetRequest> unet_request(const nlohmann::json& message);
 
 }  // namespace halocline::modem_gateway

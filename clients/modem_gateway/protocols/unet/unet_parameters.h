@@ -15,7 +15,7 @@
 
 namespace halocline::modem_gateway {
 
-// The two channels of a modem, CONTROL and DATA, with the numbers of models/modems/unet-control.toml and
+// The two channels of a modem, CONTROL and DATA, with the parameters of models/modems/unet-control.toml and
 // unet-data.toml.
 inline constexpr int kUnetControl = 1, kUnetData = 2;
 struct UnetChannel {
