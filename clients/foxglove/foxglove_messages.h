@@ -31,6 +31,7 @@ nlohmann::json foxglove_scene(const MissionStore& mission, SimTime at,
 // origin is unknown.
 std::optional<bathymetry::LocalFrame> frame_of(const MissionStore& mission);
 
+// Position in WGS84; the height is above the datum of depths, positive up.
 struct PlaceOnEarth {
   double latitude_deg = 0, longitude_deg = 0, height_m = 0;
 };

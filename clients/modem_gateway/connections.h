@@ -25,6 +25,7 @@
 
 namespace halocline::modem_gateway {
 
+// Counts since the start, of all modem interfaces together.
 struct ConnectionCounters {
   std::int64_t opened = 0, turned_away = 0;
   std::int64_t bytes_in = 0, bytes_out = 0;

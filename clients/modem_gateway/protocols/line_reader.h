@@ -20,8 +20,8 @@ class LineReader {
   static constexpr std::size_t kEndBytes = 4096;
 
   using OnLine = std::function<void(std::string_view line)>;
-  // Receives the first max_line bytes of a line that is too long (`beginning`) and its last bytes (`end`),
-  // which may overlap them.
+  // Receives a line that is too long: its first max_line bytes (`beginning`) and, of the bytes after them, at
+  // least the last kEndBytes or all (`end`).
   using OnLongLine = std::function<void(std::string_view beginning, std::string_view end)>;
 
   explicit LineReader(std::size_t max_line = kMaxLine) : max_line_(max_line) {}

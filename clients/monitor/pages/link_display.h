@@ -21,17 +21,19 @@ struct LinkCategory {
   bool good;
 };
 
+// Display of one column of the link table. `center`, `low` and `high` of the colour scale are in the display
+// unit.
 struct LinkDisplay {
   const char* key;  // key of a clients::link_columns() entry, or kReceivedShare
   const char* label;
   const char* unit;
   double factor = 1;  // the page shows factor * (value + offset)
   double offset = 0;
-  int digits = 0;
+  int digits = 0;                    // decimal places
   const char* scale = "sequential";  // diverging, sequential, category
   double center = 0, low = 0, high = 1;
   const char* better = "none";  // high, low, none
-  bool needs_path = true;       // undefined when no sound path exists
+  bool needs_path = true;       // the quantity is undefined when no sound path exists
   const char* help = "";
   std::span<const LinkCategory> categories = {};
 };

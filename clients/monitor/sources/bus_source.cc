@@ -75,7 +75,8 @@ SourceState BusSource::state() const {
           .messages_dropped = receiver_.dropped()};
 }
 
-// The conductor's clock decides, if there is one, because a vehicle's clock may be ahead of it.
+// Returns the time of the conductor's clock, if there is one, because a vehicle's clock may be ahead of it;
+// at most a second after the last message.
 SimTime BusSource::now() const {
   constexpr SimDuration kAhead = SimDuration::from_milliseconds(1000);
   const SimTime last = mission_.end();

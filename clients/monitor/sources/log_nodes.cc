@@ -22,7 +22,8 @@
 namespace halocline::monitor {
 namespace {
 
-// Node that publishes the messages given to it, and passes on those of the other nodes.
+// Node that publishes the messages given to it, and passes on the replies, SCENARIO and TERRAIN of the other
+// nodes.
 class DeskNode : public bus::Node {
  public:
   using Receive = std::function<void(std::string channel, bus::Bytes bytes)>;

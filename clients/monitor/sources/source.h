@@ -23,10 +23,10 @@ enum class BusCondition { kLive, kSilent, kReconnecting, kNone };
 
 struct SourceState {
   BusCondition bus = BusCondition::kNone;
-  double silent_s = 0;                              // duration of kSilent, wall time, s
+  double silent_s = 0;                              // time since the last message when kSilent, wall time, s
   bool bathymetry = false, channel_server = false;  // true: answers requests now
-  std::optional<double> real_time_factor = {};
-  std::int64_t messages_dropped = 0;  // messages for which the monitor was too slow
+  std::optional<double> real_time_factor = {};      // simulated seconds per wall second; none on a log
+  std::int64_t messages_dropped = 0;                // messages for which the monitor was too slow
 };
 
 class Source {

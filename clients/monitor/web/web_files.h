@@ -9,6 +9,7 @@
 
 namespace halocline::monitor {
 
+// Answer to an HTTP request: status code, body, and the headers Content-Type, Cache-Control and Set-Cookie.
 struct WebAnswer {
   int status = 200;
   std::string body;

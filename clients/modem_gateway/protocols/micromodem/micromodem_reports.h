@@ -45,27 +45,29 @@ const MicromodemRate& micromodem_rate(int rate);
 
 enum class MicromodemPacket { kUnknown = -1, kFsk = 1, kFskMini = 2, kPsk = 3, kPskMini = 4, kFlexible = 5 };
 
+// Content of CACST. Levels are in dB re 1 uPa over the band, ratios in dB.
 struct ReceptionReport {
   enum class Mode { kGood = 0, kBadCrc = 1, kTimeOut = 2 };
   Mode mode = Mode::kGood;
-  SimTime arrival;
+  SimTime arrival;  // time of the vehicle's clock
   int rate = 0;
   std::int32_t source = 0, destination = 0;  // addresses
   int psk_error = 0;                         // 0 none, 3 CRC error of a frame, 5 time-out of the equaliser
   MicromodemPacket type = MicromodemPacket::kUnknown;
   int num_frames = 0, num_bad = 0;
   double level_db = 0, noise_db = 0, snr_db = 0, sinr_db = 0, snr_out_db = 0;
-  double doppler_factor = 1;
+  double doppler_factor = 1;  // f_rx / f_tx
 };
 // Fills all fields except addresses and packet type, which the caller knows.
 ReceptionReport report_of(const modem_receive_t& packet);
 // `arrival` is in time of the vehicle's clock.
 ReceptionReport report_of(const packet_outcome_t& loss, SimTime arrival);
 
+// Content of CAXST.
 struct TransmissionReport {
   enum class Mode { kGood = 0, kInhibited = 3, kDataTimeOut = 4 };
   Mode mode = Mode::kGood;
-  SimTime at;
+  SimTime at;  // start by the vehicle's clock
   int rate = 0;
   std::int32_t source = 0, destination = 0;
   bool wants_ack = false;

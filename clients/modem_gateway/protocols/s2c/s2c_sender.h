@@ -3,9 +3,9 @@
 // waits for an acknowledgement to follow, and a queue of bursts.
 //
 // An instant message with acknowledgement is repeated !RI times, and a burst !RC times, when no
-// acknowledgement arrives within !RT milliseconds after the end of the transmission. A message is cancelled
-// (CANCELED...) when the modem is receiving, unless it is forced. A piggy-back message is transmitted as a
-// packet of its own as soon as the modem's acknowledgement has ended.
+// acknowledgement arrives within !RT milliseconds after the end of the transmission. While the modem is
+// receiving, an instant message is cancelled (CANCELED...) unless it is forced, and a burst waits. A
+// piggy-back message is transmitted as a packet of its own as soon as the modem's acknowledgement has ended.
 #pragma once
 
 #include <cstddef>

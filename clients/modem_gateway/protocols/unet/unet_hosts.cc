@@ -124,7 +124,7 @@ json UnetHosts::answer_to(Host& host, const json& request) {
   if (action == "agentForService") return agents.empty() ? json::object() : json{{"agentID", agents.front()}};
   if (action == "agentsForService") return {{"agentIDs", agents}};
   if (action == "auth") return {{"auth", true}};
-  // A request with an id is always answered, even when fjage does not define it.
+  // Any other request with an id is answered, even one that fjage does not define.
   if (action != "wantsMessagesFor") return request.contains("id") ? json::object() : json();
   if (!request.contains("agentIDs") || !request["agentIDs"].is_array()) return nullptr;
   host.wants.clear();
