@@ -33,7 +33,8 @@ std::optional<double> median_snr_db(const MissionStore& mission, std::int32_t fr
   return median(values.empty() ? of_outcomes : values);
 }
 
-// The probability that the table before the departure gave.
+// Returns the delivery probability in the last link table before the departure; empty when there is no table,
+// or only one older than kFreshTable.
 std::optional<double> predicted(const MissionStore& mission, const packet_outcome_t& o) {
   const SimTime departure = SimTime::from_utime(o.departure_utime);
   const link_t* row = mission.links().row_at(o.source_id, o.receiver_id, departure, kFreshTable);

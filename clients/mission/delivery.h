@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well vehicles received each other: by pair, and by range with the prediction of the link tables beside
-// it.
+// Delivery statistics of a run: the share of packets received by each pair of vehicles, and by range together
+// with the delivery probability that the link tables predicted.
 #pragma once
 
 #include <cstdint>
@@ -11,35 +11,34 @@
 
 namespace halocline::clients {
 
-// What one vehicle received of another; every transmission counts, whomever it was addressed to, but those to
-// others that were summed up as out of reach.
+// Packets that one vehicle received from another. Every transmission counts, whatever its destination, except
+// those to others that an OUTCOME summed up as out of reach.
 struct PairDelivery {
   std::int32_t from_id = 0, to_id = 0;
   std::int64_t packets = 0, received = 0;
-  std::optional<double>
-      snr_db;  // median over the link tables, else over the outcomes with a path; empty: neither
+  std::optional<double> snr_db;  // median over link tables, else over outcomes with a path; empty: neither
 
   double share() const {
     return packets > 0 ? static_cast<double>(received) / static_cast<double>(packets) : 0;
   }
 };
 
-// Of every pair in the ledger, by ids.
+// Returns the delivery of every pair in the ledger, sorted by the ids of sender and receiver.
 std::vector<PairDelivery> delivery_by_pair(const MissionStore& mission);
 
+// Packets whose range lies in one step, and the prediction for them.
 struct RangeDelivery {
-  double from_m = 0, to_m = 0;  // of range, from the sender at departure to the receiver at arrival
+  double from_m = 0, to_m = 0;  // range from the sender at departure to the receiver at arrival
   std::int64_t packets = 0, received = 0;
-  std::optional<double>
-      predicted;  // mean over these packets of the probability in the table before departure
+  std::optional<double> predicted;  // mean delivery probability from the tables before departure; empty: none
 };
 
-// Ranges in steps of 1, 2 or 5 times a power of ten, at most `max_steps` of them; those without a packet are
-// left out. A prediction counts where a table is at most 10 s older than the departure. Only packets whose
-// numbers the mission still holds.
+// Returns the delivery by range, in steps of 1, 2 or 5 times a power of ten, at most `max_steps` of them.
+// Steps without a packet are left out. A prediction counts when its table is at most 10 s older than the
+// departure. Only packets that the mission's packet book still holds are counted.
 std::vector<RangeDelivery> delivery_by_range(const MissionStore& mission, std::size_t max_steps);
 
-// The least of 1, 2 and 5 times a power of ten that is `least` or more; above 0.
+// Returns the smallest of 1, 2 and 5 times a power of ten that is not below `least`, which must be above 0.
 double round_step(double least);
 
 }  // namespace halocline::clients

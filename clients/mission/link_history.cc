@@ -63,7 +63,7 @@ void LinkHistory::add(SimTime at, const link_table_t& table) {
   Rows* rows = tables.find(at);
   if (rows == nullptr) {
     const std::size_t newest = tables.empty() ? 0 : tables.back().value.size();
-    if (!tables.add(at, {})) rows_ -= newest;  // it stands where the newest was
+    if (!tables.add(at, {})) rows_ -= newest;  // the new table replaced the newest one
     rows = tables.find(at);
   }
   for (const link_t& row : table.peers) {

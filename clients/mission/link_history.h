@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables of links by time: any column of any pair at any instant.
+// History of the link tables (LINKS): the value of any column for any pair at any instant.
 #pragma once
 
 #include <cstddef>
@@ -15,31 +15,34 @@
 
 namespace halocline::clients {
 
-// A quantity of a link: a column of the table.
+// Column of the link table that holds a quantity of a link.
 struct LinkColumn {
-  std::string_view key;    // the field of link_t
-  std::string_view label;  // for a person
-  std::string_view unit;   // empty: none
+  std::string_view key;    // name of the field of link_t
+  std::string_view label;  // name of the quantity for a reader
+  std::string_view unit;   // unit; empty: dimensionless
   double (*value)(const link_t& link);
 };
 
-// Every column that is a quantity, in the order of link_t.
+// Returns all columns that are quantities, in the order of link_t.
 std::span<const LinkColumn> link_columns();
-// Null where there is none of that key.
+// Returns the column with that key; null when there is none.
 const LinkColumn* link_column(std::string_view key);
 
 class LinkHistory {
  public:
-  // Parts of one table (messages of one time) are put together.
+  // Adds a table. Messages with the same time are parts of one table and are merged; a row that is there
+  // already is kept.
   void add(SimTime at, const link_table_t& table);
 
-  // The row of the last table of this time or before; null when there is none that is no older than
-  // `max_age`, or it has no such row. Valid until the next add.
+  // Returns the pair's row of the last table at or before `at`. Null when there is no such table, when it is
+  // older than `max_age`, or when it has no such row. The pointer is valid until the next call that changes
+  // the history.
   const link_t* row_at(std::int32_t from_id, std::int32_t to_id, SimTime at,
                        SimDuration max_age = SimTime::never() - SimTime()) const;
-  // The last rows of all transmitters, of this time or before; and no older than `max_age`.
+  // Returns the rows of each transmitter's last table at or before `at` that is not older than `max_age`.
   std::vector<const link_t*> rows_at(SimTime at, SimDuration max_age) const;
-  // The course of a column, decimated to its extremes (timed_series.h); of at most `max_points`.
+  // Returns the values of a column over time, decimated to at most `max_points` so that extremes remain
+  // (timed_series.h).
   std::vector<Timed<double>> history(std::int32_t from_id, std::int32_t to_id, const LinkColumn& column,
                                      SimTime from, SimTime to, std::size_t max_points) const;
   std::size_t row_count() const { return rows_; }
@@ -49,10 +52,10 @@ class LinkHistory {
   void drop_before(SimTime at);
 
  private:
-  using Rows = std::vector<link_t>;  // by the receiver's id
+  using Rows = std::vector<link_t>;  // sorted by the receiver's id
   void count_rows();
 
-  std::map<std::int32_t, TimedSeries<Rows>> tables_;  // by transmitter
+  std::map<std::int32_t, TimedSeries<Rows>> tables_;  // keyed by the transmitter's id
   std::size_t rows_ = 0;
 };
 

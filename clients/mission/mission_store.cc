@@ -14,7 +14,7 @@
 namespace halocline::clients {
 namespace {
 
-// Of STATE.auv-1: auv-1; of OUTCOME: nothing.
+// Returns the name that follows the family in a channel: "auv-1" for STATE.auv-1, "" for OUTCOME.
 std::string name_in(std::string_view channel) {
   const auto dot = channel.find('.');
   return dot == std::string_view::npos ? std::string() : std::string(channel.substr(dot + 1));
@@ -25,16 +25,16 @@ concept HasUtime = requires(const Message& message) {
   message.utime;
 };
 
-// What is stamped with the instant from which it holds may lie ahead; all else shows how far the mission has
-// come.
+// True for messages whose utime shows how far the run has come. Messages that are stamped with the instant
+// from which they hold may be ahead of it.
 template <class Message>
 inline constexpr bool kAdvancesTime =
     std::is_same_v<Message, vehicle_state_t> || std::is_same_v<Message, packet_outcome_t> ||
     std::is_same_v<Message, vehicle_sensors_t> || std::is_same_v<Message, link_table_t> ||
     std::is_same_v<Message, sim_clock_t> || std::is_same_v<Message, position_estimate_t>;
 
-// A SCENARIO holds 0 N 0 E where the scenario names no place: its configuration has the keys of one that
-// does.
+// Returns the origin that a scenario states. A SCENARIO message holds 0 N 0 E when its scenario states none;
+// an origin at 0 N 0 E is recognised by the keys in the configuration.
 std::optional<MissionOrigin> origin_of(const scenario_info_t& part, std::string_view toml) {
   const auto states = [&](std::string_view key) { return toml.find(key) != std::string_view::npos; };
   const bool is_stated = part.origin_latitude_deg != 0 || part.origin_longitude_deg != 0 ||
@@ -151,7 +151,8 @@ void MissionStore::take(const Received& received, const environment_t& water) {
   water_.add(received.at, water);
 }
 
-// Parts come in order; one that is missing makes the rest of no use until the next repetition.
+// Assembles the scenario from its parts, which come in order. When a part is missing the others are ignored
+// until the scenario is published again from its first part.
 void MissionStore::take(const Received&, const scenario_info_t& part) {
   if (part.part_number == 0) {
     scenario_parts_ = {part.scenario_name,   part.description,   "", part.scenario_seed, {},
@@ -169,7 +170,8 @@ void MissionStore::take(const Received&, const scenario_info_t& part) {
 }
 
 void MissionStore::take(const Received& received, const terrain_tile_t& tile) {
-  const bool is_whole = received.name.empty();  // not an answer to a client
+  const bool is_whole =
+      received.name.empty();  // empty for the map of the whole terrain; a client's name for an answer to it
   const auto posts = static_cast<std::size_t>(tile.tile_rows) * static_cast<std::size_t>(tile.tile_columns);
   if (is_whole && tile.tile_status == terrain_tile_t::OK && tile.post_spacing_m > 0 &&
       posts == tile.seabed_z_m.size() && posts > 0)
@@ -228,7 +230,7 @@ void MissionStore::give_id(MissionVehicle& vehicle, std::int32_t id) {
   vehicle.id = id;
   const auto [known, is_new] = by_id_.emplace(id, vehicle.index);
   if (is_new || vehicles_[known->second].name != std::to_string(id)) return;
-  vehicles_[known->second].id = 0;  // what was met by this id alone is this vehicle
+  vehicles_[known->second].id = 0;  // the vehicle that was known by this id alone is this vehicle
   known->second = vehicle.index;
 }
 
@@ -263,7 +265,7 @@ void MissionStore::keep_limits() {
     dropped += v.track.thin() + v.commands.thin() + v.sensors.thin() + v.estimates.thin() + v.gps.thin() +
                v.activity.thin();
   samples_ -= dropped;
-  if (dropped == 0) limits_.samples *= 2;  // more vehicles than samples
+  if (dropped == 0) limits_.samples *= 2;  // every series has fewer than four entries: thinning cannot help
 }
 
 void MissionStore::limit_history(SimDuration history) {
@@ -274,7 +276,7 @@ void MissionStore::limit_history(SimDuration history) {
 void MissionStore::drop_old() {
   if (history_ == SimDuration() || begin_ > end_) return;
   const SimTime first = end_ - history_;
-  // Not at every message: a tenth more than was wanted may be kept.
+  // Old data are dropped in batches, not at every message: up to a tenth more than asked for is kept.
   if (dropped_before_ != SimTime::at_once() && (first - dropped_before_) * 10 < history_) return;
   dropped_before_ = first;
   begin_ = std::max(begin_, first);

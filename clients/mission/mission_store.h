@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission by time, from its messages: the one source of numbers for reports and monitors.
+// Timeline of a run, built from its messages: the one source of numbers for reports and monitors.
 //
 //   MissionStore store;
 //   while (log.next(event)) store.add(event.stamp_us, event.channel, event.data);
 //   const auto place = state_at(store.vehicles()[0].track, SimTime::from_seconds(60));
 //
-// It takes the messages of a bus or a log in any order, whatever they are: what is on no channel of ours,
-// does not decode or cannot be is counted and left out. Times are simulation time, each message's own
-// (mission_time.h); what has none holds from the latest time that was reached. It reads no file, opens no
-// socket and knows no clock. Not thread-safe.
+// The store accepts the messages of a bus or a log in any order and of any kind. A message on an unknown
+// channel, or one that does not decode or is not valid, is counted and left out. Times are simulation time,
+// taken from each message (mission_time.h); a message without a time takes the latest time that was reached.
+// The store reads no file, opens no socket and reads no clock. Not thread-safe.
 //
-// Memory is bounded by MissionLimits: series are thinned together (timed_series.h), and the oldest packets'
-// numbers are dropped while the ledger keeps counting all. limit_history() drops what is old, for a bus that
-// never ends.
+// Memory is bounded by MissionLimits: the series of vehicles are thinned together (timed_series.h), and the
+// oldest packets are dropped while the ledger keeps counting all of them. limit_history() drops old data, for
+// a bus that never ends.
 #pragma once
 
 #include <cstddef>
@@ -41,50 +41,52 @@
 namespace halocline::clients {
 
 struct MissionLimits {
-  std::size_t samples = 3'000'000;    // of all series of vehicles, about 200 bytes each
+  std::size_t samples = 3'000'000;    // entries in all series of vehicles, about 200 bytes each
   std::size_t link_rows = 1'000'000;  // about 200 bytes each
   std::size_t outcomes = 1'000'000;   // about 300 bytes each
 };
 
 struct MissionOrigin {
-  double latitude_deg = 0, longitude_deg = 0;  // of the world frame, WGS 84
+  double latitude_deg = 0, longitude_deg = 0;  // origin of the world frame, WGS 84
 };
 
-// What is known of the scenario; texts are empty and numbers 0 where it is not.
+// Description of the scenario; texts are empty and numbers 0 where it is not known.
 struct MissionScenario {
   std::string name, description;
   std::string toml;  // the effective configuration
   std::int64_t seed = 0;
-  std::optional<MissionOrigin> origin;  // empty: neither the log nor its scenario states one
+  std::optional<MissionOrigin> origin;  // empty: stated neither in the log nor in its scenario
   double sea_surface_z_m = 0;
   double duration_s = 0;
 };
 
 struct MissionCounts {
-  std::int64_t messages = 0;     // given to add()
-  std::int64_t unknown = 0;      // on no channel of ours
-  std::int64_t undecodable = 0;  // no sound message of their channel's type
-  std::int64_t without_time = 0;
+  std::int64_t messages = 0;      // passed to add()
+  std::int64_t unknown = 0;       // on a channel that is none of Halocline's
+  std::int64_t undecodable = 0;   // not a valid message of their channel's type
+  std::int64_t without_time = 0;  // their utime is 0 or from another clock (mission_time.h)
 };
 
 class MissionStore {
  public:
   explicit MissionStore(MissionTime time = {}, MissionLimits limits = {});
 
-  // `stamp_us` is the recorder's or receiver's time of the message.
+  // Adds a message. `stamp_us` is the time at which the recorder or receiver got it, us.
   void add(std::int64_t stamp_us, std::string_view channel, std::span<const std::uint8_t> bytes);
 
-  // From now on drops what is more than this older than the latest message; above 0.
+  // Drops from now on what is older than the latest message by more than `history`, which must be above 0.
   void limit_history(SimDuration history);
 
-  // In the order in which they were met: an index stays as it is, and so does the place in memory.
+  // Returns the vehicles in the order of their first message. Indices and addresses stay valid while vehicles
+  // are added.
   const std::deque<MissionVehicle>& vehicles() const { return vehicles_; }
   const MissionVehicle* find(std::string_view name) const;  // null when there is none
   const MissionVehicle* find(std::int32_t id) const;
-  std::string name(std::int32_t id) const;  // the id as text where no vehicle has it
+  std::string name(std::int32_t id) const;  // the id as text when no vehicle has it
 
   const PacketBook& packets() const { return packets_; }
-  const OutcomeLedger& ledger() const { return ledger_; }  // by minutes; of all that was ever added
+  // Returns the counts of all outcomes ever added, in windows of a minute.
+  const OutcomeLedger& ledger() const { return ledger_; }
   std::int64_t repeated_outcomes() const { return repeated_outcomes_; }
   const LinkHistory& links() const { return links_; }
   const TimedSeries<environment_t>& water() const { return water_; }
@@ -95,17 +97,18 @@ class MissionStore {
   void set_scenario(MissionScenario scenario) { scenario_ = std::move(scenario); }
   const std::optional<MissionTerrain>& terrain() const { return terrain_; }
   void set_terrain(MissionTerrain terrain) { terrain_ = std::move(terrain); }
-  // z of the seabed under a place; NaN where it is not known.
+  // Returns z of the seabed below a place, m; NaN where it is not known.
   double seabed_m(double north_m, double east_m) const;
 
-  // First and last instant of what was received; begin > end before the first message with a time.
+  // Instants of the first and the last message with a time. begin() > end() before there is one.
   SimTime begin() const { return begin_; }
   SimTime end() const { return end_; }
 
  private:
+  // Envelope of a message that is being processed.
   struct Received {
     std::int64_t stamp_us;
-    std::string name;  // of the channel's family
+    std::string name;  // the channel without its family: the vehicle's or node's name
     SimTime at;
   };
   template <class Message>
@@ -130,7 +133,7 @@ class MissionStore {
   void take(const Received& received, const flow_heartbeat_t& heartbeat);
   void take(const Received& received, const sim_clock_t& clock);
 
-  // The vehicle of that name, made where there is none; `id` 0: not known.
+  // Returns the vehicle of that name, which is added when it is not known yet. `id` 0 means: not known.
   MissionVehicle& vehicle(const std::string& name, std::int32_t id);
   MissionVehicle& vehicle(std::int32_t id);
   void give_id(MissionVehicle& vehicle, std::int32_t id);
@@ -141,7 +144,7 @@ class MissionStore {
 
   MissionTime time_;
   MissionLimits limits_;
-  SimDuration history_;  // 0: everything
+  SimDuration history_;  // 0: unlimited
   SimTime begin_ = SimTime::never(), end_ = SimTime::at_once(), dropped_before_ = SimTime::at_once();
   std::deque<MissionVehicle> vehicles_;
   std::map<std::string, std::size_t, std::less<>> by_name_;
@@ -154,7 +157,7 @@ class MissionStore {
   TimedSeries<environment_t> water_;
   NodeHealth health_;
   MissionCounts counts_;
-  MissionScenario scenario_, scenario_parts_;  // complete; being put together
+  MissionScenario scenario_, scenario_parts_;  // complete; assembled so far
   std::int32_t next_part_ = 0;
   std::optional<MissionTerrain> terrain_;
 };

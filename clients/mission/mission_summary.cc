@@ -71,7 +71,7 @@ void add_vehicles(const MissionStore& mission, std::vector<SummaryRow>& rows) {
                                           at_rest, distance(sum_m), distance(longest_m))});
 }
 
-// Pairs of both directions.
+// Packets between two vehicles, both directions together.
 struct Both {
   std::string names;
   std::int64_t packets = 0, received = 0;
@@ -133,7 +133,7 @@ void add_packets(const MissionStore& mission, std::vector<SummaryRow>& rows) {
   rows.push_back({"lost", text});
 }
 
-// Programs whose results went out later than the scenario allows, the latest first.
+// Adds the programs whose results went out later than the scenario allows, the latest first.
 void add_lateness(const MissionStore& mission, std::vector<SummaryRow>& rows) {
   std::vector<std::pair<double, std::string>> late;
   for (const auto& [name, node] : mission.health().nodes()) {
@@ -148,7 +148,7 @@ void add_lateness(const MissionStore& mission, std::vector<SummaryRow>& rows) {
   rows.push_back({"time", text});
 }
 
-// Packets over a bottom that is known elsewhere.
+// Adds the share of outcomes whose sound met a bottom beyond the known terrain.
 void add_terrain(const MissionStore& mission, std::vector<SummaryRow>& rows) {
   const PropagationCounts& counts = mission.ledger().by_propagation();
   const std::int64_t beyond = counts[static_cast<std::size_t>(packet_outcome_t::RAYS_BEYOND_TERRAIN)];

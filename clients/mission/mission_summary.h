@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission in about ten lines: who went where, who received whom, what was lost and why.
+// Summary of a run in about ten lines: the ways of vehicles, the packets received by each pair, and the
+// losses with their causes.
 #pragma once
 
 #include <string>
@@ -10,11 +11,11 @@
 namespace halocline::clients {
 
 struct SummaryRow {
-  std::string key;   // a vehicle, "packets", "received", "lost", ...; empty: goes on with the row above
+  std::string key;   // a vehicle, "packets", "received", "lost", ...; empty: continues the row above
   std::string text;  // without a full stop
 };
 
-// Of more than six vehicles or pairs one row stands for all.
+// Returns the rows of the summary. More than six vehicles or pairs are summed up in one row.
 std::vector<SummaryRow> mission_summary(const MissionStore& mission);
 
 }  // namespace halocline::clients

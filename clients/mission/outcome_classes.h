@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The marks and colours of outcomes: one table for reports and monitors.
+// Marks and colours of packet outcomes: one table for reports and monitors.
 //
-// Seventeen outcomes are too many to distinguish by colour, so they share six classes, each with a mark of
-// its own. Colours: Okabe and Ito 2008, which colour-blind people can distinguish.
+// There are more outcomes than can be distinguished by colour, so they share six classes, each with its own
+// mark. The colours are those of Okabe and Ito 2008, which colour-blind people can distinguish.
 #pragma once
 
 #include <array>
@@ -11,18 +11,18 @@
 namespace halocline::clients {
 
 struct OutcomeClass {
-  const char* key;     // of style sheets and of the page: [a-z_]
-  const char* label;   // for a person
+  const char* key;     // name in style sheets and in the page: [a-z_]
+  const char* label;   // name for a reader
   const char* mark;    // dot (a filled circle), ring, cross, bowtie, bar or dash
   const char* colour;  // "#rrggbb"
 };
 
 inline constexpr std::size_t kOutcomeClasses = 6;
 
-// Received first, then what was lost.
+// Returns the classes: received first, then the kinds of loss.
 const std::array<OutcomeClass, kOutcomeClasses>& outcome_classes();
 
-// Index in outcome_classes() of an outcome by its number, below kOutcomes.
+// Returns the index in outcome_classes() of an outcome's number, which is below kOutcomes.
 std::size_t class_of_outcome(std::size_t outcome);
 
 }  // namespace halocline::clients

@@ -35,7 +35,7 @@ void OutcomeLedger::add(const packet_outcome_t& outcome) {
   total_.at(number) += receivers;
   by_window_[departure - into_window].at(number) += receivers;
   if (outcome.receiver_id != 0) by_pair_[{outcome.source_id, outcome.receiver_id}].at(number) += receivers;
-  if (outcome.outcome == packet_outcome_t::OUT_OF_REACH) return;  // nothing was computed
+  if (outcome.outcome == packet_outcome_t::OUT_OF_REACH) return;  // no paths were computed
   by_propagation_.at(static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.propagation_used))) +=
       receivers;
 }

@@ -7,8 +7,8 @@
 namespace halocline::clients {
 namespace {
 
-constexpr std::int64_t kRounding_us = 1;  // of instants in microseconds
-// What a SEND may hold; a receipt does not say which.
+constexpr std::int64_t kRounding_us = 1;  // rounding error of an instant in microseconds
+// Kinds of packets that a SEND may hold; a receipt does not name the kind of its packet.
 constexpr std::int8_t kSentKinds[] = {modem_receive_t::DATA, modem_receive_t::PING,
                                       modem_receive_t::MINI_PACKET, modem_receive_t::JANUS,
                                       modem_receive_t::JANUS_CARGO};

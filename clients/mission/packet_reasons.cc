@@ -14,7 +14,7 @@ namespace halocline::clients {
 namespace {
 
 constexpr double kNoInterference_db = -300;
-constexpr double kSilence_db = -250;  // levels of links without a path lie below
+constexpr double kSilence_db = -250;  // levels of links without a path are below this
 
 bool has_interference(const packet_outcome_t& o) { return o.interference_level_db > kNoInterference_db; }
 
@@ -24,7 +24,7 @@ std::string percent(double probability) {
   return fmt::format("{:.3g} %", 100 * probability);
 }
 
-// What was louder than the signal could bear.
+// Returns the noise or interference that was too loud for the signal.
 std::string disturbance(const packet_outcome_t& o, const std::string& others) {
   if (!has_interference(o) || o.interference_level_db < o.noise_level_db - 10)
     return fmt::format("noise of {:.1f} dB beside a signal of {:.1f} dB", o.noise_level_db,
@@ -38,7 +38,7 @@ std::string disturbance(const packet_outcome_t& o, const std::string& others) {
 std::string survival(const packet_outcome_t& o) {
   const std::string chance =
       fmt::format("SINR {:.1f} dB; {} of such packets survive", o.sinr_db, percent(o.success_probability));
-  // Of several frames each has a draw of its own.
+  // Each of several frames has a draw of its own, so no single draw is given.
   if (o.num_frames > 1)
     return fmt::format("{}; {} of {} frames were right", chance, o.num_frames_good, o.num_frames);
   return fmt::format("{}, the draw was {:.3f}", chance, o.success_draw);
@@ -56,7 +56,7 @@ std::string collision(const packet_outcome_t& o, const std::string& others) {
          (o.success_probability == 0 ? acquisition(o) : survival(o));
 }
 
-// By step of the ladder.
+// Explanations of the steps of the ladder, by key.
 constexpr std::array<std::pair<std::string_view, const char*>, 11> kHelps{{
     {"paths", "Ways of the sound through the water to the receiver; without one nothing arrives."},
     {"source", "What the sender radiates, one metre from it."},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why a packet was received or lost: as a reason with its numbers, as a sentence, and as the ladder of
-// numbers that decided it, from the transmitted level to the draws. All from OUTCOME; docs/packets.md
-// explains the steps.
+// Reasons why a packet was received or lost: as a phrase with its numbers, as a sentence, and as the ladder
+// of numbers that decided it, from the transmitted level to the random draws. All of it is derived from the
+// OUTCOME message; docs/packets.md explains the steps.
 #pragma once
 
 #include <cstdint>
@@ -16,33 +16,36 @@ namespace halocline::clients {
 
 using VehicleName = std::function<std::string(std::int32_t id)>;
 
-// "auv-1:12 auv-2:3": the packets that disturbed this one, or its receiver's own, the strongest first.
+// Returns "auv-1:12 auv-2:3": the packets that disturbed this one, which may be the receiver's own, the
+// strongest first.
 std::string colliders_text(const packet_outcome_t& outcome, const VehicleName& name);
 
-// What decided the outcome, with its numbers: the end of a sentence, without a full stop.
+// Returns the cause of the outcome with its numbers, as the end of a sentence without a full stop.
 std::string deciding_reason(const packet_outcome_t& outcome, const VehicleName& name);
 
-// "Lost at auv-3: too quiet: 95.2 dB arrived of the 100.0 dB that its modem needs."
+// Returns a sentence: "Lost at auv-3: too quiet: 95.2 dB arrived of the 100.0 dB that its modem needs."
 std::string sentence(const packet_outcome_t& outcome, const VehicleName& name);
 
-// "data", "ping", "ping_reply", "ack", "mini_packet", "janus", "janus_cargo"; what is none of them counts as
-// data.
+// Returns "data", "ping", "ping_reply", "ack", "mini_packet", "janus" or "janus_cargo"; "data" for an unknown
+// kind.
 const char* packet_kind_name(std::int8_t packet_kind);
 
-// Why a SEND was not transmitted, by the result of its receipt; empty where it was.
+// Returns why a SEND was not transmitted, by the result of its receipt; empty when it was transmitted.
 std::string refusal(std::int8_t receipt_result);
 
+// Step of the ladder: one quantity, and the limit that it had to reach if the step decides anything.
 struct LadderStep {
   std::string step;             // key: source, loss, level, ...
-  std::string quantity;         // for a person
-  std::optional<double> value;  // empty where the step is a decision alone
-  std::string unit;             // "dB re 1 uPa", "dB", "" of a probability
-  std::optional<double> limit;  // what the value had to reach; empty where nothing is decided here
-  std::optional<bool> passed;   // empty likewise
-  std::string help;             // what it is, in a sentence
+  std::string quantity;         // name of the quantity for a reader
+  std::optional<double> value;  // empty: the step is a decision without a value
+  std::string unit;             // "dB re 1 uPa", "dB", or "" for a probability
+  std::optional<double> limit;  // value to reach; empty: nothing is decided here
+  std::optional<bool> passed;   // empty: nothing is decided here
+  std::string help;             // explanation of the quantity in a sentence
 };
 
-// The steps that were reached, the outcome last. Steps after the one that lost the packet are left out.
+// Returns the steps that were reached, the outcome last. Steps after the one at which the packet was lost are
+// left out.
 std::vector<LadderStep> ladder(const packet_outcome_t& outcome);
 
 }  // namespace halocline::clients

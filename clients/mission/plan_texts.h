@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an autopilot does and how far its plan has come, in words; whole numbers in texts.
+// Descriptions in words of an autopilot's activity and of the progress of its plan.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,17 @@
 
 namespace halocline::clients {
 
-// Waypoints of one behaviour of a plan, in order.
+// Returns the waypoints of one behaviour of a plan, in order, NED, m.
 std::vector<Vec3> waypoints_of(const vehicle_plan_t& plan, std::int32_t behaviour_index);
 
-// "follows leg 2 of 4, kept above the seabed"; `plan` may be null.
+// Returns the autopilot's activity: "follows leg 2 of 4, kept above the seabed". `plan` may be null.
 std::string activity_text(const autopilot_status_t& status, const vehicle_plan_t* plan);
 
-// How far the plan has come: "steers for waypoint 3 of 4", "has done its plan and holds".
+// Returns the progress of the plan: "steers for waypoint 3 of 4", "has done its plan and holds".
 std::string progress_text(const vehicle_plan_t& plan);
 
-// Rounded for a text without decimals: what rounds to 0 from below is 0 without a sign, so no "-0 m".
+// Rounds a value for a text without decimals. A negative value that rounds to 0 yields 0 without a sign, so
+// that no "-0 m" is printed.
 double whole_number(double value);
 
 }  // namespace halocline::clients

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values by time, for what comes many times a second: kept in order, thinned when there are too many, dropped
-// when old.
+// Series of values over time, for data that come many times a second: kept in order, thinned when there are
+// too many, dropped when old.
 //
-// Thinning: every second value is dropped, and from then on values stand twice as far apart as before. The
-// newest value is always there. Extremes between two that are kept are lost: the price of bounded memory.
+// Thinning drops every second value, and from then on keeps new values only at twice the former distance in
+// time. The newest value is always kept. Extremes between two kept values are lost: the price of bounded
+// memory.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +29,8 @@ class TimedSeries {
  public:
   using Entry = Timed<Value>;
 
-  // One of a time that is there already replaces it. True when there is one more than before.
+  // Adds a value; it replaces a value of the same time, and the newest one if that is too close to its
+  // predecessor. Returns true when the number of values has grown.
   bool add(SimTime at, Value value) {
     if (entries_.empty() || at > entries_.back().at) {
       const bool is_too_near = entries_.size() > 1 && entries_.back().at - (entries_.end() - 2)->at < gap_;
@@ -45,17 +47,17 @@ class TimedSeries {
     return !is_there;
   }
 
-  // The value of exactly this time; null when there is none.
+  // Returns the value at exactly this time; null when there is none.
   Value* find(SimTime at) {
     const auto place = entries_.begin() + index_from(at);
     return place != entries_.end() && place->at == at ? &place->value : nullptr;
   }
-  // The last one of this time or before; null when there is none.
+  // Returns the last entry at or before this time; null when there is none.
   const Entry* at_or_before(SimTime at) const {
     const std::span<const Entry> before = between(SimTime::at_once(), at);
     return before.empty() ? nullptr : &before.back();
   }
-  // Those of from <= time <= to.
+  // Returns the entries with from <= time <= to.
   std::span<const Entry> between(SimTime from, SimTime to) const {
     const auto first = index_from(from);
     const auto last = std::upper_bound(entries_.begin(), entries_.end(), to,
@@ -69,7 +71,7 @@ class TimedSeries {
   const Entry& front() const { return entries_.front(); }
   const Entry& back() const { return entries_.back(); }
 
-  // Returns how many were dropped.
+  // Drops every second entry, unless there are fewer than four. Returns the number of entries dropped.
   std::size_t thin() {
     if (entries_.size() < 4) return 0;
     const std::size_t size = entries_.size();
@@ -80,11 +82,13 @@ class TimedSeries {
       if (i % 2 == 0 || i == size - 1) kept.push_back(std::move(entries_[i]));
     }
     entries_ = std::move(kept);
-    // A little less than twice the mean, or values at a steady rate would be kept at a third of it.
+    // The new gap is a little less than twice the mean spacing: with the full double, jitter would make a
+    // steady series keep only every third value.
     gap_ = std::max(gap_, SimDuration::from_nanoseconds(spacing_ns * 2 - spacing_ns / 4));
     return size - entries_.size();
   }
-  // Keeps the last one before `at`, which holds there. Returns how many were dropped.
+  // Drops old entries, except the last one before `at`, which still holds at `at`. Returns the number
+  // dropped.
   std::size_t drop_before(SimTime at) {
     const std::ptrdiff_t first = std::max(index_from(at) - 1, std::ptrdiff_t{0});
     entries_.erase(entries_.begin(), entries_.begin() + first);
@@ -98,13 +102,13 @@ class TimedSeries {
            entries_.begin();
   }
 
-  std::vector<Entry> entries_;  // by time
-  SimDuration gap_;             // least distance of two that are kept
+  std::vector<Entry> entries_;  // sorted by time
+  SimDuration gap_;             // least distance in time between two kept entries
 };
 
-// At most `max_points` >= 8 of the entries for drawing, in order: of each of equally long stretches of time
-// the least and the greatest of each quantity, and the ends. A quantity is a function of the value, such as
-// its depth.
+// Returns at most `max_points` >= 8 of the entries for drawing, in order: the first and the last, and the
+// minimum and maximum of each quantity within each of equally long intervals of time. A quantity is a
+// function of the value, such as its depth.
 template <class Value, class... Quantities>
 std::vector<Timed<Value>> decimated(std::span<const Timed<Value>> entries, std::size_t max_points,
                                     const Quantities&... quantities) {
