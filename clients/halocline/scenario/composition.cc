@@ -24,7 +24,7 @@
 namespace halocline::clients {
 namespace {
 
-// Fills in what the scenario implies by leaving it out.
+// Uses the scenario's origin as the place of a profile whose own place is not given.
 void resolve(channel_server::ProfileConfig& profile, const bus::Scenario& scenario) {
   if (profile.position_given) return;
   profile.latitude_rad = to_radians(scenario.origin_latitude_deg);
@@ -54,7 +54,7 @@ void visit(bus::ConfigVisitor& v, ScenarioConfig& config) {
 
 namespace {
 
-// With all that needs no terrain checked; what makes no sense is kept in the file.
+// Reads the sections and makes all checks that need no terrain; findings are collected in `file`.
 ScenarioConfig read_scenario(bus::ConfigFile& file, ScenarioUse use) {
   ScenarioConfig config;
   file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
@@ -154,7 +154,7 @@ Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind,
       seed_(config.scenario.seed),
       threads_(std::max(config.vehicle_sim.threads, config.channel_server.rules.threads)),
       terrain_(terrain ? std::move(*terrain) : make_terrain(config)) {
-  // Nothing paces lockstep: the clock announces rate 0.
+  // A lockstep run is paced by no wall clock: the clock announces rate 0.
   add<conductor::ConductorNode>(bus::Stage::kTime, "conductor", config.scenario.clock_period, 0.0);
   add<bathymetry::BathymetryNode>(bus::Stage::kTerrain, "bathymetry", terrain_.terrain, terrain_.summary);
   if (kind == kReplay) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A whole scenario in one place: its file read and checked as a whole, and the nodes it is made of.
+// A whole scenario in one process: its file, read and checked as a whole, and the nodes that run it.
 //
 //   const ScenarioConfig config = load_scenario("scenarios/seamount.toml", {"modem.source_level_db=170"});
 //   lcm::LCM lcm("memq://");
@@ -28,7 +28,7 @@
 
 namespace halocline::clients {
 
-// Every section of a scenario file.
+// Configuration of a scenario: every section of its file.
 struct ScenarioConfig {
   bus::Scenario scenario;
   bathymetry::TerrainRecipe terrain;
@@ -37,59 +37,64 @@ struct ScenarioConfig {
   AutopilotConfig autopilot;
   TrafficConfig traffic;
   LocaliserConfig localiser;
-  networks::NetworkConfig network;       // an example client; runs where it names a protocol
-  modem_gateway::GatewayConfig gateway;  // runs where there are doors
+  networks::NetworkConfig network;       // an example client; runs when it names a protocol
+  modem_gateway::GatewayConfig gateway;  // runs when there are modem interfaces
 };
 
 void visit(bus::ConfigVisitor& v, ScenarioConfig& config);
 
-// Throws bus::ConfigErrors with everything that is wrong with the file: in its sections, between them, and
-// keys that no program reads. What takes the terrain is left out; so are missions and traffic where the
-// scenario stands for its water alone, as for a link or the replay of a log.
+// Reads a scenario. Throws bus::ConfigErrors with everything that is wrong with the file: within its
+// sections, between them, and keys that no program reads. Checks that need the terrain are left out
+// (load_checked() makes them). kWater, for a link or the replay of a log, uses only the water of the scenario
+// and also leaves out the checks of missions and traffic.
 enum class ScenarioUse { kRun, kWater };
 ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides,
                              ScenarioUse use = ScenarioUse::kRun);
 ScenarioConfig load_scenario(bus::ConfigFile& file, ScenarioUse use);
 
-// A scenario that makes sense on its terrain (scenario_checks.h).
+// Scenario that passed all checks, those on its terrain included (scenario_checks.h).
 struct CheckedScenario {
   ScenarioConfig config;
   bathymetry::PreparedTerrain terrain;
-  std::vector<std::string> warnings;  // of what may be meant, one line each
+  std::vector<std::string> warnings;  // about settings that are probably mistakes, one line each
 };
 
-// The same with what takes the terrain.
+// Reads a scenario as load_scenario() does, prepares its terrain and makes the checks that need it.
 CheckedScenario load_checked(const std::string& path, const std::vector<std::string>& overrides);
 
-// The configuration as a scenario file of its own: every key that counts with its value; files by their
-// absolute paths.
+// Returns the configuration as a scenario file of its own: every effective key with its value, and files by
+// their absolute paths.
 std::string effective_toml(const ScenarioConfig& config);
 
-// The same with the files that it names (bus/config/carried_files.h), so that it may be sent anywhere.
+// Returns the effective configuration together with the files that it names (bus/config/carried_files.h), so
+// that it can be used on any machine.
 std::string portable_toml(const ScenarioConfig& config);
 
-// Every key with its default and its meaning, with one vehicle.
+// Returns a scenario file with every key, its default and its meaning, with one vehicle.
 std::string commented_toml();
 
-// The seabed; throws InvalidArgument when a raster cannot be read.
+// Prepares the terrain of a scenario; throws InvalidArgument when a raster cannot be read.
 bathymetry::PreparedTerrain make_terrain(const ScenarioConfig& config);
 
+// Nodes of a scenario in the order in which they step.
 class Composition {
  public:
-  // Which nodes: all of a run; or those that stay beside a recorded log, whose states and transmissions come
-  // from `recorded`.
+  // Selects the nodes: kRun creates all of them; kReplay leaves out those whose messages a recorded log
+  // replaces: `recorded` publishes its states and transmissions.
   enum Kind { kRun, kReplay };
 
-  // Sessions are made of the scenario's seed and the nodes' names. `recorded` steps where the vehicle
-  // simulator would; it must outlive the composition. The terrain is made unless it is given. `make_sound`:
-  // for doors of waveforms.
+  // Creates the nodes. Their sessions are derived from the scenario's seed and their names. `recorded` steps
+  // in the place of the vehicle simulator and must outlive the composition. The terrain is prepared unless it
+  // is given. `make_sound` is needed for modem interfaces that exchange waveforms.
   Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded = nullptr,
               std::optional<bathymetry::PreparedTerrain> terrain = {},
               const modem_gateway::SoundFieldMaker& make_sound = {});
 
-  // In the order in which they step: who moves vehicles before who pilots them, the channel server last.
+  // Returns the nodes in the order in which they step: vehicle simulators before the pilots of their
+  // vehicles, the channel servers last.
   std::vector<bus::Node*> nodes() const { return order_; }
-  // For nodes of one stage, blocks of vehicles or shards: as many as one of them may use by itself.
+  // Returns the number of threads for nodes of one stage (blocks of vehicles, shards of servers): as many as
+  // one of them may use by itself.
   int threads() const { return threads_; }
   const bathymetry::PreparedTerrain& terrain() const { return terrain_; }
 

@@ -23,7 +23,7 @@ void sleep_for(SimDuration duration) {
   std::this_thread::sleep_for(std::chrono::nanoseconds(duration.nanoseconds()));
 }
 
-// Waits until the wall has come as far as `sim` at `rate`; false when stopped meanwhile.
+// Waits until wall time has caught up with `sim` at `rate`; returns false when the run is stopped meanwhile.
 bool keep_pace(SimTime sim, SimTime started, double rate, const std::function<bool()>& should_stop) {
   constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(100);
   const SimTime due = started + SimDuration::from_seconds(sim.seconds() / rate);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs nodes in lockstep in this process into a log, as fast as they compute or paced by the wall clock.
+// Runs nodes in lockstep within this process into a log, as fast as they compute or paced by the wall clock.
 #pragma once
 
 #include <functional>
@@ -12,15 +12,16 @@
 
 namespace halocline::clients {
 
+// Options of an embedded run.
 struct EmbeddedRun {
-  SimTime end;           // the run goes from 0 to here, both included
-  std::string log_path;  // replaced
+  SimTime end;           // the run covers 0 to `end`, both included
+  std::string log_path;  // an existing file is replaced
   bus::LogRotation rotation = {};
-  double rate = 0;              // simulated seconds per wall second; 0: as fast as it computes
-  int threads = 1;              // that step nodes of one stage, 1..1024; the log is the same
-  std::string mirror_url = {};  // where everything is shown as well (a udpm URL); empty: nowhere
+  double rate = 0;  // simulated seconds per wall second; 0: as fast as it computes
+  int threads = 1;  // threads that step nodes of one stage, 1..1024; the log does not depend on it
+  std::string mirror_url = {};  // udpm URL to which all messages are published as well; empty: none
   bool quiet = false;           // no progress line
-  // Called before each instant; true ends the run there.
+  // Called before each instant; the run ends there when it returns true.
   std::function<bool()> should_stop = [] { return false; };
 };
 
@@ -30,7 +31,8 @@ struct RunOutcome {
   bool interrupted = false;
 };
 
-// The log holds simulation time as its stamps; it is sound and closed when this returns or throws.
+// Runs the nodes. Events of the log are stamped with simulation time. The log is complete and closed when
+// this returns or throws.
 RunOutcome run_embedded(const std::vector<bus::Node*>& nodes, const EmbeddedRun& run);
 
 }  // namespace halocline::clients

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenarios that run and hardly mean what they say.
+// Warnings about scenarios that run but hardly do what their author intended.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -22,9 +22,9 @@ namespace {
 
 using channel_server::VehicleModem;
 
-// Vehicles whose modems are alike, or receive each other by way of others.
+// Group of vehicles that can exchange packets, directly or through other members of the group.
 struct HearingGroup {
-  std::vector<const VehicleModem*> modems;  // that differ
+  std::vector<const VehicleModem*> modems;  // modems of the group, without duplicates
   std::vector<std::size_t> vehicles;
 };
 
@@ -40,7 +40,8 @@ bool hears(const VehicleModem& receiver, const VehicleModem& sender) {
          });
 }
 
-// Joins to the first group that it hears all others that it hears, too.
+// Adds a vehicle to the first group that its modem exchanges packets with; further such groups are merged
+// into it.
 void add(std::vector<HearingGroup>& groups, std::size_t vehicle, const VehicleModem& modem) {
   HearingGroup joined{{&modem}, {vehicle}};
   std::vector<HearingGroup> others;
@@ -71,9 +72,9 @@ std::string names_of(const ScenarioConfig& config, const HearingGroup& group) {
   return names + (more > 0 ? " and " + std::to_string(more) + " more" : "");
 }
 
-// Modems of which no packet is ever received beyond a part of the vehicles.
+// Warns when the vehicles fall into groups that never receive each other.
 void check_hearing(const ScenarioConfig& config, bus::ConfigFile& file) {
-  constexpr std::size_t kMaxGroups = 16;  // more are surely meant
+  constexpr std::size_t kMaxGroups = 16;  // more groups are taken as intended
   std::vector<HearingGroup> groups;
   for (std::size_t i = 0; i < config.scenario.vehicles.size() && groups.size() <= kMaxGroups; ++i) {
     const auto& own = config.channel_server.vehicles.at(i);
@@ -90,9 +91,9 @@ void check_hearing(const ScenarioConfig& config, bus::ConfigFile& file) {
   }
 }
 
-// A latitude and a longitude in the place of metres: near those of the origin, in either order.
+// True when a position in metres looks like the origin's latitude and longitude in degrees, in either order.
 bool looks_like_degrees(const bus::Scenario& scenario, const Vec3& place_ned_m) {
-  constexpr double kNear = 5;  // degrees; no world is as wide
+  constexpr double kNear = 5;  // degrees; no world is as large
   const double north = place_ned_m.x(), east = place_ned_m.y();
   const double latitude = scenario.origin_latitude_deg,
                longitude = std::remainder(scenario.origin_longitude_deg, 360);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The answer of `halocline link --json`, and the names in it.
+// JSON output of `halocline link --json`, and the names in it.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ std::string_view name_of(channel_server::Multipath multipath);          // "unli
 std::string_view name_of(channel_server::PathState state);              // "open", "shadow", ...
 std::string_view name_of(channel_server::PropagationUsed propagation);  // "straight", "rays", ...
 
-// An object with the numbers of the budget, the path and the forecast, names with units; no line break at the
-// end.
+// Returns a JSON object with the numbers of the link budget, the paths and the forecast, whose names end in
+// their units; without a line break at the end.
 std::string to_json(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkSurvey& answer);
 
 }  // namespace halocline::clients

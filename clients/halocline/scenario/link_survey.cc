@@ -82,7 +82,8 @@ bool parse_position(const std::string& text, Vec3& position) {
   return count == 3;
 }
 
-// Measured taps as arrivals: what the levels hold, all of it as spreading.
+// Returns measured taps as arrivals. A measured level does not tell its causes apart: all of the loss counts
+// as spreading.
 acoustics::Arrivals measured_arrivals(const channel_server::Reception& reception, Decibels source_level) {
   acoustics::Arrivals arrivals;
   for (const channel_server::SoundPath& tap : reception.paths) {
@@ -95,8 +96,9 @@ acoustics::Arrivals measured_arrivals(const channel_server::Reception& reception
   return arrivals;
 }
 
-// The one straight path as an arrival: what the transmission loss holds besides absorption and beams is
-// spreading.
+// Returns the single straight path as an arrival. The transmission loss without absorption and beam patterns
+// is its spreading loss:
+//   amplitude = 10^((absorption_db + beam_loss_db - transmission_loss_db) / 20)
 acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
                                      const acoustics::Transducers& beams) {
   const acoustics::LinkBudget& budget = reception.budget;
@@ -113,7 +115,7 @@ acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
   return {.paths = {path}};
 }
 
-// The paths of a reception, whichever propagation found them.
+// Describes the paths of a reception, for any propagation model.
 LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to,
                            const channel_server::Reception& reception, acoustics::Arrivals arrivals) {
   const Vec3 way = to.position_ned_m - from.position_ned_m;
@@ -152,7 +154,7 @@ channel_server::Multipath echo_likelihood(const ScenarioConfig& config, const ba
   return multipath_of(echoes, /*reversed=*/false, SimTime(), propagation, from.modem.modem, to.modem.modem);
 }
 
-// What the reader of a prediction has to know.
+// Returns remarks that a reader of the prediction needs.
 std::vector<std::string> notes_of(const ScenarioConfig& config, const bathymetry::Terrain& terrain,
                                   const LinkSurveyEnd& from, const LinkSurveyEnd& to,
                                   LinkSurveyor& surveyor) {
@@ -238,7 +240,8 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
   require_above_seabed(*terrain, from);
   require_above_seabed(*terrain, to);
   const acoustics::Modem &transmitter = from.modem.modem, &receiver = receiving_modem(to.modem, transmitter);
-  // Of a link to a position the transmitter's id would only turn the search of the paths round.
+  // The transmitter's id only selects the direction in which paths are searched, so a link to a position has
+  // none.
   const channel_server::VehicleId from_id = to.id == 0 ? 0 : from.id;
   const channel_server::LinkEnd here{from_id, from.position_ned_m, from.velocity_ned_mps, &transmitter};
   const channel_server::LinkEnd there{to.id, to.position_ned_m, to.velocity_ned_mps, &receiver};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One link of a scenario between two points, computed here and now: budget, paths, and whether the bottom
-// sends echoes.
+// Survey of one link of a scenario between two points: link budget, paths, and whether the bottom sends
+// echoes.
 //
-// The same computation as that of the scenario's channel server (link_surveyor.h), with echo_survey.h over
-// the scenario's terrain where sound goes straight.
+// The computation is that of the scenario's channel server (link_surveyor.h). With straight paths,
+// echo_survey.h looks for bottom echoes over the scenario's terrain.
 #pragma once
 
 #include <memory>
@@ -24,11 +24,12 @@
 
 namespace halocline::clients {
 
+// End of a link: a vehicle of the scenario, or a position.
 struct LinkSurveyEnd {
-  std::string name;                  // of the vehicle, or the position as text
-  channel_server::VehicleId id = 0;  // of the vehicle; 0: a position
+  std::string name;                  // the vehicle, or the position as text
+  channel_server::VehicleId id = 0;  // 0: a position
   Vec3 position_ned_m = Vec3::Zero();
-  Vec3 velocity_ned_mps = Vec3::Zero();  // for Doppler alone
+  Vec3 velocity_ned_mps = Vec3::Zero();  // used for Doppler only
   channel_server::VehicleModem modem;
 };
 
@@ -36,37 +37,37 @@ struct LinkSurvey {
   channel_server::Reception reception;
   channel_server::LinkForecast forecast;
   channel_server::Multipath multipath = channel_server::Multipath::kUnknown;
-  LinkArrivals arrivals;           // the paths of the reception with all that is known of them
-  std::vector<std::string> notes;  // formulas taken beyond the range they were published for
+  LinkArrivals arrivals;           // paths of the reception with all details
+  std::vector<std::string> notes;  // formulas beyond their published range, and other remarks
 };
 
-// An end by the name of a vehicle of the scenario (where it starts, with its modem) or by "north,east,down"
-// in metres (with the standard modem). Throws InvalidArgument when `text` is neither, or lies above the
-// surface.
+// Parses one end of a link: the name of a vehicle of the scenario (at its start, with its modem), or
+// "north,east,down" in metres (with the standard modem). Throws InvalidArgument when `text` is neither, or
+// when the position is above the surface.
 LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text);
 
-// "1,2,3" as three numbers; throws InvalidArgument, naming `what`, when `text` is something else.
+// Parses "1,2,3" as three numbers; throws InvalidArgument that names `what` when `text` is anything else.
 Vec3 parse_vector(const std::string& text, const std::string& what);
 
-// Throws InvalidArgument when an end lies inside the seabed. A straight path goes through terrain, as in a
-// run: a note says so.
+// Computes the link at simulation time 0. Throws InvalidArgument when an end is inside the seabed. A straight
+// path passes through terrain, as in a run: a note says so.
 LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to);
 
-// z of the seabed under a place, m: the last known depth where the terrain ends or has no data, as sound
-// meets it. Empty for a place that is not finite.
+// Returns z of the seabed below a place, m. Beyond the terrain and where it has no data this is the last
+// known depth, as sound uses it. Empty for a position that is not finite.
 std::optional<double> seabed_z_m(const bathymetry::Terrain& terrain, const Vec3& place_ned_m);
 
-// Whether the terrain stands in the straight line between two points; false where it is not known.
+// True when the terrain obstructs the straight line between two points; false where the terrain is not known.
 bool is_cut(const bathymetry::Terrain& terrain, const Vec3& from_ned_m, const Vec3& to_ned_m);
 
-// Throws InvalidArgument where the end lies inside the seabed.
+// Throws InvalidArgument when the end is inside the seabed.
 void require_above_seabed(const bathymetry::Terrain& terrain, const LinkSurveyEnd& end);
 
-// Which echoes the bottom can send between two points of a terrain.
+// Returns the bottom echoes that are possible between two points of a terrain.
 channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
                                          const Vec3& to_ned_m, int bottom_points);
 
-// Answers what the map has requested.
+// Answers the map's pending requests for depths from the terrain.
 void answer_requests(const bathymetry::Terrain& terrain, channel_server::SeabedMap& seabed);
 
 }  // namespace halocline::clients

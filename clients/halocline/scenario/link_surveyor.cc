@@ -19,7 +19,7 @@ using channel_server::LinkEnd;
 
 namespace {
 
-// Where vehicles start they have been all along: their sound of before has arrived.
+// Vehicles are at rest at their starts since before time 0, so that sound they radiated earlier has arrived.
 channel_server::PositionRule at_rest() {
   return {.state_lag = SimDuration(), .state_timeout = channel_server::kLongestFlight * 2};
 }
@@ -61,7 +61,7 @@ LinkSurveyor::Answer LinkSurveyor::survey(const LinkEnd& from, const LinkEnd& to
   channel_server::EndPair link{from, to};
   channel_server::NoiseOfLinks noise(noise_, SimTime());
   wait_for_terrain([&] {
-    const bool is_noise_ready = noise.are_ready({link});  // asked first: all is requested at once
+    const bool is_noise_ready = noise.are_ready({link});  // first, so that all depths are requested together
     return propagation().is_ready(SimTime(), from, to) && is_noise_ready;
   });
   noise.set(link);

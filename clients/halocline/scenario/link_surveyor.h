@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What arrives over links of a scenario, and what they deliver: for one link or for many, as at simulation
-// time 0.
+// Prediction of the reception and delivery over links of a scenario at simulation time 0, for one link or for
+// many.
 //
-// The same prediction as that of the run: the propagation is the channel server's
-// (channel_server/water_model.h), with measured channels and changes of the environment, the noise is that of
-// LINKS, vehicles lying where they start, and the forecast is that of its tables. The terrain is asked
-// directly, where the server asks the bathymetry service.
+// The prediction is that of a run: propagation is the channel server's (channel_server/water_model.h), with
+// measured channels and changes of the environment; noise is that of LINKS, with all vehicles at their
+// starts; the forecast is that of the link tables. The terrain is read directly, while the server requests it
+// from the bathymetry service.
 #pragma once
 
 #include <memory>
@@ -31,7 +31,7 @@
 
 namespace halocline::clients {
 
-// Not thread-safe: each thread has its own.
+// Predictor of links. Not thread-safe: each thread needs its own.
 class LinkSurveyor {
  public:
   struct Answer {
@@ -40,23 +40,23 @@ class LinkSurveyor {
   };
   using Seabed = std::shared_ptr<const channel_server::SeabedProfile>;
 
-  // `sources`: read_water() of the scenario.
+  // Prepares the water and the vehicles. `sources` is the result of read_water() for the scenario.
   LinkSurveyor(const ScenarioConfig& config, std::shared_ptr<const bathymetry::Terrain> terrain,
                const channel_server::WaterSources& sources);
   LinkSurveyor(const LinkSurveyor&) = delete;
   LinkSurveyor& operator=(const LinkSurveyor&) = delete;
 
   bool along_rays() const { return rays_.has_value(); }
-  // Of vehicles by their ids, and of positions.
+  // Predicts a link between vehicles, given by their ids, or positions.
   Answer survey(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to);
-  // Between positions, but for the capacity and the noise of vehicles, over `seabed` from the one end to the
-  // other, which is null where it is not known and not looked at along straight lines. Links that share rays
-  // have one `line`; null: one by itself.
+  // Predicts a link between positions over the bottom profile `seabed`, without capacity and without the
+  // noise of vehicles. `seabed` is null where it is not known; it is not used along straight paths. Links
+  // that share rays pass the same `line`; null: the link has a search of its own.
   Answer survey(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to, const Seabed& seabed,
                 channel_server::SharedLine* line);
-  // The paths behind an answer of survey(from, to) along rays.
+  // Returns the paths that survey(from, to) found along rays.
   acoustics::Arrivals arrivals(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to);
-  // Ambient, over the transmitter's band, dB re 1 uPa.
+  // Returns the ambient noise level over the transmitter's band, dB re 1 uPa.
   Decibels noise_level(const acoustics::Modem& transmitter);
   channel_server::Propagation& propagation() { return *water_.propagation; }
 
@@ -70,7 +70,7 @@ class LinkSurveyor {
   std::shared_ptr<const bathymetry::Terrain> terrain_;
   channel_server::ServerRules rules_;
   channel_server::WaterModel water_;
-  std::optional<channel_server::RayPropagation> rays_;  // in the same water
+  std::optional<channel_server::RayPropagation> rays_;  // in the same water; empty: straight paths
   channel_server::VehicleRegistry fleet_;
   channel_server::ReachModel reach_;
   channel_server::VehicleSounds sounds_;

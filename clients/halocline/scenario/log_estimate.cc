@@ -16,15 +16,15 @@
 namespace halocline::clients {
 namespace {
 
-// Bytes of a message in a log, its channel's name included.
+// Bytes of each message in a log, including its channel's name.
 constexpr double kClock = 82, kStatus = 230, kState = 180, kSensors = 209, kCommand = 130, kEstimate = 249,
                  kDvl = 170, kGps = 130, kSonar = 90, kSonarRay = 8, kSend = 80, kReceipt = 106,
                  kOutcome = 262, kReceive = 155, kLinks = 80, kLink = 168, kActivity = 112, kTerrain = 47'000,
                  kScenario = 1500, kScenarioVehicle = 400;
-// A RAY_QUERY with its RAY_REPLY, each ray in both, and each depth of a tile.
+// Bytes of a RAY_QUERY with its RAY_REPLY, of each ray in both together, and of each depth in a tile.
 constexpr double kRayQuery = 270, kRay = 65, kTileDepth = 10;
 constexpr int kNodes = 7, kBeamsOfDvl = 4;
-// Rays a second for each link along a straight path: its bottom is surveyed again as the ends move.
+// Rays per second for each link along a straight path, whose bottom is surveyed again as its ends move.
 constexpr double kSurveyedRaysPerSecond = 4;
 constexpr double kReceivedShare = 0.3;
 // Depths that a link along rays requests for each step of its profile, once.
@@ -63,7 +63,7 @@ double of_packets(const ScenarioConfig& config) {
     bytes += packets(traffic.period, traffic.payload_bytes);
   for (const PilotConfig& pilot : config.autopilot.vehicles) bytes += packets(pilot.broadcast.period, 17);
   for (const VehicleLocaliser& vehicle : config.localiser.vehicles) {
-    bytes += 2 * packets(vehicle.ping_period, 0);  // and the answer
+    bytes += 2 * packets(vehicle.ping_period, 0);  // the ping and its reply
     if (!vehicle.beacons.empty()) bytes += per_second(config.localiser.estimate_period) * kEstimate;
   }
   return bytes;
@@ -78,7 +78,8 @@ double of_links(const ScenarioConfig& config) {
          (straight ? links * kSurveyedRaysPerSecond * kRay : 0);
 }
 
-// The terrain, and the bottom under the links along rays: no more of it than the terrain has.
+// Bytes written once per run: the terrain, and the depths below links along rays, which are no more than the
+// terrain has.
 double once(const ScenarioConfig& config) {
   if (config.channel_server.propagation.model == channel_server::PropagationModel::kStraight) return kTerrain;
   const double spacing_m = config.channel_server.rules.seabed.spacing_m;

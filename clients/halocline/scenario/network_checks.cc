@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Times of [network] that its packets and distances do not allow.
+// Checks that the times in [network] fit the packets and distances.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -63,14 +63,7 @@ class NetworkChecks {
            rules_.slot.seconds() < packet_s ? "a packet of data" : "a packet and the greatest travel time");
   }
 
-  // True when packets of `one` go to `other` directly.
-  bool sends_to(const networks::NetworkMember& one, const networks::NetworkMember& other) const {
-    const std::string& hop = one.via.empty() ? one.destination : one.via;
-    if (hop == "all" || rules_.router == networks::RouterKind::kFlooding) return !hop.empty();
-    return hop == other.vehicle;
-  }
-
-  // As the MAC sends it.
+  // Returns the size of a data packet as the MAC sends it, with all headers.
   std::size_t data_bytes() const {
     const bool is_marked =
         rules_.mac == MacKind::kMaca || rules_.mac == MacKind::kDacap || rules_.mac == MacKind::kTLohi;
@@ -79,7 +72,7 @@ class NetworkChecks {
            (is_marked ? kMarkBytes : 0) + (is_relayed ? RelayPacket::kHeaderBytes : 0);
   }
 
-  // A packet of so many bytes with the slowest modem that takes it.
+  // Returns the duration of a packet of `bytes` bytes with the slowest modem that accepts it.
   double longest_s(std::size_t bytes) const {
     channel_server::SendRequest request;
     request.payload.resize(bytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether each model has what its pilot steers with, and holds the set speeds.
+// Checks that each vehicle model has the actuators that its pilot uses, and holds the set speeds.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,7 +22,7 @@
 namespace halocline::clients {
 namespace {
 
-// Trials are made once for vehicles of one kind.
+// Checks set speeds by trials; vehicles of the same kind share a trial.
 class SpeedJudge {
  public:
   SpeedJudge(const ScenarioConfig& config, bus::ConfigFile& file) : config_(config), file_(file) {}
@@ -49,7 +49,7 @@ class SpeedJudge {
                        " holds at its depth in still water");
   }
 
-  // The set speed where it is held, else the greatest below it that is.
+  // Returns the set speed when it is held, otherwise the greatest speed below it that is held, by bisection.
   double held_speed(double speed_mps, const vehicle_sim::Model& model, const PilotConfig& pilot) {
     const auto bytes_of = [](const auto& gains) {
       return std::string(reinterpret_cast<const char*>(&gains), sizeof gains);
@@ -83,9 +83,9 @@ const char* to_text(Steering steering) {
   return steering == Steering::kFins ? "fins" : steering == Steering::kThrusters ? "thrusters" : "buoyancy";
 }
 
-// What a model can be steered with.
+// Returns the kinds of steering that a model supports.
 std::vector<Steering> steerings_of(const vehicle_sim::ModelParameters& model) {
-  constexpr std::size_t kHorizontal = 2;  // thrusters that steer on the surface
+  constexpr std::size_t kHorizontal = 2;  // the fewest thrusters that steer on the surface
   const bool has_thrusters = model.thrusters.size() == vehicle_sim::kMaxThrusters ||
                              (!model.floats.empty() && model.thrusters.size() >= kHorizontal);
   std::vector<Steering> all;
@@ -97,7 +97,7 @@ std::vector<Steering> steerings_of(const vehicle_sim::ModelParameters& model) {
   return all;
 }
 
-// Empty when the model has what the pilot steers with.
+// Returns a reason why the model cannot be steered this way; empty when it can.
 std::string lacking(const vehicle_sim::ModelParameters& model, Steering steering) {
   const std::vector<Steering> all = steerings_of(model);
   if (std::find(all.begin(), all.end(), steering) != all.end()) return "";
@@ -111,7 +111,8 @@ std::string lacking(const vehicle_sim::ModelParameters& model, Steering steering
   return lack + "; allowed for it is " + (allowed.empty() ? "neither: it cannot be piloted" : allowed);
 }
 
-// Without an engine a vehicle can only wait before it rises.
+// Refuses behaviours other than waiting for a vehicle without a buoyancy engine: it can only wait before it
+// surfaces.
 void check_glide(std::size_t i, const vehicle_sim::ModelParameters& model, const PilotConfig& pilot,
                  bus::ConfigFile& file) {
   if (model.buoyancy_engine.pump.limit > 0) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The progress of a run on stderr: one line that is rewritten on a terminal, and a new line every four
-// seconds elsewhere.
+// Progress of a run on stderr: on a terminal one line that is rewritten, otherwise a new line every four
+// seconds.
 #pragma once
 
 #include <cstdio>
@@ -13,9 +13,9 @@ class ProgressLine {
  public:
   ProgressLine(std::FILE* out, SimTime end, bool quiet);
 
-  // Cheap enough for every instant: writes only when enough wall time has passed.
+  // Writes the progress when enough wall time has passed; cheap enough to be called at every instant.
   void show(SimTime sim, SimTime steady);
-  // Ends the line.
+  // Writes the final progress and ends the line.
   void finish(SimTime sim, SimTime steady);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Publishes what a recording holds, each message at its time.
+// Node that publishes the messages of a recording, each at its time.
 #pragma once
 
 #include <string>

@@ -36,7 +36,7 @@
 namespace halocline::clients {
 namespace {
 
-// A source of packets: the section that says so, and what it sends.
+// Source of packets: the section that configures it, and the packets that it sends.
 struct PacketSource {
   std::string section, size_key;
   SimDuration period;
@@ -92,7 +92,7 @@ void check_modems(const ScenarioConfig& config, bus::ConfigFile& file) {
   }
 }
 
-// A relay passes on whole packets, and packets with hops need one.
+// Checks that relays carry the largest packets that they pass on, and that packets with hops find a relay.
 void check_relays(const ScenarioConfig& config, bus::ConfigFile& file) {
   std::size_t largest = 0;
   bool has_relay = false;
@@ -114,7 +114,7 @@ void check_relays(const ScenarioConfig& config, bus::ConfigFile& file) {
   }
 }
 
-// Refuses the key where `attempt` throws InvalidArgument, with its reason.
+// Refuses the key when `attempt` throws InvalidArgument, with the message of the exception.
 template <class Attempt>
 void refuse_if_thrown(bus::ConfigFile& file, const std::string& key, const std::string& value,
                       const Attempt& attempt) {
@@ -125,7 +125,7 @@ void refuse_if_thrown(bus::ConfigFile& file, const std::string& key, const std::
   }
 }
 
-// Vehicles that other vehicles, faults and tethers name.
+// Checks the vehicle names in faults, tethers and other vehicles.
 void check_names(const ScenarioConfig& config, bus::ConfigFile& file) {
   const auto members = vehicle_sim::members_of(config.scenario, config.vehicle_sim);
   vehicle_sim::VehicleSimConfig one = config.vehicle_sim;
@@ -150,7 +150,7 @@ void check_names(const ScenarioConfig& config, bus::ConfigFile& file) {
   }
 }
 
-// False where its file is refused, which others then need not read.
+// Checks the ocean file. Returns false when it is refused; other checks need not read it then.
 bool check_ocean(const ScenarioConfig& config, bus::ConfigFile& file) {
   const bus::OceanEntry& entry = config.scenario.ocean;
   if (entry.file.empty()) return true;
@@ -179,7 +179,7 @@ bool check_ocean(const ScenarioConfig& config, bus::ConfigFile& file) {
   }
 }
 
-// Vehicles of processes that are not ours need no entry, so an unknown name may be meant.
+// Warns of unknown names only: external vehicles have no entry in the scenario, so a name may be valid.
 void check_extra_loss(const ScenarioConfig& config, bus::ConfigFile& file) {
   const auto& losses = config.channel_server.rules.medium.extra_loss;
   for (std::size_t i = 0; i < losses.size(); ++i) {

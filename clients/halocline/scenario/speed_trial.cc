@@ -18,7 +18,7 @@ using vehicle_sim::VehicleState;
 
 constexpr double kLongestStep_s = 0.02, kFarAhead_m = 1e5, kRpmPerHz = 60;
 
-// The pilot of one trial, heading north at z = 0.
+// Pilot of a trial: steers north at z = 0.
 class TrialPilot {
  public:
   TrialPilot(const PilotConfig& config, double speed_mps) : config_(config), speed_mps_(speed_mps) {}

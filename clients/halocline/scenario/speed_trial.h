@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a vehicle holds a speed: its model and its pilot's control laws in the open sea, before the run.
+// Trial of whether a vehicle holds a speed, from its model and its pilot's control laws, before the run.
 //
-// A straight level way in still water without surface and bottom, from the set speed on, for kTrial_s. Left
-// out: turns, climbs, currents; what a vehicle does not hold straight it does not hold there either.
+// The vehicle moves straight and level for kTrial_s through still water without surface and bottom, starting
+// at the set speed. Turns, climbs and currents are left out: a speed that is not held straight ahead is not
+// held in these either.
 #pragma once
 
 #include "clients/autopilot/autopilot_config.h"
@@ -14,12 +15,12 @@ namespace halocline::clients {
 inline constexpr double kTrial_s = 90;
 
 struct SpeedTrial {
-  double speed_mps = 0;      // through the water, mean over the last tenth
-  double depth_error_m = 0;  // the greatest on the way
+  double speed_mps = 0;      // mean speed through the water in the last tenth of the trial
+  double depth_error_m = 0;  // largest depth error during the trial
 };
 
-// With the gains and the steering of `pilot`, which fit the model; `set_speed_mps` above 0. A motion that
-// diverges holds no speed (0).
+// Runs a trial with the gains and the steering of `pilot`, which must fit the model. `set_speed_mps` must be
+// above 0. A motion that diverges yields speed 0.
 SpeedTrial try_speed(const vehicle_sim::Model& model, const PilotConfig& pilot, SimDuration command_period,
                      double set_speed_mps);
 

@@ -26,13 +26,13 @@ using bathymetry::DepthSample;
 using bathymetry::DepthStatus;
 using bathymetry::RasterReport;
 
-// Above the surface by no more than this a depth is one that brings the vehicle up to it.
+// Height above the surface up to which a position is taken as a wish to surface, not as a mistake.
 constexpr double kToSurface_m = 1;
-constexpr double kBetweenLooks_m = 20;  // along a track, or round a circle
+constexpr double kBetweenLooks_m = 20;  // distance between points that are examined along a track or a circle
 
 std::string rounded(double value) { return format_number(std::round(10 * value) / 10); }
 
-// What points of a mission meet.
+// Counts of the examined points of a mission by where they are.
 struct Looks {
   int in_water = 0, under_ground = 0, in_air = 0, unknown = 0;
   double shallowest_ground_m = HUGE_VAL;
@@ -57,7 +57,7 @@ class MissionChecks {
     const bool by_altitude = b.altitude_m > 0;
     switch (b.kind) {
       case BehaviourKind::kWaypoints:
-      case BehaviourKind::kSeekLink:  // the server judges its depths, which may be none in places
+      case BehaviourKind::kSeekLink:  // the channel server checks its depths: some may be below the seabed
         return check_waypoints(key + ".waypoints", b.waypoints, by_altitude);
       case BehaviourKind::kSurvey:
         return check_track(key, "survey", b, along(survey_points(b)));
@@ -153,7 +153,7 @@ class MissionChecks {
   bus::ConfigFile& file_;
 };
 
-// The base raster first, then the nested ones, as they are read.
+// Warns about rasters, the base raster first and then the nested ones, in the order in which they are read.
 void check_rasters(const ScenarioConfig& config, const bathymetry::PreparedTerrain& prepared,
                    bus::ConfigFile& file) {
   const bool has_base = config.terrain.kind == bathymetry::TerrainKind::kRaster;

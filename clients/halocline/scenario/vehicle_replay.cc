@@ -43,7 +43,7 @@ const std::vector<std::string>& command_columns() {
   return names;
 }
 
-// In the order of command_columns.
+// Converts the cells of a row, which are in the order of command_columns().
 ScheduledCommand to_command(const std::vector<double>& cells) {
   ScheduledCommand command;
   command.from = SimTime::from_seconds(cells[0]);
@@ -132,7 +132,7 @@ class RowWriter {
   bool first_ = true;
 };
 
-// The columns behind the common ones: a name, and its values as commanded and as they are.
+// Writes the columns of further actuators: commanded and actual values of those that the model has.
 void write_more_actuators(RowWriter& row, const OpenLoopSample& s, const ModelParameters& model) {
   const ActuatorValues &command = s.command, &actual = s.state.actuators;
   for (std::size_t i = 0; i < model.thrusters.size(); ++i) {

@@ -19,7 +19,7 @@ namespace halocline::clients {
 
 Recording record_run(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, SimTime end) {
   lcm::LCM lcm("memq://");
-  ScenarioConfig without_doors = config;  // nobody is to come
+  ScenarioConfig without_doors = config;  // no client connects during this run
   without_doors.gateway.doors.clear();
   Composition all(lcm, without_doors, Composition::kRun, nullptr, terrain);
   EmbeddedRun run{.end = end,
@@ -45,7 +45,9 @@ VehicleTrack::VehicleTrack(const Recording& recording, const std::string& vehicl
   require(!places_.empty(), "the run holds no state of '" + vehicle + "'");
 }
 
-// Cubic Hermite interpolation; its derivative is the velocity.
+// Cubic Hermite interpolation with u = (t - t_a) / h, h = t_b - t_a, v = 1 - u:
+//   p  = v^2 (1 + 2 u) p_a + u v^2 h v_a + u^2 (3 - 2 u) p_b - u^2 v h v_b
+//   p' = 6 u v / h (p_b - p_a) + v (1 - 3 u) v_a + u (3 u - 2) v_b
 VehicleTrack::Place VehicleTrack::at(SimTime time) const {
   const auto after = places_.upper_bound(time);
   if (after == places_.begin() || after == places_.end()) {

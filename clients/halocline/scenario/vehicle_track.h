@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a vehicle was at any time of a recorded run, smoothly: between two states by the cubic that has their
-// positions and velocities, beyond the first and the last along a straight line.
+// Smooth track of a vehicle through a recorded run: cubic Hermite interpolation between two states from their
+// positions and velocities, and a straight line before the first and after the last state.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@
 
 namespace halocline::clients {
 
-// The run of the scenario's vehicles on its terrain until `end`.
+// Runs the scenario's vehicles on its terrain until `end` and returns the recording.
 Recording record_run(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, SimTime end);
 
 class VehicleTrack {
@@ -22,7 +22,7 @@ class VehicleTrack {
   struct Place {
     Vec3 position_ned_m, velocity_ned_mps;
   };
-  // Throws InvalidArgument, with the name, where the recording holds no state of it.
+  // Builds the track. Throws InvalidArgument that names the vehicle when the recording holds no state of it.
   VehicleTrack(const Recording& recording, const std::string& vehicle);
 
   Place at(SimTime time) const;
