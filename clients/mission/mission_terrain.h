@@ -14,7 +14,7 @@ struct MissionTerrain {
   double south_m = 0, west_m = 0;                  // position of the first post, from the scenario's origin
   double north_spacing_m = 1, east_spacing_m = 1;  // distance between posts, above 0
   std::size_t rows = 0, columns = 0;
-  // Z of the seabed, positive down from the datum; NaN: no terrain; rows * columns.
+  // Seabed z of each post, positive down from the datum; NaN: no terrain; rows * columns.
   std::vector<float> depth_m;
 
   static MissionTerrain from(const terrain_tile_t& tile);

@@ -52,7 +52,7 @@ struct MissionVehicle {
   TimedSeries<vehicle_gps_t> gps;
   TimedSeries<autopilot_status_t> activity;
   TimedSeries<vehicle_plan_t> plans;  // one entry for each change
-  // In the order of their messages; several may start at one instant.
+  // Faults in the order of their messages; several may start at one instant.
   std::vector<Timed<vehicle_fault_t>> faults;
 
   // Returns the plan that holds at that time; null when none is known.

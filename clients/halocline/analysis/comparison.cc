@@ -17,7 +17,7 @@ namespace {
 constexpr double kLevelStep_db = 0.05, kRangeStep_m = 0.1, kFactorStep = 1e-6, kDurationStep_s = 1e-6;
 constexpr double kNoInterference_db = -300;
 
-// A packet at a receiver, whenever it left.
+// Key of a packet at a receiver, without the time of departure.
 using PlaceKey =
     std::tuple<std::int32_t, std::int8_t, std::int64_t, std::int64_t, std::int32_t, std::int32_t>;
 PlaceKey key_of(const packet_outcome_t& o) {
@@ -35,7 +35,7 @@ std::map<PlaceKey, Outcomes> by_place(const OutcomeSummary& summary) {
   return places;
 }
 
-// Takes from `others` the one that left at the same instant.
+// Removes from `others` the outcome with the same departure and returns it; null when there is none.
 const packet_outcome_t* take_departed_with(Outcomes& others, std::int64_t departure_utime) {
   const auto same = std::find_if(others.begin(), others.end(),
                                  [&](auto* o) { return o->departure_utime == departure_utime; });
@@ -49,7 +49,7 @@ std::string level_text(double level_db) {
   return level_db <= kNoInterference_db ? "none" : fmt::format("{:.1f} dB", level_db);
 }
 
-// The inputs of a decision that differ, as names and as text.
+// Inputs of a decision that differ between two outcomes, as names and as text.
 class Differences {
  public:
   Differences(const packet_outcome_t& before, const packet_outcome_t& after) {
@@ -94,7 +94,7 @@ class Differences {
   std::string text_;
 };
 
-// Every number of two outcomes, but those of who published them.
+// True when two outcomes agree in every field except the publisher's session and sequence.
 bool are_identical(packet_outcome_t a, packet_outcome_t b) {
   const auto bytes = [](packet_outcome_t& o) {
     o.session = o.sequence = 0;
@@ -105,7 +105,7 @@ bool are_identical(packet_outcome_t a, packet_outcome_t b) {
   return bytes(a) == bytes(b);
 }
 
-// Why a log has no outcome for what the other log has one for.
+// Returns why a log has no outcome that corresponds to one of the other log.
 std::string absent_outcome(const LoggedOutcomes& log, const packet_outcome_t& other,
                            const std::string& sender) {
   if (log.summary.outcomes().empty()) return log.receipts.empty() ? "not recorded" : "no outcome";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The comparison as text, JSON and CSV.
+// Output of a comparison as text, JSON and CSV.
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kRowsShown = 20;
 
-// The numbers of an outcome, by name: columns of the table, members of the JSON.
+// Returns the numbers of an outcome by name: columns of the CSV table, members of the JSON objects.
 std::vector<std::pair<const char*, double>> numbers_of(const packet_outcome_t& o) {
   return {{"departure_s", static_cast<double>(o.departure_utime) * 1e-6},
           {"decided_s", static_cast<double>(o.utime) * 1e-6},

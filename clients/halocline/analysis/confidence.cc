@@ -16,8 +16,8 @@
 namespace halocline::clients {
 namespace {
 
-// In doubles throughout: tables that Boost fills at start-up in long doubles overflow under valgrind, which
-// has none.
+// Computations are in double precision: tables that Boost fills at start-up in long double overflow under
+// valgrind, which does not support that type.
 using Doubles = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 using Normal = boost::math::normal_distribution<double, Doubles>;
 using StudentsT = boost::math::students_t_distribution<double, Doubles>;
@@ -28,14 +28,17 @@ void require_level(double level) {
   require(level > 0 && level < 1, "the level of confidence must lie between 0 and 1");
 }
 
-// `quantile`: z or t. The closed form at a share of 0 or 1 is 0 or 1 but for rounding.
+// Wilson's score interval (Wilson 1927) for a proportion p in n trials, `quantile` z being normal or
+// Student's t:
+//   ( p + z^2 / (2 n) +- z sqrt(p (1 - p) / n + z^2 / (4 n^2)) ) / (1 + z^2 / n)
+// The end at a proportion of 0 or 1 is set to 0 or 1 exactly, which the formula gives except for rounding.
 ConfidenceInterval score_interval(double share, double trials, double quantile) {
   const double q2 = quantile * quantile / trials, middle = (share + q2 / 2) / (1 + q2);
   const double half = quantile * std::sqrt(share * (1 - share) / trials + q2 / (4 * trials)) / (1 + q2);
   return {share == 0 ? 0 : std::max(0.0, middle - half), share == 1 ? 1 : std::min(1.0, middle + half)};
 }
 
-// Values without the NaNs, and their sample statistics.
+// Values without the NaNs, with their sample mean and variance.
 struct Sample {
   explicit Sample(std::span<const double> values) {
     std::copy_if(values.begin(), values.end(), std::back_inserter(known),
@@ -76,7 +79,7 @@ MeanEstimate share_estimate(std::span<const double> values, double level) {
   const Sample sample(values);
   if (sample.known.size() < 2) return estimate;
   const double p = std::clamp(sample.mean, 0.0, 1.0);
-  if (p > 0 && p < 1 && sample.variance == 0) return estimate;  // of no width
+  if (p > 0 && p < 1 && sample.variance == 0) return estimate;  // the interval has no width
   const double trials = p > 0 && p < 1 ? p * (1 - p) * sample.count / sample.variance : sample.count;
   estimate.interval = score_interval(p, trials, sample.t(level));
   return estimate;

@@ -27,7 +27,8 @@ namespace {
 template <class T>
 inline constexpr bool kIsBytes = std::is_same_v<T, std::vector<std::uint8_t>>;
 
-// Rows a message needs: the length of its longest list, or of a message within it; at least one.
+// Counts the rows that a message needs: the length of its longest list, or of a list in a nested message; at
+// least one.
 struct RowCounter {
   std::size_t rows = 1;
   template <class T>
@@ -90,7 +91,7 @@ class RowWriter {
     }
   }
 
-  // The element of this row; empty cells where the list has ended.
+  // Writes the element of this row; cells are empty when the list is shorter.
   template <class Element>
   void write_element(const std::string& name, const std::vector<Element>& list) {
     const bool ended = row_ >= list.size();
@@ -118,11 +119,11 @@ class RowWriter {
   What what_;
   std::size_t row_;
   std::string prefix_;
-  std::size_t inner_ = 1;  // of the field that is written
+  std::size_t inner_ = 1;  // size of the inner array of the field being written
   bool blank_ = false;
 };
 
-// The files of one export.
+// Files of one export.
 class Exporter {
  public:
   explicit Exporter(std::string folder) : folder_(std::move(folder)) {
@@ -151,7 +152,7 @@ class Exporter {
     result.rows_by_file[path_of(family)] += static_cast<std::int64_t>(counter.rows);
   }
 
-  // An earlier export stays as it was until all files of this one are whole.
+  // Commits the files. An earlier export is replaced only after all files of this one are complete.
   void close() {
     for (auto& [family, file] : files_) {
       file.text.close();

@@ -18,7 +18,7 @@ std::map<std::string, std::int64_t> by_family(const LogStatistics& s) {
   return families;
 }
 
-// Least, middle and greatest of a list that is not empty.
+// Returns the minimum, median and maximum of a list that is not empty.
 std::tuple<double, double, double> spread(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t middle = values.size() / 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Statistics of a run, counted from its messages: for the end of `halocline run` and for `halocline log
+// Statistics of a run, counted from its messages: printed at the end of `halocline run` and by `halocline log
 // info`.
 #pragma once
 
@@ -19,11 +19,12 @@
 
 namespace halocline::clients {
 
+// Counts of a log's events.
 struct LogStatistics {
   std::int64_t events = 0;
-  std::int64_t bytes = 0;        // of payloads
-  std::int64_t foreign = 0;      // on channels that are none of ours
-  std::int64_t undecodable = 0;  // on our channels, but no sound message
+  std::int64_t bytes = 0;        // size of all payloads
+  std::int64_t foreign = 0;      // events on channels that are none of Halocline's
+  std::int64_t undecodable = 0;  // events on Halocline's channels that are no valid message
   std::int64_t first_stamp_us = 0, last_stamp_us = 0;
   std::map<std::string, std::int64_t> by_channel;  // all channels
   std::map<std::string, std::int64_t> foreign_by_channel;
@@ -32,32 +33,33 @@ struct LogStatistics {
     std::string first_at;  // "FILE, byte OFFSET"
   };
   std::map<std::string, Undecodable> undecodable_by_channel;
-  std::vector<std::string> files;          // that the log consists of
+  std::vector<std::string> files;          // parts of the log
   std::vector<BadStretch> bad_stretches;   // bytes that are no event
-  std::vector<LogFlows::OfChannel> flows;  // that lack messages or have several sessions
-  std::int64_t packets_sent = 0;           // that a receipt came for
-  std::int64_t packets_delivered = 0;      // RECEIVEs
+  std::vector<LogFlows::OfChannel> flows;  // flows with missing messages or several sessions
+  std::int64_t packets_sent = 0;           // packets with a receipt
+  std::int64_t packets_delivered = 0;      // number of RECEIVEs
   std::array<std::int64_t, kReceiptResults> receipts{};
   OutcomeCounts outcomes{};
-  std::vector<double> travel_times_s;  // of the delivered that carry their departure, as they came
+  std::vector<double> travel_times_s;  // received packets with a departure time, in log order
 
-  // `place` as place_of gives it; called only when the event does not decode.
+  // Counts an event. `place` is called only when the event does not decode, and returns its position as
+  // place_of does.
   void count(const LoggedEvent& event, const std::function<std::string()>& place);
 
  private:
   template <class Message>
   void count_message(const LoggedEvent& event, const Message& message);
-  // Names of the packets that a receipt was counted for: a duplicate receipt is not another packet.
+  // Names of the packets whose receipt was counted: a duplicate receipt is not another packet.
   std::set<std::tuple<std::string, std::int64_t, std::int64_t>> answered_;
 };
 
-// Counts a whole log, and what of it is damaged.
+// Counts a whole log, including its damaged parts.
 LogStatistics statistics_of(LogReader& log);
 
-// Writes them for a person.
+// Prints the statistics for a reader.
 void print(std::ostream& out, const LogStatistics& statistics);
 
-// As JSON, one object.
+// Returns the statistics as one JSON object.
 std::string to_json(const LogStatistics& statistics);
 
 }  // namespace halocline::clients

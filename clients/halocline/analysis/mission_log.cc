@@ -25,7 +25,7 @@
 namespace halocline::clients {
 namespace {
 
-// Empty where there is no such file.
+// Returns the text of a file; empty when there is no such file.
 std::string text_of(const std::string& path) {
   if (!why_unreadable(path).empty()) return {};
   std::ifstream file(path);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The packet outcomes of a run: one for every packet at every possible receiver, counted by outcome, pair and
-// time.
+// Summary of a run's packet outcomes: one for each packet at each possible receiver, counted by outcome, pair
+// and time.
 //
-// Counted from the OUTCOMEs of a log; each (packet, receiver) counts once, however often its outcome stands
-// in the log (a recorder may receive a repetition). Counted by what their paths were computed with as well:
-// packets of one run differ in it where the seabed was not known to some. Vehicles go by the names of their
-// STATE channels, or by their ids where no state was recorded.
+// It is counted from the OUTCOMEs of a log. Each (packet, receiver) counts once, however often its outcome is
+// in the log (a recorder may receive a repetition). Outcomes are also counted by the propagation model of
+// their paths, which differs within a run where the seabed was not yet known. Vehicles are named by their
+// STATE channels, or by their ids when no state was recorded.
 #pragma once
 
 #include <compare>
@@ -27,17 +27,19 @@ class OutcomeSummary : public OutcomeLedger {
  public:
   using OutcomeLedger::OutcomeLedger;
 
-  // `zero_us` is taken off the outcome's times.
+  // Counts an event of a log. `zero_us` is subtracted from the outcome's times.
   void count(const LoggedEvent& event, std::int64_t zero_us = 0);
 
   void count(const packet_outcome_t& outcome);
 
-  // In the order of the log.
+  // Returns the outcomes in the order of the log.
   const std::vector<packet_outcome_t>& outcomes() const { return outcomes_; }
-  std::int64_t repeated() const { return repeated_; }  // outcomes that the log holds more than once
-  // Of a vehicle id: its name, or the id as text; "several" of 0, receivers that one outcome sums up.
+  std::int64_t repeated() const { return repeated_; }  // number of repeated outcomes in the log
+  // Returns the name of a vehicle id, or the id as text; "several" for 0, the receivers that one outcome sums
+  // up.
   std::string name(std::int32_t vehicle_id) const;
-  const std::map<std::int32_t, std::string>& names() const { return names_; }  // of the vehicles with a state
+  // Vehicles with a recorded state.
+  const std::map<std::int32_t, std::string>& names() const { return names_; }
 
  private:
   struct Key {
@@ -54,18 +56,20 @@ class OutcomeSummary : public OutcomeLedger {
 
 OutcomeSummary summary_of(LogReader& log, std::int64_t window_us);
 
-// As text, `coverage` behind the number of outcomes, ", one for each packet and possible receiver": outcomes,
-// propagations, pairs, windows, each with counts and shares; where vehicles have batteries, energy
-// (energy_cost.h).
+// Prints outcomes, propagations, pairs and windows, each with counts and shares, and for vehicles with
+// batteries the energy (energy_cost.h). `coverage` is appended to the number of outcomes, such as ", one for
+// each packet and possible receiver".
 void print(std::ostream& out, const OutcomeSummary& summary, const std::string& coverage);
-// One object: "by_outcome", "by_propagation", "pairs", "windows", and "energy" where vehicles have batteries.
+// Returns one JSON object: "by_outcome", "by_propagation", "pairs", "windows", and "energy" for vehicles with
+// batteries.
 std::string to_json(const OutcomeSummary& summary);
-// One row a pair and outcome that occurred: sender, receiver, outcome, packets.
+// Writes one CSV row for each pair and outcome that occurred: sender, receiver, outcome, packets.
 void print_csv(std::ostream& out, const OutcomeSummary& summary);
-// One row an outcome, with the numbers that decided it.
+// Writes one CSV row for each outcome, with the numbers that decided it.
 void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary);
 
-// Two charts: bars of the outcomes that occurred; lines of each of these over the windows of time.
+// Returns two charts: bars of the outcomes that occurred, and a line for each of them over the windows of
+// time.
 Plot outcome_plot(const OutcomeSummary& summary, const std::string& title);
 
 }  // namespace halocline::clients

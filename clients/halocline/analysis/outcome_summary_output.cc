@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The outcome summary as text, JSON, CSV and a plot.
+// Output of an outcome summary as text, JSON, CSV and a plot.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -19,7 +19,7 @@
 namespace halocline::clients {
 namespace {
 
-// Those that occurred.
+// Returns the outcomes that occurred.
 std::vector<std::size_t> outcomes_in(const OutcomeSummary& summary) {
   std::vector<std::size_t> outcomes;
   for (std::size_t outcome = 0; outcome < kOutcomes; ++outcome) {
@@ -32,7 +32,7 @@ std::size_t column_width(std::size_t outcome) {
   return std::max<std::size_t>(9, std::string_view(outcome_name(outcome)).size() + 2);
 }
 
-// One line of counts below a heading of outcomes.
+// Prints one row of counts below the heading of outcomes.
 void print_row(std::ostream& out, const std::string& title, const OutcomeCounts& counts,
                const std::vector<std::size_t>& outcomes) {
   fmt::print(out, "{:<26}{:>9}", title, sum(counts));

@@ -29,11 +29,11 @@ inline constexpr bool kIsEquipment =
     std::is_same_v<Message, vehicle_gps_t> || std::is_same_v<Message, vehicle_battery_t> ||
     std::is_same_v<Message, vehicle_sensors_t>;
 
-// Of STATE.auv-1: auv-1.
+// Returns the vehicle's name in a channel: "auv-1" for STATE.auv-1.
 std::string vehicle_of(const std::string& channel) { return channel.substr(channel.find('.') + 1); }
 
 struct Logged {
-  std::size_t index;  // among all events of the log
+  std::size_t index;  // position among all events of the log
   Recording::Event event;
 };
 
@@ -46,20 +46,20 @@ void set_utime(Recording::Event& event, std::int64_t utime) {
   std::visit([&](auto& message) { message.utime = utime; }, event.message);
 }
 
-// The vehicle's id in a message that has one; null elsewhere.
+// Returns the vehicle's id in a message that has one; null for other messages.
 std::int32_t* id_in(Recording::Event& event) {
   if (auto* state = std::get_if<vehicle_state_t>(&event.message)) return &state->vehicle_id;
   if (auto* send = std::get_if<modem_send_t>(&event.message)) return &send->source_id;
   return nullptr;
 }
 
-// Collects what a log holds.
+// Collects the messages of a log that are replayed.
 struct Collector {
   Collector(Recording& into, Played played) : recording(into), what(played) {}
   Recording& recording;
   Played what;
   std::vector<Logged> logged;
-  std::vector<std::int64_t> stamps;  // of all events
+  std::vector<std::int64_t> stamps;  // stamps of all events
   std::int64_t clocks = 0, clocks_at_stamp = 0, last_clock = 0;
 
   template <class Message>
@@ -97,10 +97,11 @@ struct Collector {
   }
 };
 
-// Stamps with those that break the order replaced: the longest ascending selection stays (patience sorting);
-// and what lies more than a day behind the last of it.
+// Returns the stamps with those replaced that break the order or are more than a day after the last valid
+// one. The longest non-decreasing subsequence stays (patience sorting).
 std::vector<std::int64_t> in_order(const std::vector<std::int64_t>& stamps) {
-  std::vector<std::size_t> tails, before(stamps.size());  // tails[n]: last of the best selection of n + 1
+  // The element tails[n] is the last one of the best subsequence of n + 1.
+  std::vector<std::size_t> tails, before(stamps.size());
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     const auto place =
         std::upper_bound(tails.begin(), tails.end(), stamps[i],
@@ -141,13 +142,13 @@ std::optional<std::int64_t> middle_of_states(const std::vector<Logged>& logged) 
   return middle_of(std::move(times));
 }
 
-// The utime of each message, or where it has none the latest that the log had reached by then.
+// Returns the utime of each message; a message without a valid one gets the latest that the log had reached.
 std::vector<std::int64_t> sound_times(const Collector& collected, Recording& recording) {
   const auto middle = middle_of_states(collected.logged);
   const auto is_sound = [&](std::int64_t utime) { return middle && MissionTime{0, middle}.is_sound(utime); };
   std::vector<std::int64_t> times;
   std::optional<std::int64_t> reached;
-  for (const Logged& entry : collected.logged) {  // until the first sound time, it is that
+  for (const Logged& entry : collected.logged) {  // messages before the first valid time get that time
     if (!reached && is_sound(utime_of(entry.event))) reached = utime_of(entry.event);
   }
   for (const Logged& entry : collected.logged) {
@@ -177,7 +178,7 @@ void go_by_messages(const Collector& collected, Recording& recording) {
   if (clocks_agree) recording.end = std::max(recording.end, SimTime::from_utime(collected.last_clock - zero));
 }
 
-// Ids for the messages that have none.
+// Fills in ids of the messages that have none.
 void fill_ids(const bus::Scenario& scenario, Recording& recording) {
   std::map<std::string, std::int32_t> ids;
   std::set<std::int32_t> taken;

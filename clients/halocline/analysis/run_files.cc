@@ -27,7 +27,7 @@ bool holds_something(const fs::path& path) {
 }
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
-  std::error_code error;  // where one of them does not exist
+  std::error_code error;  // set when one of them does not exist
   return fs::equivalent(a, b, error);
 }
 
@@ -69,7 +69,7 @@ std::string make_new_folder(const std::string& base) {
   for (int number = 1;; ++number) {
     const std::string folder = number == 1 ? base : base + "-" + std::to_string(number);
     std::error_code error;
-    if (fs::create_directory(folder, error)) return folder;  // no other run has it
+    if (fs::create_directory(folder, error)) return folder;  // no other run uses this new folder
     if (!fs::is_directory(folder))
       throw std::runtime_error("cannot make the folder " + folder + ": " + error.message());
   }

@@ -61,7 +61,7 @@ Bytes without_number(const Bytes& bytes) {
   return bus::encoded(message);
 }
 
-// Empty for what is no simulation output.
+// Returns the event as it is compared; empty when it is no simulation output.
 std::optional<Output> output_of(const LogReader& log, const LoggedEvent& event) {
   if (is_between_programs(event.channel)) return std::nullopt;
   Bytes bytes = event.data;
@@ -98,7 +98,8 @@ std::int64_t write_simulation_output(LogReader& log, const std::string& path) {
   }
   write();
   recorder.close();
-  for (const std::string& part : bus::parts_of_log(path)) std::filesystem::remove(part);  // of an earlier log
+  // Remove the parts of an earlier log.
+  for (const std::string& part : bus::parts_of_log(path)) std::filesystem::remove(part);
   replacement.commit();
   return recorder.events();
 }

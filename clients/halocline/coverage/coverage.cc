@@ -24,7 +24,8 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNotLooked = std::numeric_limits<double>::infinity();
 constexpr double kDeliveryTolerance = 0.002, kLevelToleranceDb = 0.03, kDelayToleranceS = 3e-7;
 
-// What is not asked for need not be right; delivery always is.
+// Returns the tolerance of each quantity. Delivery is always verified, level and delay only when they are
+// asked for.
 Sample tolerances(const std::vector<CoverageQuantity>& wanted) {
   const auto asks = [&](CoverageQuantity quantity) {
     return std::find(wanted.begin(), wanted.end(), quantity) != wanted.end();
@@ -110,7 +111,7 @@ class Mapping {
     });
   }
 
-  // Cells whose links run over one bottom profile, furthest first, and where it ends.
+  // Bottom profile and the cells whose links use it, farthest first; the profile ends at `end_ned_m`.
   struct Line {
     std::vector<std::size_t> cells;
     Vec3 end_ned_m;
@@ -124,7 +125,7 @@ class Mapping {
     return lines;
   }
 
-  // Neighbours are a cell apart at the furthest.
+  // Groups cells by bearing. Neighbouring bearings are one cell apart at the farthest cell.
   std::vector<Line> bearings(const std::vector<Line>& cells) const {
     double furthest_m = 0;
     for (const Line& line : cells) furthest_m = std::max(furthest_m, range_m(line.cells.front()));
@@ -153,7 +154,7 @@ class Mapping {
     channel_server::SeabedMap seabed = links_.seabed_map();
     std::vector<Line> lines = lines_of_cells();
     if (sharing_ == RaySharing::kBearings && !links_.is_in_a_field()) lines = bearings(lines);
-    // Where the seabed along a bearing is not known throughout each of its cells has its own line.
+    // The seabed must be known along a whole bearing; otherwise each of its cells gets its own profile.
     std::vector<Line> known;
     for (const Line& line : lines) {
       links_.survey(line.end_ned_m, seabed);
@@ -174,7 +175,8 @@ class Mapping {
     });
   }
 
-  // Receivers that the bottom along the bearing covers lie just above it.
+  // Computes the cells of a bearing with one fan of rays. Receivers that would be below the bottom profile of
+  // the bearing are placed 0.2 m above it.
   void along_bearing(LinkSurveyor& surveyor, const Line& bearing, const LinkSurveyor::Seabed& profile) {
     const acoustics::BottomProfile bottom = links_.bottom_profile(bearing.end_ned_m, *profile);
     std::vector<double> ranges;
@@ -189,7 +191,7 @@ class Mapping {
     }
   }
 
-  // Of the depths that are in the water.
+  // Returns z of the cell's depths that are in the water, m.
   std::vector<double> water_z_m(std::size_t cell) const {
     std::vector<double> z_m;
     for (std::size_t depth = 0; depth < area_.depths_m.size() && is_water(cell, depth); ++depth)
@@ -211,7 +213,7 @@ class Mapping {
   Sample tolerance_;
   int threads_;
   RaySharing sharing_;
-  std::vector<double> seabed_z_m_;  // under each cell; NaN where not known
+  std::vector<double> seabed_z_m_;  // below each cell; NaN where unknown
   Coverage map_;
 };
 

@@ -10,7 +10,7 @@
 namespace halocline::clients {
 namespace {
 
-// Empty for a picture.
+// Returns the module's function that writes this format; empty for a picture.
 std::string writer_of(const std::string& path) {
   if (path.ends_with(".tif")) return "halocline_write_coverage_geotiff";
   if (path.ends_with(".nc")) return "halocline_write_coverage_netcdf";

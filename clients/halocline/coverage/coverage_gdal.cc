@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps of coverage as GeoTIFF and as contours in GeoJSON, through GDAL. Part of the module
+// Coverage maps as GeoTIFF and as contours in GeoJSON, written through GDAL. Part of the module
 // halocline_coverage_files.so, which only coverage_files.cc loads.
 #include <algorithm>
 #include <cmath>
@@ -66,7 +66,7 @@ Dataset raster(GDALDriver& kind, const std::string& path, const Coverage& covera
   return dataset;
 }
 
-// Rows from the south, as a raster has them from the north.
+// Writes rows that start in the south to a band, whose rows start in the north.
 void put(GDALRasterBand& band, const std::vector<double>& values, std::size_t side, const std::string& path) {
   for (std::size_t row = 0; row < side; ++row) {
     std::vector<double> line(values.begin() + static_cast<std::ptrdiff_t>(row * side),
@@ -104,7 +104,8 @@ void write_geotiff(const Coverage& coverage, const CoverageFile& file, const std
   replacement.commit();
 }
 
-// Where lines run: round numbers between the least and the greatest that are sound at all.
+// Returns the values of contour lines: round numbers between the minimum and the maximum, ignoring cells
+// without sound.
 std::vector<double> contour_levels(CoverageQuantity quantity, const std::vector<double>& values) {
   if (quantity == CoverageQuantity::kDelivery) return {0.1, 0.25, 0.5, 0.75, 0.9};
   double least = INFINITY, greatest = -INFINITY;
@@ -132,7 +133,7 @@ struct ContourFields {
   }
 };
 
-// Lines of one quantity at one depth, in the local frame.
+// Adds the contours of one quantity at one depth, in the local frame.
 void add_contours(const Coverage& coverage, const CoverageFile& file, CoverageQuantity quantity,
                   std::size_t depth, OGRLayer& out, OGRCoordinateTransformation& to_wgs84,
                   const std::string& path) {

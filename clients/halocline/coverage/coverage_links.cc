@@ -15,8 +15,9 @@
 namespace halocline::clients {
 namespace {
 
-// The first and the last of so many, then the middles of what lies between, of halves, of quarters: paths are
-// interpolated between those of depths above and below.
+// Returns the order in which depths are computed: the first and the last, then the middle between them, the
+// middles of the halves, of the quarters, and so on, because paths are interpolated between depths above and
+// below.
 std::vector<std::size_t> ends_first(std::size_t count) {
   if (count == 0) return {};
   std::vector<std::size_t> order{0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Links from one end to receivers with the scenario's modem, wherever they are: what maps and tracks of
-// coverage are made of.
+// Links from one end to receivers with the scenario's modem at any position: the computation behind coverage
+// maps and tracks.
 #pragma once
 
 #include <cstddef>
@@ -25,46 +25,50 @@
 
 namespace halocline::clients {
 
-// What links share of their rays over terrain.
+// Selects which links over terrain share a ray search.
 enum class RaySharing {
-  kNone,     // each has a search of its own, as `halocline link`
-  kDepths,   // depths of a place have one, and paths between depths are interpolated where that is verified
-             // (acoustics/rays/column_rays.h)
-  kBearings  // places of a bearing have one fan, along whose bearing the bottom is taken
-             // (acoustics/rays/bearings/bearing_rays.h)
+  kNone,  // a search for each link, as in `halocline link`
+  // One search for the depths of a place; paths between depths are interpolated where that is verified
+  // (acoustics/rays/column_rays.h).
+  kDepths,
+  // One fan of rays for all ranges on a bearing, over the bottom along that bearing
+  // (acoustics/rays/bearings/bearing_rays.h).
+  kBearings
 };
 
+// Links from one end, with the water and terrain of a scenario.
 class CoverageLinks {
  public:
   struct Scene {
-    const ScenarioConfig& config;  // outlives this
+    const ScenarioConfig& config;  // must outlive this
     std::shared_ptr<const bathymetry::Terrain> terrain;
     LinkSurveyEnd from;
   };
   explicit CoverageLinks(const Scene& scene);
 
-  // Calls item(surveyor, i) for each i below `count`; `threads`, of which each has a surveyor, take every so
-  // many of them.
+  // Calls item(surveyor, i) for each i below `count`. Each of `threads` threads has its own surveyor and
+  // takes every `threads`-th item.
   void share(int threads, std::size_t count,
              const std::function<void(LinkSurveyor&, std::size_t)>& item) const;
-  // Whether the water changes from place to place.
+  // True when the water varies horizontally (an ocean field).
   bool is_in_a_field() const { return static_cast<bool>(environment().field); }
   double noise_level_db() const;
-  // Empty, of the kind that links of the scenario take their profiles from.
+  // Returns an empty seabed map with the settings that the scenario's links use.
   channel_server::SeabedMap seabed_map() const;
-  // Surveys what rays to a place need of the seabed, and nothing where links are straight.
+  // Surveys the seabed that rays to a position need; does nothing for straight paths.
   void survey(const Vec3& to_ned_m, channel_server::SeabedMap& seabed) const;
-  // The bottom to a place that was surveyed; null where links are straight.
+  // Returns the bottom profile to a position that was surveyed; null for straight paths.
   LinkSurveyor::Seabed bottom(const Vec3& to_ned_m, const channel_server::SeabedMap& seabed) const;
-  // Links to receivers above and below one place at each z of `z_m`, rising. Calls may overlap between
-  // threads, each with a surveyor and a line of its own; null: none are shared.
+  // Computes links to receivers at one horizontal position and at each z of `z_m`, ascending. Threads may
+  // call it at the same time, each with its own surveyor and line; a null line shares no rays.
   std::vector<Sample> links(LinkSurveyor& surveyor, const Vec3& place_ned_m, const std::vector<double>& z_m,
                             const LinkSurveyor::Seabed& seabed, channel_server::SharedLine* line) const;
-  // The same where no other place shares rays: its depths do, unless nothing is to be shared.
+  // Computes the same for a position that shares no rays with others: its depths share a fan unless `sharing`
+  // is kNone.
   std::vector<Sample> links_to_one_place(LinkSurveyor& surveyor, const Vec3& place_ned_m,
                                          const std::vector<double>& z_m, const LinkSurveyor::Seabed& seabed,
                                          RaySharing sharing) const;
-  // The bottom to a place, as rays meet it.
+  // Returns the bottom profile to a position as rays use it.
   acoustics::BottomProfile bottom_profile(const Vec3& to_ned_m,
                                           const channel_server::SeabedProfile& seabed) const;
   Sample link(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed) const {

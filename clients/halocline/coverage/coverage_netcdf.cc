@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps of coverage as netCDF-4 after the CF conventions 1.8 (grid mappings: appendix F). Part of the module
+// Coverage maps as netCDF-4 after the CF conventions 1.8 (grid mappings: appendix F). Part of the module
 // halocline_coverage_files.so, which only coverage_files.cc loads.
 #include <cstddef>
 #include <string>
@@ -44,8 +44,8 @@ void define_grid_mapping(NetcdfOutput& file, const bathymetry::LocalFrame& frame
   if (is_flat) file.attribute(variable, "scale_factor_at_central_meridian", 1.0);
   file.attribute(variable, "false_easting", 0.0);
   file.attribute(variable, "false_northing", 0.0);
-  file.attribute(variable, "semi_major_axis", 6378137.0);         // of WGS 84
-  file.attribute(variable, "inverse_flattening", 298.257223563);  // likewise
+  file.attribute(variable, "semi_major_axis", 6378137.0);         // WGS 84
+  file.attribute(variable, "inverse_flattening", 298.257223563);  // WGS 84
   OGRSpatialReference system;
   char* text = nullptr;
   if (system.SetFromUserInput(reference_system(frame).c_str()) == OGRERR_NONE &&
@@ -55,7 +55,7 @@ void define_grid_mapping(NetcdfOutput& file, const bathymetry::LocalFrame& frame
   file.put(variable, std::vector<int>{0});
 }
 
-// Latitude and longitude of each cell, degrees.
+// Defines the latitude and longitude of each cell, degrees.
 void define_places(NetcdfOutput& file, const CoverageArea& area, const bathymetry::LocalFrame& frame,
                    const std::vector<int>& dimensions) {
   std::vector<double> latitudes, longitudes;

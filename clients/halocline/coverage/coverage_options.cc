@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the command line says of a map: its quantities and depths.
+// Parsing of the command line's quantities and depths.
 #include <algorithm>
 #include <array>
 #include <cmath>

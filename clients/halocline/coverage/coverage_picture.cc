@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map of coverage drawn by gnuplot: quantities side by side at the best depth, mean delivery against depth.
+// Coverage map drawn by gnuplot: the quantities side by side at the best depth, and the mean delivery against
+// depth.
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -18,12 +19,12 @@
 namespace halocline::clients {
 namespace {
 
-// cmocean's "deep" from dark to light (Thyng et al. 2016): light is well heard.
+// Palette "deep" of cmocean from dark to light (Thyng et al. 2016); light means good reception.
 constexpr const char* kPalette =
     "set palette defined (0 '#271a2c', 0.2 '#403c73', 0.4 '#3e6c96', 0.6 '#4c99a0', 0.8 '#6fc9a3', 1 "
     "'#fdfdcc')\n";
 
-// East and north in kilometres, the value; silence and cells without water are left out.
+// Returns east and north in kilometres and the value of each cell; cells without sound or water are NaN.
 std::string image_data(const Coverage& coverage, CoverageQuantity quantity, std::size_t depth) {
   const std::vector<double> values = coverage.values(quantity, depth);
   const CoverageArea& area = coverage.area;

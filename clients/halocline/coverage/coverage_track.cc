@@ -76,7 +76,7 @@ std::vector<DepthChoice> best_depths(const ScenarioConfig& config,
     const Vec3 surface = place_of(track[i], 0);
     const auto bottom_z_m = seabed_z_m(*terrain, surface);
     const LinkSurveyor::Seabed profile = links.bottom(surface, seabed);
-    std::vector<double> z_m;  // of depths in the water
+    std::vector<double> z_m;  // depths that are in the water
     for (const double depth_m : depths_m) {
       const double at_m = place_of(track[i], depth_m).z();
       if (bottom_z_m && at_m <= *bottom_z_m) z_m.push_back(at_m);

@@ -33,14 +33,14 @@ class Sampling {
   }
 
  private:
-  static constexpr std::size_t kFewest = 8;  // places of a span worth interpolating
+  static constexpr std::size_t kFewest = 8;  // shorter spans are computed place by place
 
   void know(std::size_t i) {
     if (!known_[i]) values_[i] = compute_(places_[i]);
     known_[i] = true;
   }
 
-  // The place nearest to the middle of two, between them.
+  // Returns the first place between two others that is not before the middle of them.
   std::size_t middle(std::size_t a, std::size_t b) const {
     const auto at = std::lower_bound(places_.begin() + static_cast<std::ptrdiff_t>(a) + 1,
                                      places_.begin() + static_cast<std::ptrdiff_t>(b) - 1,
@@ -48,7 +48,8 @@ class Sampling {
     return static_cast<std::size_t>(at - places_.begin());
   }
 
-  // Lagrange's polynomial through the values at `nodes`.
+  // Returns the Lagrange polynomial through the values at `nodes`:
+  //   p(x) = sum_i y_i prod_{k != i} (x - x_k) / (x_i - x_k)
   Sample through(const Indices& nodes, double place) const {
     Sample sum{};
     for (const std::size_t i : nodes) {

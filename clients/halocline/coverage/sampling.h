@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Smooth functions at many places from their values at few: the rest by interpolation that is verified on the
-// way.
+// Sampling of a smooth function at many places from few evaluations: the other values are interpolated where
+// that is verified.
 //
-// Rule. Between two places that are at most `longest` apart the function is computed at five of the places in
-// between, as evenly as they lie. Where the quadratic through the first, the middle and the last misses the
-// other two by no more than the tolerance, the rest of the span is given by the quartic through all five;
-// else both halves are looked at likewise, in the end place by place. So jumps and kinks are computed where
-// they are, but those that leave all five where they were.
+// Rule. Within a span of places no longer than `longest` the function is computed at five places spread as
+// evenly as possible. If the quadratic through the first, the middle and the last of them reproduces the
+// other two within the tolerance, the remaining places of the span are interpolated by the quartic through
+// all five; otherwise both halves are treated in the same way, down to single places. Jumps and kinks are
+// thus computed where they are, unless they leave all five values unchanged.
 //
-// Error. Where the function is smooth over a span, below the tolerance by the ratio of quartic to quadratic.
-// Pure.
+// Error. For a function that is smooth within the span, the tolerance times the ratio of the quartic's error
+// to the quadratic's. Pure.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@
 
 namespace halocline::clients {
 
-// delivery probability, level dB, delay s (coverage.h).
+// Values of the function: delivery probability, level in dB, delay in s (coverage.h).
 using Sample = std::array<double, 3>;
 
-// The function at each of `places`, which rise, from calls with some of them; each value within its
-// tolerance, 0 or more.
+// Returns the function at each of `places`, which ascend, from calls of `compute` at some of them. Each value
+// is within its tolerance, which must be 0 or more.
 std::vector<Sample> sampled(const std::vector<double>& places, double longest, const Sample& tolerance,
                             const std::function<Sample(double place)>& compute);
 
