@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts that the charts of a report share.
+// Texts shared by the charts of a report.
 #pragma once
 
 #include <string>
@@ -19,14 +19,13 @@ std::string packet_title(const packet_outcome_t& outcome,
                          const VehicleName& name);  // "auv-1:12 to auv-2 at 45.2 s"
 
 std::string step_text(double seconds);  // "30 s", "10 min", "2 h"
-// The least of 1, 2, 5, 10, 20, 30 s, ... of minutes and hours that is `least_s` or more.
+// Returns the smallest of 1, 2, 5, 10, 20, 30 s, and so on in minutes and hours, that is not below `least_s`.
 double round_time_step(double least_s);
 
-// The axis of a chart over time: from `begin` to `end`, in seconds, with tics at round instants in the unit
-// that fits.
+// Time axis of a chart from `begin` to `end`, in seconds, with tics at round instants in a fitting unit.
 struct TimeAxis {
   double begin_s = 0, end_s = 1, step_s = 1;
-  double unit_s = 1;  // seconds, minutes or hours
+  double unit_s = 1;  // length of the unit: a second, a minute or an hour
   const char* unit = "s";
 };
 TimeAxis time_axis(SimTime begin, SimTime end, int max_tics);

@@ -29,13 +29,13 @@ constexpr double kChartWidth_px = 1120, kStrip_px = 92;
 double depth_m(const TrackPoint& point) { return point.position_ned_m.z(); }
 
 struct DepthRange {
-  double least_m = 0, greatest_m = 1;  // shown
-  bool is_seabed_cut = false;          // it lies far below every vehicle
+  double least_m = 0, greatest_m = 1;  // limits of the depth axis
+  bool is_seabed_cut = false;          // the seabed is far below every vehicle
 };
 
 bool has_moved(const MissionVehicle& vehicle) { return vehicle.track.size() > 1 && !vehicle.is_at_rest(); }
 
-// The vehicles that are drawn: those with the longest ways, in the mission's order.
+// Returns the vehicles that are drawn: those that moved farthest, in the order of the run.
 std::vector<const MissionVehicle*> shown_vehicles(const MissionStore& mission) {
   std::vector<std::pair<double, const MissionVehicle*>> by_way;
   for (const MissionVehicle& vehicle : mission.vehicles()) {
@@ -137,7 +137,7 @@ class DepthStrip {
     return fmt::format("{:.4f} {:.2f}\n", at.seconds() / axis_.unit_s, depth);
   }
 
-  // Empty lines break the line where nothing is commanded.
+  // Returns the commanded depth over time. Empty lines interrupt the curve where nothing is commanded.
   std::string commanded_rows() const {
     const auto chosen = decimated(vehicle_.activity.all(), kMostPoints,
                                   [](const autopilot_status_t& status) { return status.commanded_z_m; });
@@ -170,7 +170,7 @@ class DepthStrip {
     }
   }
 
-  // Invisible points to rest the pointer on.
+  // Draws invisible points that show details when the pointer rests on them.
   void draw_points(const std::vector<Timed<TrackPoint>>& points) {
     const std::size_t step = std::max<std::size_t>(points.size() / 100, 1);
     for (std::size_t i = 0; i < points.size(); i += step) {
@@ -190,7 +190,7 @@ class DepthStrip {
   DepthRange range_;
   TimeAxis axis_;
   Picture picture_;
-  double least_seabed_m_ = HUGE_VAL, greatest_seabed_m_ = -HUGE_VAL;  // under the vehicle
+  double least_seabed_m_ = HUGE_VAL, greatest_seabed_m_ = -HUGE_VAL;  // below the vehicle
 };
 
 }  // namespace

@@ -22,15 +22,16 @@ namespace halocline::clients {
 namespace {
 
 constexpr double kCell_px = 14;
-constexpr std::size_t kMost = 200;  // marks; more, and their squares grow until these are left
+constexpr std::size_t kMost = 200;  // maximum number of marks: the squares grow until no more are left
 
+// Losses of one class of outcomes in one square.
 struct Cluster {
-  double x_px = 0, y_px = 0, yaw = 0;  // of the first
+  double x_px = 0, y_px = 0, yaw = 0;  // place and heading of the first loss
   std::int64_t packets = 0;
-  Loss shown{};  // the first that the table lists, else the first
+  Loss shown{};  // first loss that the table lists, otherwise the first
 };
 
-// By class of outcomes and place.
+// Clusters keyed by square and class of outcomes.
 using Clusters = std::map<std::array<int, 3>, Cluster>;
 
 Clusters clusters_of(const MissionStore& mission, const PacketLinks& links, const Picture& chart,
@@ -75,10 +76,10 @@ std::string loss_marks(const MissionStore& mission, const PacketLinks& links, co
     if (cluster.packets > 1)
       text = fmt::format("{} packets lost here ({}). One of them: {}", cluster.packets, c.label, text);
     const double size = std::min(8 + 2 * elementary::log2(static_cast<double>(cluster.packets)), 16.0);
-    // Beside the track, to starboard.
+    // The mark is next to the track, to starboard.
     const double x = cluster.x_px + 11 * elementary::cos(cluster.yaw),
                  y = cluster.y_px + 11 * elementary::sin(cluster.yaw);
-    // Most that are lost are out of reach: a dash without a disc, so that the others stand out.
+    // Most lost packets are out of reach: their dash has no disc, so that the other marks stand out.
     const std::string disc =
         c.mark == std::string_view("dash")
             ? ""

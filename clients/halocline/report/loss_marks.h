@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where packets were lost, as marks over the chart of a mission.
+// Marks on the chart of a run at the places where packets were lost.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace halocline::clients {
 
-// SVG elements. Losses that would lie upon each other are one mark: one for each class of outcomes in a
-// square of 14 pixels, or of more where there would be more than 200 marks. A mark links to the row of its
-// first packet that the table of losses lists.
+// Returns SVG elements. Losses that would overlap share one mark: one for each class of outcomes in a square
+// of 14 pixels, or larger squares when there would be more than 200 marks. A mark links to the row of its
+// first packet in the table of losses.
 std::string loss_marks(const MissionStore& mission, const PacketLinks& links, const Picture& chart);
 
 }  // namespace halocline::clients

@@ -34,7 +34,7 @@ constexpr std::size_t kTrackPoints = 400, kAllTrackPoints = 30'000, kVehiclesDra
 constexpr std::size_t kRaster_px = 360, kContourStep = 4;
 constexpr double kLeastSpan_m = 200, kMargin = 0.13;
 
-// A square around every track.
+// Returns a square that contains every track and plan; empty when no vehicle has a position.
 std::optional<MapExtent> extent_of(const MissionStore& mission) {
   Vec3 least = Vec3::Constant(1e300), greatest = -least;
   for (const MissionVehicle& vehicle : mission.vehicles()) {
@@ -108,7 +108,8 @@ class MissionChart {
     const double step_m = round_step(std::max<double>(raster_->greatest_m - raster_->least_m, 1) / 9);
     std::string& commands = picture_.commands;
     commands += "$depths << EOD\n" + contour_grid(pixel_m) + "EOD\n";
-    // The contours are made first, into a table, and drawn on the same axes as the picture of the seabed.
+    // gnuplot computes the contours first, into a table, and draws them on the same axes as the picture of
+    // the seabed.
     commands += "set contour base\nunset surface\nset cntrparam levels incremental " +
                 format_number(std::ceil(raster_->least_m / step_m) * step_m) + "," + format_number(step_m) +
                 "," + format_number(raster_->greatest_m) +
@@ -162,7 +163,8 @@ class MissionChart {
     overlay(fmt::format(R"(<text x="{}" y="{}" class="tick">depth, m</text>)", px(left - 12), px(top - 10)));
   }
 
-  // The quality of links at a glance: a line between the last places, as wide as what was received.
+  // Draws the quality of links: a line between the last positions of two vehicles, with a width that grows
+  // with the share received.
   void draw_links() {
     const auto with_places = std::count_if(mission_.vehicles().begin(), mission_.vehicles().end(),
                                            [](const MissionVehicle& v) { return !v.track.empty(); });
@@ -224,7 +226,7 @@ class MissionChart {
     if (has_details(mission_) && !vehicle.is_at_rest()) draw_times(vehicle);
   }
 
-  // A dot at every round instant, to point at.
+  // Draws a dot at every round instant, with details for the pointer.
   void draw_times(const MissionVehicle& vehicle) {
     const double begin_s = vehicle.track.front().at.seconds(), end_s = vehicle.track.back().at.seconds();
     const double step_s = time_dots_s(mission_);
@@ -259,7 +261,7 @@ class MissionChart {
     }
   }
 
-  // Beside (cx, y), where no other name is; in a fleet, none near.
+  // Draws a name next to (cx, y) unless it would cover another; in a fleet names also keep a distance.
   void draw_name(const std::string& name, double cx, double y) {
     const double width = 8.5 * static_cast<double>(name.size());
     const bool is_right = cx + 10 + width < picture_.width_px - picture_.right_px;

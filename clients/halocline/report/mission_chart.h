@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mission seen from above: seabed, contours, tracks, plans, and where packets were lost.
+// Plan view of a run: seabed, contours, tracks, plans, and the places where packets were lost.
 #pragma once
 
 #include <string>
@@ -9,17 +9,16 @@
 
 namespace halocline::clients {
 
-// An SVG element; empty where no vehicle has a place. Tracks have at most 400 points each and 30 000
-// together, 300 vehicles at most are drawn.
-// Throws as run_gnuplot (plot.h).
+// Returns an SVG element; empty when no vehicle has a position. Tracks have at most 400 points each and 30
+// 000 together; at most 300 vehicles are drawn. Throws as run_gnuplot (plot.h).
 std::string mission_chart(const MissionStore& mission, const PacketLinks& links);
 
-// A sentence on the vehicles that are not drawn; empty where there is none.
+// Returns a sentence on the vehicles that are not drawn; empty when there is none.
 std::string left_out_tracks(const MissionStore& mission);
 
-// Whether there are few enough vehicles for plans and for a dot at every round instant, and the seconds
-// between two dots.
+// True when there are few enough vehicles to draw plans and a dot at every round instant.
 bool has_details(const MissionStore& mission);
+// Returns the time between two dots, s.
 double time_dots_s(const MissionStore& mission);
 
 }  // namespace halocline::clients

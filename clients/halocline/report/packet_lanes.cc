@@ -23,8 +23,8 @@ namespace {
 
 constexpr double kWidth_px = 1120, kLeft_px = 190, kRight_px = 26, kLane_px = 34, kAxis_px = 26,
                  kRowGap_px = 14;
-constexpr double kPacket_px = 9;  // that a usual packet is long at least
-constexpr int kRows = 6;          // at most
+constexpr double kPacket_px = 9;  // least length of a packet of usual duration
+constexpr int kRows = 6;          // maximum number of rows
 
 struct Window {
   double begin_s = 0, end_s = 1;
@@ -86,7 +86,8 @@ class Lanes {
     rows_ = std::clamp(static_cast<int>(std::ceil(span_s / row_s)), 1, kRows);
     double shown_s = std::min(span_s, rows_ * row_s);
     window_ = {all.begin_s, all.begin_s + shown_s};
-    // The busiest stretch: that with the most departures; shorter where there are too many.
+    // The busiest interval is the one with the most departures; it is shortened while it holds too many
+    // receptions.
     while (true) {
       window_ = busiest(all, shown_s);
       if (receptions_in(window_) <= kLaneMarks || shown_s < 4 * usual_s) break;
@@ -142,7 +143,7 @@ class Lanes {
                       px(lane_y(lane) + 21), escaped_xml(mission_.name(id)), px(kLeft_px),
                       px(lane_y(lane) + kLane_px - 2), px(kWidth_px - kRight_px));
     }
-    // Thin lines first, bars above them.
+    // Thin lines are drawn first, and bars above them.
     std::string flights, bars;
     for (const PacketRecord* packet : packets_) {
       if (packet->at().seconds() > row_.end_s || packet->end().seconds() < row_.begin_s) continue;
@@ -174,7 +175,7 @@ class Lanes {
   double clamped_x(double t_s) const { return x(std::clamp(t_s, row_.begin_s, row_.end_s)); }
   double lane_y(std::size_t lane) const { return top_ + static_cast<double>(lane) * kLane_px; }
 
-  // `content` with the id of the mark, as a link to its row.
+  // Returns `content` with the id of the mark, as a link to its row.
   std::string marked(const Loss& loss, const std::string& classes, const std::string& content) {
     links_.add_mark(loss);
     return fmt::format("<g id=\"{}\"{}>", links_.mark_id(loss), classes) + links_.to_row(loss, content) +
@@ -237,8 +238,8 @@ class Lanes {
 
   const MissionStore& mission_;
   PacketLinks& links_;
-  std::vector<const PacketRecord*> packets_;   // by departure
-  std::map<std::int32_t, std::size_t> lanes_;  // by vehicle id
+  std::vector<const PacketRecord*> packets_;   // sorted by departure
+  std::map<std::int32_t, std::size_t> lanes_;  // keyed by vehicle id
   std::size_t vehicles_left_out_ = 0;
   Window window_, row_;
   double row_s_ = 1, top_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time line of packets: a lane a vehicle, transmissions as bars, receptions at their travel time, the
-// cause of each loss under the pointer. Written as SVG directly: gnuplot writes no text for a pointer to rest
-// on.
+// Time line of packets: one lane for each vehicle, with transmissions as bars, receptions at their travel
+// time, and the cause of a loss shown when the pointer rests on it. Written directly as SVG, because gnuplot
+// writes no texts for a pointer.
 #pragma once
 
 #include <string>
@@ -11,16 +11,17 @@
 
 namespace halocline::clients {
 
-inline constexpr std::size_t kLanes = 16;        // vehicles at most: those with the most packets
-inline constexpr std::size_t kLaneMarks = 3000;  // receptions at most
+inline constexpr std::size_t kLanes = 16;        // maximum number of vehicles: those with the most packets
+inline constexpr std::size_t kLaneMarks = 3000;  // maximum number of receptions
 
+// Time line as SVG.
 struct PacketLanes {
   std::string svg;   // empty: no packets
-  std::string note;  // a sentence on what is left out; empty: nothing
+  std::string note;  // sentence on data left out; empty: none
 };
 
-// All of it where it fits, else the stretch of time that holds the most outcomes of as many as fit. Adds the
-// marks that it draws to `links`.
+// Draws the whole run if it fits, otherwise the interval with the most departures among those short enough.
+// Adds the marks that it draws to `links`.
 PacketLanes packet_lanes(const MissionStore& mission, PacketLinks& links);
 
 }  // namespace halocline::clients

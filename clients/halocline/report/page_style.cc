@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The look of a report: two sizes of one typeface, tabular figures, lighter units, panels apart by space. The
-// colours of the page are variables, so that pictures follow the scheme that the reader's system asks for.
+// Style of a report: two sizes of one typeface, tabular figures, lighter units, panels separated by space.
+// The colours of the page are variables, so that pictures follow the scheme that the reader's system selects.
 #include <string>
 
 #include <fmt/format.h>

@@ -13,7 +13,8 @@
 namespace halocline::clients {
 namespace {
 
-// gnuplot draws each of these in a colour that nothing else has (#01fe00, #01fe01, ...).
+// Colours of the page. gnuplot draws each in a colour that is used for nothing else (#01fe00, #01fe01, ...),
+// which is then replaced.
 constexpr std::array<std::string_view, 15> kInks{"ink",         "quiet",   "line", "accent", "ground",
                                                  "ground-edge", "contour", "v-0",  "v-1",    "v-2",
                                                  "v-3",         "v-4",     "v-5",  "v-6",    "v-7"};
@@ -26,7 +27,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-// Removes every stretch from `begin` to the next `end`.
+// Removes every part from `begin` to the next `end`, both included.
 std::string without(const std::string& text, std::string_view begin, std::string_view end) {
   std::string out;
   std::size_t at = 0;
@@ -48,7 +49,7 @@ std::string without_indentation(const std::string& text) {
   return out;
 }
 
-// gnuplot opens a group for every style that it sets, drawn with or not.
+// Removes the empty groups that gnuplot opens for every style, even if nothing is drawn with it.
 std::string without_empty_groups(const std::string& svg) {
   std::string out;
   std::size_t at = 0;
@@ -61,7 +62,7 @@ std::string without_empty_groups(const std::string& svg) {
   return out + svg.substr(at);
 }
 
-// What gnuplot drew, without its frame, fonts and names, in the page's colours.
+// Returns gnuplot's drawing without its frame, fonts and names, in the colours of the page.
 std::string themed(std::string svg) {
   svg.erase(0, svg.find("<g id=\"gnuplot_canvas\">"));
   svg.resize(svg.rfind("</svg>"));
@@ -85,7 +86,7 @@ std::string axis_commands(const char* name, const Axis& axis) {
                      format_number(axis.low), format_number(axis.high), axis.tics);
 }
 
-// gnuplot leaves out labels in margins that are given.
+// Writes the titles of the axes, which gnuplot omits when the margins are given.
 std::string axis_titles(const Picture& picture) {
   std::string svg;
   if (!picture.x.title.empty())

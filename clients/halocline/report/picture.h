@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures by gnuplot for a page: axes, images and curves whose colours follow the page's scheme, and a known
-// place of every coordinate, so that marks with texts of their own can be drawn over them.
-// gnuplot has no mark in the shape of a bow tie and writes no text for a pointer to rest on, so such marks
-// are ours (`overlay`).
+// Pictures drawn by gnuplot for a page: axes, images and curves whose colours follow the scheme of the page.
+// The position of every coordinate is known, so that marks with texts can be drawn over them. gnuplot has no
+// mark in the shape of a bow tie and writes no texts for a pointer, so such marks are drawn separately
+// (`overlay`).
 #pragma once
 
 #include <string>
@@ -10,19 +10,21 @@
 
 namespace halocline::clients {
 
+// Axis of a picture.
 struct Axis {
   double low = 0, high = 1;
   std::string title{};
-  std::string tics = "autofreq";  // as gnuplot takes them
+  std::string tics = "autofreq";  // in gnuplot's syntax
 };
 
+// Picture with two axes.
 struct Picture {
   double width_px = 600, height_px = 300;
   double left_px = 64, right_px = 12, top_px = 12, bottom_px = 44;  // margins around the axes
   Axis x, y;
-  std::string commands{};  // plot commands with their data, after the axes are set
-  std::string overlay{};   // SVG drawn over it
-  std::string label{};     // what the picture shows, for a reader that does not see it
+  std::string commands{};  // plot commands with their data, executed after the axes are set
+  std::string overlay{};   // SVG that is drawn on top
+  std::string label{};     // description of the picture for readers who cannot see it
   bool has_grid = true;
 
   double x_px(double value) const {
@@ -33,11 +35,11 @@ struct Picture {
   }
 };
 
-// " lc rgb '...'" of a colour of the page: ink, quiet, line, accent, ground, ground-edge, contour, v-0 to v-7
-// (vehicle_style.h).
+// Returns " lc rgb '...'" for a colour of the page: ink, quiet, line, accent, ground, ground-edge, contour,
+// v-0 to v-7 (vehicle_style.h).
 std::string ink(std::string_view variable);
 
-// The SVG element. Throws as run_gnuplot (plot.h).
+// Returns the picture as an SVG element. Throws as run_gnuplot (plot.h).
 std::string drawn(const Picture& picture);
 
 }  // namespace halocline::clients

@@ -9,7 +9,7 @@
 
 namespace halocline::clients {
 
-// An SVG element; empty without outcomes. Throws as run_gnuplot (plot.h).
+// Returns an SVG element; empty without outcomes. Throws as run_gnuplot (plot.h).
 std::string range_chart(const MissionStore& mission);
 
 }  // namespace halocline::clients

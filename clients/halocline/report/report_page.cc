@@ -29,7 +29,7 @@ std::string paragraph(const std::string& text, const char* style = "quiet") {
   return text.empty() ? "" : fmt::format("<p class=\"{}\">{}</p>\n", style, text);
 }
 
-// What a picture by gnuplot gives, or why it is not there.
+// Returns the picture that gnuplot draws, or a paragraph on why it is missing.
 std::string picture(const std::function<std::string()>& draw, const char* when_empty) {
   try {
     const std::string svg = draw();
@@ -48,7 +48,7 @@ std::string or_sentence(const std::string& html, const char* when_empty) {
   return html.empty() ? paragraph(when_empty) : html;
 }
 
-// A mission as the sections show it.
+// Run prepared for the sections of a page.
 struct PagePart {
   PagePart(const ReportPart& report_part, const std::string& prefix)
       : part(report_part),
@@ -62,7 +62,7 @@ struct PagePart {
   PacketLanes lanes;
 };
 
-// A line of a legend: what is drawn, in a colour of its own or of a vehicle, and what it stands for.
+// Returns an entry of a legend: a shape in its own colour or that of a vehicle, and its meaning.
 std::string sample(const std::string& shape, const std::string& text) {
   return "<span><svg class=\"sample\" viewBox=\"0 0 22 10\" aria-hidden=\"true\">" + shape + "</svg>" + text +
          "</span> ";
@@ -159,7 +159,7 @@ std::string nodes_section(const PagePart& part) {
   return or_sentence(node_table(part.mission), "Every program received everything.");
 }
 
-// The files that the configuration carries may be megabytes of bytes: they are left out.
+// Shows the scenario without the files that its configuration carries, which may have megabytes.
 std::string scenario_section(const PagePart& part) {
   const std::string& toml = part.mission.scenario().toml;
   if (toml.empty()) return paragraph("The log does not hold it, and no file lies beside it.");
@@ -173,7 +173,7 @@ struct Section {
   const char* title;
   std::string (*html)(const PagePart& part);
   bool is_folded = false;
-  bool is_narrow = false;  // may stand beside the one before
+  bool is_narrow = false;  // may be placed next to the section before
 };
 
 constexpr Section kSections[] = {

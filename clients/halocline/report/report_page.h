@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report: one static HTML page with everything in it, about one log or about two side by side.
+// Report: one self-contained static HTML page about one log, or about two for comparison.
 //
-// It loads nothing and runs no script. Pictures of axes and curves are by gnuplot; where that is not
-// installed the page has the others and names what is missing. Its size is bounded (3 MB for one
-// log, whatever it holds): each section states what it leaves out.
+// It loads nothing and runs no script. Pictures with axes and curves are drawn by gnuplot; when that is not
+// installed, the page names the missing pictures and contains the others. Its size is bounded (3 MB for any
+// one log): each section states what it leaves out.
 #pragma once
 
 #include <string>
@@ -16,15 +16,15 @@ namespace halocline::clients {
 
 // One of the logs of a report.
 struct ReportPart {
-  std::string log;  // its name
+  std::string log;  // name of the log
   const MissionStore& mission;
-  std::vector<std::string> remarks = {};  // sentences: damage, times that were moved
+  std::vector<std::string> remarks = {};  // sentences: damage, times shifted
 };
 
 std::string report_page(const ReportPart& part);
 std::string report_page(const ReportPart& before, const ReportPart& after, const Comparison& comparison);
 
-// The style sheet of the page.
+// Returns the style sheet of the page.
 std::string page_style();
 
 }  // namespace halocline::clients

@@ -8,7 +8,7 @@
 namespace halocline::clients {
 namespace {
 
-// cmocean's "deep" at twelve even steps (Thyng et al. 2016, Oceanography 29(3), 9-13).
+// Colours of cmocean's "deep" at twelve even steps (Thyng et al. 2016, Oceanography 29(3), 9-13).
 constexpr std::array<std::array<std::uint8_t, 3>, 12> kDeep{{{253, 253, 204},
                                                              {206, 236, 179},
                                                              {156, 219, 165},
@@ -22,11 +22,13 @@ constexpr std::array<std::array<std::uint8_t, 3>, 12> kDeep{{{253, 253, 204},
                                                              {54, 43, 77},
                                                              {39, 26, 44}}};
 
+// Returns the cubic of Catmull and Rom (1974) between b and c, t in [0, 1]; a and d are the values beyond
+// them.
 double cubic(double a, double b, double c, double d, double t) {
   return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
-// Bicubic; NaN where one of the sixteen posts around is missing.
+// Returns the bicubic surface at a position, m; NaN when one of the sixteen surrounding posts is missing.
 double smooth_depth_m(const MissionTerrain& terrain, double north_m, double east_m) {
   const double row = (north_m - terrain.south_m) / terrain.north_spacing_m;
   const double column = (east_m - terrain.west_m) / terrain.east_spacing_m;
@@ -53,7 +55,10 @@ double depth_m(const MissionTerrain& terrain, double north_m, double east_m) {
   return std::isnan(smooth) ? linear : smooth;
 }
 
-// Light on a slope (components of the unit normal) from the north-west, 45 degrees high; 1 on level ground.
+// Returns the brightness of a slope, given by its rise per metre toward north and east, under light from the
+// north-west at an elevation of 45 degrees; 1 on level ground.
+//   brightness = max(0, n . l) / l_up,  n = (-north, -east, 1) / sqrt(1 + north^2 + east^2),
+//   l = (1/2, -1/2, 1/sqrt(2)) in north, east, up
 double light(double toward_north, double toward_east) {
   constexpr double kRoot = 0.7071067811865476, kNorth = 0.5, kWest = 0.5;
   return std::max(0.0, (kRoot - kNorth * toward_north + kWest * toward_east) /
@@ -61,7 +66,7 @@ double light(double toward_north, double toward_east) {
          kRoot;
 }
 
-// Height gained per metre at each pixel, north and east; 0 where it is not known.
+// Height gained per metre at a pixel toward north and east; 0 where it is unknown.
 struct Slope {
   double north = 0, east = 0;
 };
@@ -117,7 +122,7 @@ SeabedRaster seabed_raster(const MissionTerrain& terrain, const MapExtent& exten
       squares += slope.north * slope.north + slope.east * slope.east;
     }
   }
-  // Slopes are exaggerated to 20 degrees rms, or less where the ground is level but for noise.
+  // Slopes are exaggerated to 20 degrees rms; less where the seabed is level except for noise.
   const double rms = std::sqrt(squares / static_cast<double>(width * height));
   const double exaggeration = std::min(0.36 / rms, 20.0);
   const double span = std::max(raster.greatest_m - raster.least_m, 1e-3F);
@@ -128,7 +133,8 @@ SeabedRaster seabed_raster(const MissionTerrain& terrain, const MapExtent& exten
       const Slope slope = slope_at(raster, x, y, pixel_north_m, pixel_east_m);
       const double brightness =
           std::clamp(0.55 + 0.45 * light(slope.north * exaggeration, slope.east * exaggeration), 0.4, 1.15);
-      // From an eighth to seven eighths of the colours: light and dark are left for the shading.
+      // The colours used are those from an eighth to seven eighths of the scale: shading needs the lightest
+      // and the darkest.
       const auto colour = deep_colour(0.12 + 0.7 * (depth - raster.least_m) / span);
       std::uint8_t* pixel = &raster.rgba[4 * (y * width + x)];
       for (std::size_t i = 0; i < 3; ++i)

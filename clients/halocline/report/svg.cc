@@ -13,7 +13,7 @@ bool is_allowed(char c) {
   return byte >= 0x20 || c == '\n' || c == '\t';
 }
 
-// Bytes of the UTF-8 character that begins at `at`; 0 where there is none.
+// Returns the number of bytes of the UTF-8 character that begins at `at`; 0 when there is no valid one.
 std::size_t character_size(std::string_view text, std::size_t at) {
   const auto byte = static_cast<unsigned char>(text[at]);
   const std::size_t size = byte < 0x80                   ? 1
@@ -64,7 +64,7 @@ std::string with_unit(std::string_view number, std::string_view unit) {
 }
 
 std::string mark_definitions() {
-  // Each within 10 by 10.
+  // Each symbol fills at most 10 by 10 units.
   return R"svg(<svg width="0" height="0" style="position:absolute" aria-hidden="true"><defs>
 <symbol id="m-dot" viewBox="0 0 10 10"><circle cx="5" cy="5" r="3.6" fill="currentColor"/></symbol>
 <symbol id="m-ring" viewBox="0 0 10 10"><circle cx="5" cy="5" r="3.2" fill="none" stroke="currentColor" stroke-width="1.8"/></symbol>

@@ -83,7 +83,7 @@ std::string outcome_table(const MissionStore& mission, const PacketLinks& links)
     if (packet.is_refused()) ++refused[*packet.receipt];
   }
   if (all == 0 && refused.empty()) return "";
-  const auto name = [&](std::size_t outcome) {  // a link to the first of them
+  const auto name = [&](std::size_t outcome) {  // link to the first such packet
     const auto first = std::find_if(links.listed().begin(), links.listed().end(), [&](const Loss& loss) {
       return loss.outcome != nullptr && number_of(*loss.outcome) == outcome;
     });

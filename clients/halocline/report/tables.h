@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables of a report, as HTML.
+// Tables of a report as HTML.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace halocline::clients {
 
-inline constexpr std::size_t kMatrixVehicles = 24;  // at most, those met first
+inline constexpr std::size_t kMatrixVehicles = 24;  // maximum; the first ones of the run
 
-// Who received whom: share, counts and the median SNR of every pair; empty without outcomes.
+// Returns the matrix of deliveries: share, counts and median SNR of every pair; empty without outcomes.
 std::string link_matrix(const MissionStore& mission);
 
-// Every outcome by its cause, with counts and shares, and the packets that were refused; empty without
-// either. A cause links to its first packet among those lost.
+// Returns every outcome by its cause, with counts and shares, and the packets that were refused; empty when
+// there are neither. A cause links to its first packet in the table of losses.
 std::string outcome_table(const MissionStore& mission, const PacketLinks& links);
 
-// One row a packet that was lost or refused, with a sentence; empty when there is none.
-// Each packet that the time line shows links to its mark there.
+// Returns one row for each packet that was lost or refused, with a sentence on the reason; empty when there
+// is none. Packets on the time line link to their marks there.
 std::string loss_table(const MissionStore& mission, const PacketLinks& links);
 
-// The programs that took part and what they missed; empty where nothing was missed.
+// Returns the programs that took part and the messages that they missed; empty when none were missed.
 std::string node_table(const MissionStore& mission);
 
 }  // namespace halocline::clients

@@ -8,7 +8,7 @@
 namespace halocline::clients {
 namespace {
 
-// The first that follow each other differ the most.
+// Colours in an order in which the first few differ the most.
 constexpr std::array<VehicleColour, kVehicleColours> kColours{{{"#2d2f84", "#719cf5"},
                                                                {"#c37f00", "#e9cd56"},
                                                                {"#9835c8", "#9754ed"},
