@@ -44,7 +44,7 @@ std::vector<acoustics::RayLink> links_of(const ArrivalsArguments& arguments) {
   return read_links(file, arguments.links);
 }
 
-// Links whose path over the surface, the steepest of those with one bounce at most, is left out.
+// Notes links whose path by one surface bounce, the steepest of those with at most one bounce, is left out.
 void note_steep_paths(const std::vector<LinkArrivals>& found, double max_launch_angle_deg) {
   const auto is_steep = [&](const LinkArrivals& one) {
     const double height_m = one.link.source_depth_m + one.link.receiver_depth_m;
@@ -74,7 +74,7 @@ int find_arrivals(const ArrivalsArguments& arguments) {
     found.push_back({link, arrivals(sea, link, solver)});
   note_steep_paths(found, arguments.sea.max_launch_angle_deg);
   if (!arguments.plot.empty()) write_plot(arrival_plot(found, "Arrivals"), arguments.plot);
-  std::ostringstream text;  // so that nothing is written unless all went well
+  std::ostringstream text;  // nothing is written unless everything succeeds
   print_arrivals(text, found, format_of(arguments.format));
   write_output(arguments.output, text.str());
   return kDone;

@@ -27,7 +27,7 @@ int calc(CalcArguments& arguments) {
   require_free({{arguments.output}, arguments.force}, {arguments.input});
   std::ifstream file;
   if (!arguments.input.empty() && arguments.input != "-") file = open_input(arguments.input);
-  std::ostringstream text;  // so that nothing is written unless all went well
+  std::ostringstream text;  // nothing is written unless everything succeeds
   const int code = run_calc(arguments.options, file.is_open() ? file : std::cin, text, std::cerr);
   if (code == kDone) write_output(arguments.output, text.str());
   return code;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The subcommands of `halocline`. Each adds itself to the command line; when it is chosen, its callback does
-// the work and leaves the exit code: 0 done, 1 failed, 2 the user's error, 130 interrupted by Ctrl-C. What it
-// throws is reported by main.
+// Subcommands of `halocline`. Each adds itself to the command line. When it is chosen, its callback does the
+// work and sets the exit code: 0 done, 1 failed, 2 error of the user, 130 interrupted by Ctrl-C. Exceptions
+// are reported by main.
 #pragma once
 
 #include <string>
@@ -12,18 +12,18 @@
 namespace halocline::clients {
 
 inline constexpr int kDone = 0, kFailed = 1, kUserError = 2;
-inline constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells have it
+inline constexpr int kInterrupted = 130;  // 128 + SIGINT, as in shells
 inline constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 failed, 2 wrong command line or configuration, 69 the network cannot be used, "
     "130 interrupted by Ctrl-C.";
 
-// The end of a subcommand's --help.
+// Returns the end of a subcommand's --help.
 std::string footer(const std::string& examples);
 
-// --force of each command that writes files: see require_free (analysis/run_files.h).
+// Adds --force, which each command that writes files has; see require_free (analysis/run_files.h).
 void add_force_option(CLI::App& command, bool& force);
 
-// Options that `run` and `replay` share.
+// Adds the options that `run` and `replay` share.
 void add_rotation_options(CLI::App& command, std::vector<std::string>& rotate, int& keep_parts);
 
 void add_run_command(CLI::App& app, int& exit_code);

@@ -21,7 +21,7 @@ std::vector<std::string> words_of(const CLI::App& command) {
   return words;
 }
 
-// A command with its parents' names ("log output"), and what may follow it, separated by spaces.
+// Command with its parents' names ("log output"), and the words that may follow it, separated by spaces.
 struct Place {
   std::string path;
   std::string words;
@@ -45,7 +45,7 @@ std::string quoted_paths(const std::vector<Place>& places, const char* separator
   return text;
 }
 
-// For bash and zsh: `case` alternatives that set `candidates`.
+// Returns `case` alternatives that set `candidates`, for bash and zsh.
 std::string cases(const std::vector<Place>& places) {
   std::string text;
   for (const Place& place : places)

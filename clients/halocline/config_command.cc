@@ -17,8 +17,8 @@ struct ConfigArguments {
   std::vector<std::string> overrides;
 };
 
-// Reads measured channels for what is wrong with them. A run reads them when it makes its channel server,
-// once.
+// Reads measured channels to find their errors. A run reads them only once, when it creates its channel
+// server.
 void check_replay(const ScenarioConfig& config) {
   const channel_server::ReplayConfig& replay = config.channel_server.propagation.replay;
   if (replay.is_wanted()) make_measured_links(replay, make_modems(config.channel_server), config.scenario);

@@ -60,9 +60,9 @@ CoverageArea area_of(const CoverageOptions& options, const LinkSurveyEnd& from) 
   return area;
 }
 
-constexpr std::size_t kMany = 100'000;  // links, of a millisecond or more
+constexpr std::size_t kMany = 100'000;  // number of links, each of which takes a millisecond or more
 
-// Of the run's predictions, those that hold between vehicles alone.
+// Notes the parts of a run's prediction that exist between vehicles only.
 void note_what_is_left_out(const ScenarioConfig& config) {
   const auto& vehicles = config.channel_server.vehicles;
   if (config.channel_server.propagation.replay.is_wanted())
@@ -74,7 +74,7 @@ void note_what_is_left_out(const ScenarioConfig& config) {
 int map(const CoverageOptions& options, const ScenarioConfig& config, const LinkSurveyEnd& from) {
   const CoverageArea area = area_of(options, from);
   const auto quantities = quantities_of(options.quantities);
-  constexpr double kBytesACell = 5 * sizeof(double);  // delivery, level, delay, and two of what is written
+  constexpr double kBytesACell = 5 * sizeof(double);  // delivery, level, delay, and two values while writing
   require_memory(static_cast<double>(area.side * area.side * area.depths_m.size()) * kBytesACell +
                      estimated_memory_bytes(config),
                  "the map", "take larger cells, a shorter range or fewer depths");

@@ -37,7 +37,7 @@ int info(const LogArguments& arguments) {
   return is_whole ? kDone : kFailed;
 }
 
-// By the mission that the log holds, into one file.
+// Exports the run that the logs hold into one file.
 int export_mission(const LogArguments& arguments) {
   require(arguments.channel.empty(), "--channel is for --format csv alone");
   MissionLog log = read_mission(arguments.logs);

@@ -20,7 +20,7 @@ namespace hc = halocline::clients;
 
 namespace {
 
-// The ranges of CLI11 let NaN pass.
+// Refuses NaN, which the ranges of CLI11 accept.
 void refuse_nan(CLI::App& app) {
   const auto check = [](const std::string& text) {
     return std::isnan(std::strtod(text.c_str(), nullptr)) ? "Value " + text + " is no number" : std::string();
@@ -31,7 +31,7 @@ void refuse_nan(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands({})) refuse_nan(*command);
 }
 
-// It holds for the programs that a run starts, too.
+// Adds an option that also holds for the programs that a run starts.
 void add_any_raster_option(CLI::App& app) {
   const auto allow = [](std::int64_t) { setenv(halocline::bathymetry::kAnyRaster, "1", 1); };
   app.add_flag_function("--any-raster", allow,
@@ -56,7 +56,7 @@ void describe(CLI::App& app, int& exit_code) {
   refuse_nan(app);
 }
 
-// What stands where a subcommand has to, and is none; empty where all are.
+// Returns an error message for a word in the place of a subcommand that is none; empty when all are valid.
 std::string wrong_subcommand(const CLI::App& app, int argc, char** argv) {
   const CLI::App* command = &app;
   for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {

@@ -21,7 +21,7 @@ struct OutcomesArguments {
   bool force = false;
 };
 
-// What the outcomes are of, by the RECEIPTs.
+// Returns how complete the outcomes are according to the RECEIPTs.
 std::string coverage_of(const PacketAccount::Missing& missing, bool is_whole) {
   if (missing.accepted == 0) return "; the log holds no accepted RECEIPT to count them by";
   if (missing.without_outcome > 0)

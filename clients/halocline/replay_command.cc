@@ -60,7 +60,7 @@ void show(const Comparison& comparison, const std::string& format) {
     print(std::cout, comparison);
 }
 
-// The comparison beside the new log.
+// Files of the comparison, beside the new log.
 struct ComparisonFiles {
   std::string csv, json;
 };
@@ -70,7 +70,7 @@ ComparisonFiles comparison_files(const std::string& log) {
   return {beside(".comparison.csv"), beside(".comparison.json")};
 }
 
-// Throws where something that is there would be replaced.
+// Names the output files; throws when an existing file would be replaced.
 RunFiles files_of(const ReplayOptions& options, const ScenarioConfig& config, const LogReader& log) {
   RunFiles files = run_files("", config.scenario.name, options.out, "", options.scenario);
   const auto [csv, json] = comparison_files(files.log);
@@ -112,7 +112,8 @@ RunOutcome run_replay(const ReplayOptions& options, const ScenarioConfig& config
   return run_embedded(nodes.nodes(), run);
 }
 
-// Sensors and batteries only where something goes by them: other replays are as they were.
+// Selects sensors and batteries only when a vehicle's clock, noise or battery depends on them; other replays
+// ignore them.
 Played played_in(const ScenarioConfig& config) {
   const auto& equipped = config.channel_server.vehicles;
   const auto& vehicles = config.scenario.vehicles;

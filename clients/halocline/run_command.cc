@@ -64,7 +64,7 @@ void print_end(const RunOptions& options, const RunFiles& files, const ScenarioC
   if (!options.no_report) std::cout << "report      " << files.report << "\n";
 }
 
-// Without --out the folder is a new one; what is there stays unless --force.
+// Names the output files. Without --out the folder is new; existing files are kept unless --force is given.
 RunFiles files_of(const RunOptions& options, const std::string& name) {
   const bool all_named = !options.log.empty() && (options.no_csv || !options.csv.empty());
   const std::string out = !options.out.empty() || all_named ? options.out : make_new_folder("runs/" + name);
@@ -77,7 +77,7 @@ RunFiles files_of(const RunOptions& options, const std::string& name) {
   return files;
 }
 
-// Beforehand, while it can still be stopped.
+// Warns before the run, while it can still be stopped.
 void warn_of_large_log(const RunOptions& options, const ScenarioConfig& config, const std::string& log) {
   constexpr double kLarge = 10e9;
   std::error_code error;

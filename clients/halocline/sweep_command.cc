@@ -54,8 +54,8 @@ bool is_plan(const std::string& path) {
   return text.find("\n[sweep]") != std::string::npos || text.find("\n[[axis]]") != std::string::npos;
 }
 
-// The plan file, or the scenario, and what the command line adds; without a file, the plan of an earlier
-// start.
+// Returns the plan: the plan file or scenario with the additions of the command line; without a file, the
+// plan of an earlier start.
 SweepPlan plan_of(const SweepOptions& options) {
   SweepPlan plan;
   const std::string file = options.plan.empty() ? plan_path(options.out) : options.plan;
@@ -75,14 +75,14 @@ SweepPlan plan_of(const SweepOptions& options) {
   return plan;
 }
 
-// One run as it will be done.
+// Run of a sweep that is ready to start.
 struct Job {
   SweepRun run;
   std::string folder;
-  double duration_s = 0, memory_bytes = 0;  // the latter of its terrain, which is most of it
+  double duration_s = 0, memory_bytes = 0;  // memory: its terrain, which takes most of it
 };
 
-// Every configuration is checked before anything runs.
+// Prepares all runs. Every configuration is checked before anything runs.
 std::vector<Job> jobs_of(const SweepPlan& plan, const std::string& out) {
   std::vector<Job> jobs;
   for (std::size_t i = 0; i < plan.runs(); ++i) {
@@ -117,7 +117,7 @@ std::string last_line(const std::string& path) {
                      end - (start == std::string::npos ? 0 : start + 1) + 1);
 }
 
-// Runs one process and keeps its numbers. Empty when done; else what went wrong.
+// Runs one process and stores its results. Returns an error message; empty when done.
 std::string do_job(const SweepPlan& plan, const Job& job, bool keep_log) {
   std::error_code error;
   fs::create_directories(job.folder, error);
@@ -136,7 +136,7 @@ std::string do_job(const SweepPlan& plan, const Job& job, bool keep_log) {
   return "";
 }
 
-// Runs what is not done yet; returns how many failed.
+// Runs what is not done yet; returns the number of failed runs.
 std::size_t do_jobs(const SweepPlan& plan, const std::vector<Job>& jobs, const SweepOptions& options) {
   std::vector<const Job*> waiting;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
@@ -211,7 +211,8 @@ int sweep(SweepOptions options) {
     }
     return kDone;
   }
-  if (options.of == 0 && !options.gather) write_plan(options.out, plan);  // tasks of one sweep share it
+  // Tasks of one sweep share the plan.
+  if (options.of == 0 && !options.gather) write_plan(options.out, plan);
   if (!options.slurm.empty()) return write_slurm(jobs, options);
   if (options.gather) return gather(plan, jobs, options);
   bus::catch_stop_signals();

@@ -12,7 +12,7 @@
 namespace halocline::clients {
 namespace {
 
-// Becomes halocline-monitor, which lies beside this program; returns when it cannot.
+// Replaces this process by halocline-monitor, which is beside this program; throws when it cannot be started.
 void become_monitor(const std::vector<std::string>& arguments) {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);

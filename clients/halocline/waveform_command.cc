@@ -42,7 +42,7 @@ struct Transmission {
   double at_s = 0;
 };
 
-// "VEHICLE=FILE" or "VEHICLE=FILE@SECONDS".
+// Parses "VEHICLE=FILE" or "VEHICLE=FILE@SECONDS".
 Transmission transmission_of(const std::string& text, double at_s) {
   const auto equals = text.find('='), at = text.rfind('@');
   require(equals != std::string::npos && equals > 0,
@@ -91,7 +91,8 @@ int convolve(const WaveformOptions& options) {
   Recording run;
   bool is_whole = true;
   if (options.log.empty()) {
-    // Beyond what sound takes, vehicles go straight on.
+    // The recording ends 5 s after the last departure; vehicles are extrapolated along straight lines beyond
+    // it.
     run = record_run(config, terrain, SimTime::from_seconds(end_s + 5));
   } else {
     LogReader log(options.log);

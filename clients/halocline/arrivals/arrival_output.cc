@@ -186,7 +186,7 @@ void print_impulse_response(std::ostream& out, const LinkArrivals& found, double
   for (std::size_t i = 0; i < taps.size(); ++i) {
     out << format_number((first + static_cast<double>(i)) / rate_hz) << ',' << format_number(taps[i].real())
         << ',' << format_number(taps[i].imag()) << ',';
-    // An empty sample has no level.
+    // The level of a zero sample is left empty.
     if (std::abs(taps[i]) > 0) out << format_number(20 * elementary::log10(std::abs(taps[i])));
     out << '\n';
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrivals as a picture: level against delay as stems, and the angles below.
+// Plot of arrivals: stems of level against delay, and the angles below.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace halocline::clients {
 
-// A series for each link; of several links each is named by its ends.
+// Returns a plot with one series for each link; several links are named by their ends.
 Plot arrival_plot(const std::vector<LinkArrivals>& links, const std::string& title);
 
 }  // namespace halocline::clients

@@ -26,7 +26,7 @@ using acoustics::AbsorbingWater;
 using acoustics::RayWater;
 using acoustics::SoundSpeedProfile;
 
-// The latitude of pressure and the water of tables of speed alone; speeds do not depend on them.
+// Latitude for pressure, and for the water of tables that hold speed only; such speeds do not depend on it.
 const double kLatitude = to_radians(45);
 
 std::string joined(const std::vector<std::string>& lines) {
@@ -35,7 +35,7 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-// Rows of the columns named, in order; every fault of the table at once.
+// Reads rows of the named columns, in their order; reports all errors of the table at once.
 template <std::size_t kCount>
 std::vector<std::array<double, kCount>> read_columns(std::istream& in, const std::string& name,
                                                      const std::array<const char*, kCount>& columns) {

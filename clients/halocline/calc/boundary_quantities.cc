@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Quantities of the sea's boundaries: reflection at the bottom, loss at the surface, its waves and their
-// roughness.
+// Quantities of the sea's boundaries: bottom reflection, surface loss, wave height and roughness.
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -19,7 +18,7 @@ using acoustics::FluidBottom;
 using acoustics::Reflection;
 using acoustics::SurfaceModel;
 
-constexpr double kWaterSpeed = 1500;  // m/s: of the Rayleigh parameter, as the losses have it
+constexpr double kWaterSpeed = 1500;  // m/s; fixed for the Rayleigh parameter and losses
 
 InputColumn grazing_column() { return {{"grazing_deg"}, 1e-6, 90, {}}; }
 
@@ -76,7 +75,8 @@ Quantity wave_height() {
              [](const std::vector<double>& v) { return std::vector{acoustics::rms_wave_height_m(v[0])}; })}};
 }
 
-// Gamma = 2 k sigma sin G: how rough the surface is to sound.
+// Rayleigh parameter of the surface, with sigma the rms wave height and G the grazing angle:
+//   Gamma = 2 k sigma sin G,  k = 2 pi f / c,  c = 1500 m/s
 Quantity rayleigh_parameter() {
   return {"rayleigh-parameter",
           "2 k sigma sin(grazing) of the surface, k at 1500 m/s, sigma the rms wave height",

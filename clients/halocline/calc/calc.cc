@@ -15,7 +15,7 @@
 namespace halocline::clients {
 namespace {
 
-// Where a form's inputs lie in a table; empty for a column that is missing.
+// Index of the table's column for each input of a form; empty for a missing column.
 using ColumnMap = std::vector<std::optional<std::size_t>>;
 
 std::optional<std::size_t> find_column(const CsvTable& table, const InputColumn& input) {
@@ -50,7 +50,8 @@ const QuantityForm* find_form(const Quantity& quantity, const std::string& model
   return nullptr;
 }
 
-// Without a model: the first form whose columns are there, so that a table of T68 meets the formula for T68.
+// Selects the form when no model is given: the first one whose columns exist, so that a table with T68 is
+// computed by the formula for T68.
 const QuantityForm& form_for_table(const Quantity& quantity, const CsvTable& table) {
   for (const QuantityForm& form : quantity.forms) {
     if (has_needed_columns(table, form)) return form;
@@ -76,7 +77,7 @@ void check_needed_columns(const CsvTable& table, const QuantityForm& form, std::
   }
 }
 
-// The inputs of one row; a line in `errors` for each bad cell.
+// Reads the inputs of one row; appends a line to `errors` for each bad cell.
 std::vector<double> read_row(const CsvTable& table, const CsvLine& row, const QuantityForm& form,
                              const ColumnMap& map, std::vector<std::string>& errors) {
   std::vector<double> values;
@@ -96,7 +97,7 @@ std::vector<double> read_row(const CsvTable& table, const CsvLine& row, const Qu
   return values;
 }
 
-// The first value beyond the range for which its formula was published, and how many there are.
+// Records the first value outside of the published range of its formula, and the number of such values.
 class PublishedCheck {
  public:
   PublishedCheck(const std::string& quantity, const QuantityForm& form) : model_(form.model) {
@@ -115,7 +116,7 @@ class PublishedCheck {
                format_number(ranges_[i].highest);
     }
   }
-  // Empty where all are within.
+  // Returns the note for the user; empty when all values are inside.
   std::string note() const {
     if (count_ == 0) return {};
     return "note: " + first_ +
@@ -143,7 +144,7 @@ std::string result_cells(const std::vector<double>& values) {
   return text;
 }
 
-// The lines to write; lines in `errors` when rows cannot be computed.
+// Returns the lines to write; appends lines to `errors` for rows that cannot be computed.
 std::vector<std::string> compute(const CsvTable& table, const QuantityForm& form, const RowFunction& function,
                                  PublishedCheck& published, std::vector<std::string>& errors) {
   std::string header = table.header.text;

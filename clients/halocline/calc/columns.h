@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The columns that several quantities read, with the ranges that are allowed, and what they mean inside.
+// Input columns that several quantities share, with their allowed ranges, and their conversion.
 #pragma once
 
 #include <limits>
@@ -11,13 +11,13 @@
 
 namespace halocline::clients {
 
-// Stands for "no such column" where a value is then derived from others.
+// Marks an optional column whose value is derived from others when it is missing.
 inline constexpr double kDerived = std::numeric_limits<double>::quiet_NaN();
 
-// The same column, but optional.
+// Returns the same column as an optional one with a default value.
 InputColumn or_else(InputColumn column, double value);
 
-// A value that takes its place in a row but that no column gives: a formula that does not know of it.
+// Returns a fixed value that takes a place in a row without a column, for formulas that do not use it.
 InputColumn unread(double value);
 
 InputColumn frequency_column(const std::string& name);  // kHz, above 0
@@ -31,16 +31,16 @@ InputColumn shipping_column();   // default 0.5
 InputColumn wind_column();       // default 0
 InputColumn latitude_column();   // default 45
 
-// The five values that absorption may depend on, in the order T_degC, S_ppt, depth_m, P_atm, pH, and the
-// water they make. A formula reads the columns it knows of: Fisher and Simmons have no salinity and no pH,
-// Thorp nothing at all. P_atm, where it is not given, follows from depth_m at 45 degrees.
+// Columns that absorption may depend on, in the order T_degC, S_ppt, depth_m, P_atm, pH, and the water made
+// from their values. A formula reads only the columns that it uses: Fisher and Simmons neither salinity nor
+// pH, Thorp none at all. A missing P_atm follows from depth_m at 45 degrees latitude.
 std::vector<InputColumn> absorbing_water_columns(acoustics::AbsorptionModel model);
 acoustics::AbsorbingWater to_absorbing_water(const std::vector<double>& values, std::size_t first);
 
-// `front` followed by `back`.
+// Returns `front` followed by `back`.
 std::vector<InputColumn> joined(std::vector<InputColumn> front, const std::vector<InputColumn>& back);
 
-// A form that needs no preparation.
+// Returns a form that needs no preparation.
 QuantityForm plain(std::string model, std::vector<InputColumn> inputs, std::vector<std::string> outputs,
                    const RowFunction& function);
 

@@ -28,8 +28,8 @@ using acoustics::AbsorptionModel;
 using acoustics::SoundSpeedModel;
 using acoustics::SoundSpeedProfile;
 
-constexpr acoustics::WaterSample kAssumed{10,
-                                          35};  // for profiles of speed alone, as the profile reader has it
+// Water of profiles that hold sound speed only, as in the profile reader: 10 degC, 35 PSU.
+constexpr acoustics::WaterSample kAssumed{10, 35};
 
 SoundSpeedProfile load_profile(const CalcOptions& options, std::optional<SoundSpeedModel> model) {
   const SoundSpeedModel speed = model.value_or(SoundSpeedModel::kMackenzie1981);
@@ -44,7 +44,8 @@ SoundSpeedProfile load_profile(const CalcOptions& options, std::optional<SoundSp
 using ProfileRowFunction =
     std::function<std::vector<double>(const SoundSpeedProfile&, const std::vector<double>&)>;
 
-// One form for each formula of sound speed. Only an explicit --model overrides what a profile prefers.
+// Returns one form for each sound speed formula. Only an explicit --model overrides the formula that a
+// profile prefers.
 std::vector<QuantityForm> forms_by_speed(const std::vector<InputColumn>& inputs,
                                          const std::vector<std::string>& outputs,
                                          const ProfileRowFunction& function) {
@@ -85,13 +86,14 @@ Quantity profile_speed() {
                          })};
 }
 
-// Equation 1 as the paper prints it: its T^2 and T^3 terms fused into one. For comparison only.
+// Equation 1 as misprinted in the paper, with its T^2 and T^3 terms merged into one, for comparison only:
+//   -5.304e-4 T^3  in place of  -5.304e-2 T^2 + 2.374e-4 T^3
 double misprinted_speed_mps(const SoundSpeedProfile& mackenzie, double depth_m) {
   const double t = mackenzie.water(depth_m).temperature_degc;
   return mackenzie.sound_speed_mps(depth_m) + 5.304e-2 * t * t - (2.374e-4 + 5.304e-4) * t * t * t;
 }
 
-// The figure's curves: one profile after the other, speed and delay over `range_m` at equal depths.
+// Computes the curves of figure 4: for each profile in turn, speed and delay over `range_m` at equal depths.
 RowFunction figure_4_row() {
   const auto mean = SoundSpeedProfile::global_mean(), s35 = SoundSpeedProfile::global_mean_of_salinity_35();
   const auto harris = SoundSpeedProfile::harris_zorzi();
@@ -124,7 +126,7 @@ Quantity figure_4() {
             [](const CalcOptions&) { return figure_4_row(); }}}};
 }
 
-// Columns: low, high, shipping, wind, range, level, depth, directivity, spreading.
+// Computes a link; columns: low, high, shipping, wind, range, level, depth, directivity, spreading.
 std::vector<double> link_row(acoustics::Environment sea, const std::vector<double>& v) {
   sea.noise = {v[2], v[3]};
   sea.spreading_exponent = v[8];

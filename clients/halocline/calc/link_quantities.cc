@@ -23,7 +23,7 @@ using acoustics::AbsorptionModel;
 
 using ModelRowFunction = std::function<std::vector<double>(AbsorptionModel, const std::vector<double>&)>;
 
-// One form for each absorption formula: `own` columns, then those of the water.
+// Returns one form for each absorption formula, with the columns `own` followed by those of the water.
 std::vector<QuantityForm> forms_by_absorption(const std::vector<InputColumn>& own,
                                               const std::vector<std::string>& outputs,
                                               const ModelRowFunction& function) {
@@ -51,7 +51,9 @@ Quantity transmission_loss() {
                               })};
 }
 
-// Columns: level, range, frequency, bandwidth, spreading, shipping, wind, directivity, water.
+// Computes a signal-to-noise ratio; columns: level, range, frequency, bandwidth, spreading, shipping, wind,
+// directivity, water:
+//   SNR = SL - TL - NL - 10 log10(B) + DI
 std::vector<double> snr_row(AbsorptionModel model, const std::vector<double>& v) {
   const double frequency_hz = khz_to_hz(v[2]);
   const double alpha = absorption_db_per_km(model, to_absorbing_water(v, 8), frequency_hz);
@@ -70,7 +72,7 @@ Quantity snr() {
                               {"TL_dB", "Prx_dB_re_1uPa", "N_dB_re_1uPa2_per_Hz", "SNR_dB"}, snr_row)};
 }
 
-// Columns: level, range, low, high, spreading, shipping, wind, water.
+// Computes the capacity; columns: level, range, low, high, spreading, shipping, wind, water.
 std::vector<double> capacity_row(AbsorptionModel model, const std::vector<double>& v) {
   require(v[2] < v[3], "f_lo_kHz has to be below f_hi_kHz");
   const acoustics::UniformLink link{.source_level = {v[0]},
@@ -96,7 +98,7 @@ void add_plan(std::vector<double>& row, const acoustics::BandPlan& plan) {
               plan.source_level.value, plan.capacity_bps, plan.capacity_bps / plan.band.width_hz()});
 }
 
-// Columns: range in km, spreading, shipping, wind, target ratio, water.
+// Computes the optimum band; columns: range in km, spreading, shipping, wind, target ratio, water.
 std::vector<double> optimum_row(AbsorptionModel model, const std::vector<double>& v) {
   const acoustics::OptimumBand best =
       acoustics::optimum_band({.range_m = 1000 * v[0],
@@ -119,7 +121,7 @@ Quantity optimum_band() {
                            "C3_bit_per_s", "C3_over_B3", "fwf_lo_kHz", "fwf_hi_kHz", "Bwf_Hz",
                            "Pwf_dB_re_1uPa", "Cwf_bit_per_s", "Cwf_over_Bwf"},
                           optimum_row)};
-  // Stojanovic's own absorption comes first.
+  // Stojanovic's absorption formula comes first.
   for (QuantityForm& form : quantity.forms) {
     if (form.model == to_name(AbsorptionModel::kThorpPiecewise)) std::swap(form, quantity.forms.front());
   }

@@ -56,7 +56,7 @@ Quantity bit_error_rate() {
                  bit_error_row)}};
 }
 
-constexpr int kMaxDistance = 40;  // its counts are still whole numbers in a double
+constexpr int kMaxDistance = 40;  // path counts up to here are exact integers in a double
 
 Quantity code_spectrum() {
   return {"code-spectrum",
@@ -108,7 +108,8 @@ std::size_t whole_bytes(double bytes) {
   return static_cast<std::size_t>(bytes);
 }
 
-// `payload_bits` counts the 64 of the baseline packet, as the reference does; the rest is cargo.
+// Computes the chips of a JANUS packet. `payload_bits` includes the 64 of the baseline packet, as in the
+// reference; the rest is cargo.
 std::vector<double> janus_row(const std::vector<double>& v) {
   const Modem modem = channel_server::load_modem("janus").modem;
   const double chips_a_second = 2 * modem.bit_rate_bps;
@@ -127,7 +128,7 @@ std::vector<double> duration_row(const Modem& modem, double payload_bytes) {
   return {timing.preamble.seconds(), timing.duration.seconds(), static_cast<double>(timing.information_bits)};
 }
 
-// Of a modem by the name or path of its profile.
+// Returns the form for the modem whose profile has that name or path.
 QuantityForm duration_form(const std::string& profile) {
   return {profile,
           {{{"payload_bytes"}, 0, 32'768, {}}},
@@ -166,7 +167,9 @@ Quantity packet_duration() {
           std::move(forms), duration_form};
 }
 
-// Columns: source towards the receiver, receiver away from the source, frequency, sound speed.
+// Computes the Doppler shift; columns: speed of the source toward the receiver, speed of the receiver away
+// from the source, frequency, sound speed. To first order:
+//   f_rx = f (1 + (v_tx - v_rx) / c)
 std::vector<double> doppler_row(const std::vector<double>& v) {
   const double shift = acoustics::doppler_shift(v[0], v[3], v[1], v[3]);
   return {v[2] * acoustics::doppler_factor(v[0], v[3], v[1], v[3]), shift, v[2] * (1 + (v[0] - v[1]) / v[3])};

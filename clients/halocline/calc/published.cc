@@ -13,7 +13,8 @@ namespace {
 
 using acoustics::PublishedRange;
 
-constexpr double kHzPerKhz = 1000, kDecibarPerKilogram = 9.80665;  // a kilogram per square centimetre
+// The kilogram-force per square centimetre in decibar.
+constexpr double kHzPerKhz = 1000, kDecibarPerKilogram = 9.80665;
 
 PublishedRange in_units_of(const PublishedRange& range, double unit) {
   return {range.lowest / unit, range.highest / unit};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The range for which a formula of `halocline calc` was published, by quantity, model and column.
+// Ranges for which the formulas of `halocline calc` were published, by quantity, model and column.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace halocline::clients {
 
-// In the units of the column; unlimited where its author states none.
+// Returns the range in the units of the column; unlimited when the author states none.
 acoustics::PublishedRange published_range(const std::string& quantity, const std::string& model,
                                           const std::string& column);
 

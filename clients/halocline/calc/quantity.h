@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `halocline calc` can compute: a description of every quantity, its formulas and its columns.
+// Quantities that `halocline calc` can compute: their descriptions, formulas and columns.
 //
-// A quantity has one or more forms, one a formula (`--model`). A form names the columns it reads, with unit
-// and allowed range, those it may do without, and the columns it writes; names are those of the reference
-// tables, units in them (kHz, degC, dB re 1 uPa ...): this is the edge where they turn into SI.
+// A quantity has one form for each formula (`--model`), at least one. A form names the columns that it reads,
+// with units and allowed ranges, its optional columns, and the columns that it writes. Column names are those
+// of the reference tables and contain their units (kHz, degC, dB re 1 uPa ...), which are converted to SI
+// here.
 #pragma once
 
 #include <functional>
@@ -16,44 +17,47 @@ namespace halocline::clients {
 // Options of the command line.
 struct CalcOptions {
   std::string quantity = "";
-  std::string model =
-      "";  // of the quantity's forms, or a file; empty: its first, or the one whose columns are there
+  // Name of a form, or of a file; empty: the first form whose columns exist, otherwise the first.
+  std::string model = "";
   std::string profile = "";  // built-in name or file, for delays and links; empty: global-mean
-  double latitude_deg = 45;  // of the place, for files on a grid and models of pressure, -90..90
-  double longitude_deg = 0;  // likewise
+  double latitude_deg = 45;  // -90..90; for gridded files and models of pressure
+  double longitude_deg = 0;  // for gridded files and models of pressure
   bool list = false;         // describe the quantities and read nothing
 };
 
-// A column that is read.
+// Column that a form reads.
 struct InputColumn {
-  std::vector<std::string> names;   // the first is its name, others are understood; none: unread
-  double lowest, highest;           // allowed
-  std::optional<double> otherwise;  // value where the column is missing; empty: the column is needed
+  std::vector<std::string> names;   // first the name, then accepted synonyms; none: unread
+  double lowest, highest;           // allowed range
+  std::optional<double> otherwise;  // default of a missing column; empty: the column is required
 };
 
-// Values of the input columns in their order, to values of the output columns. May throw InvalidArgument.
+// Maps values of the input columns, in their order, to values of the output columns. May throw
+// InvalidArgument.
 using RowFunction = std::function<std::vector<double>(const std::vector<double>&)>;
 
+// Formula of a quantity.
 struct QuantityForm {
   std::string model;
   std::vector<InputColumn> inputs;
   std::vector<std::string> outputs;
-  // Made once a run; may read a profile and throw InvalidArgument.
+  // Called once per run; may read a profile and throw InvalidArgument.
   std::function<RowFunction(const CalcOptions&)> prepare;
 };
 
+// Quantity with its formulas.
 struct Quantity {
   std::string name;
   std::string summary;
   std::vector<QuantityForm> forms;  // at least one; the first is the default
-  // Makes a form of a model that is the path of a file (.toml); empty where models are formulas.
+  // Makes a form from the path of a model file (.toml); null when models are formulas only.
   std::function<QuantityForm(const std::string& path)> form_of_file = nullptr;
 };
 
-// Every quantity, in the order of the list.
+// Returns all quantities in the order in which they are listed.
 const std::vector<Quantity>& all_quantities();
 
-// The parts of it, one a file.
+// Return the groups of quantities; each is defined in its own file.
 std::vector<Quantity> water_quantities();
 std::vector<Quantity> boundary_quantities();
 std::vector<Quantity> link_quantities();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Quantities of the water itself: sound speed, pressure, absorption, noise.
+// Quantities of the water: sound speed, pressure, absorption, noise.
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,7 +70,8 @@ Quantity depth() {
                  })}};
 }
 
-// Components, total and relaxation frequencies; the latter in Hz or kHz as the reference tables have them.
+// Returns the form with absorption components, total and relaxation frequencies, which are in Hz or kHz as in
+// the reference tables.
 QuantityForm absorption_form(AbsorptionModel model, const std::string& frequency_unit, double hz_per_unit) {
   return plain(std::string(to_name(model)),
                joined({frequency_column("f_kHz")}, absorbing_water_columns(model)),
@@ -89,7 +90,8 @@ QuantityForm absorption_form(AbsorptionModel model, const std::string& frequency
 }
 
 double thorp_at(AbsorptionModel model, double frequency_khz) {
-  return absorption_db_per_km(model, {4, 35, 0, 1, 8}, khz_to_hz(frequency_khz));  // reads none of the water
+  // Thorp's formulas do not depend on the water.
+  return absorption_db_per_km(model, {4, 35, 0, 1, 8}, khz_to_hz(frequency_khz));
 }
 
 QuantityForm all_thorp_forms() {

@@ -12,7 +12,7 @@ bool crosses(const LinePlace& from, const LinePlace& to) {
   return std::abs(to.longitude_deg - from.longitude_deg) > kHalfTurn_deg;
 }
 
-// The place on the meridian between two places on both sides of it, on the side of `from`.
+// Returns the place on the meridian between two places on opposite sides of it, on the side of `from`.
 LinePlace crossing(const LinePlace& from, const LinePlace& to) {
   const double side_deg = std::copysign(kHalfTurn_deg, from.longitude_deg);
   const double step_deg = to.longitude_deg + std::copysign(kTurn_deg, side_deg) - from.longitude_deg;
@@ -43,7 +43,7 @@ std::vector<std::vector<LinePlace>> cut_at_date_line(const std::vector<LinePlace
     }
     add(place);
   }
-  if (pieces.size() > 1 && pieces.back().size() == 1) pieces.pop_back();  // it ends on the meridian
+  if (pieces.size() > 1 && pieces.back().size() == 1) pieces.pop_back();  // the line ends on the meridian
   return pieces;
 }
 

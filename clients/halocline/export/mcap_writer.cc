@@ -27,7 +27,7 @@ enum Opcode : std::uint8_t {
   kDataEnd = 15,
 };
 
-// The fields of a record, little endian.
+// Encoded fields of a record, little endian.
 class Fields {
  public:
   template <class Number>
@@ -36,7 +36,7 @@ class Fields {
       bytes_ += static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i));
     return *this;
   }
-  // After its length.
+  // Appends a text after its length.
   Fields& text(std::string_view value) {
     number(static_cast<std::uint32_t>(value.size()));
     return raw(value);
@@ -123,7 +123,7 @@ std::uint16_t McapWriter::add_channel(const std::string& topic, const std::strin
 
 void McapWriter::write(std::uint16_t channel, SimTime at, std::string_view payload) {
   if (chunk_.size() > kChunkBytes) end_chunk();
-  // Schemas and channels stand before their first message.
+  // Schemas and channels are written before their first message.
   for (; schemas_in_chunks_ < schemas_.size(); ++schemas_in_chunks_) chunk_ += schemas_[schemas_in_chunks_];
   for (; channels_in_chunks_ < channels_.size(); ++channels_in_chunks_)
     chunk_ += channels_[channels_in_chunks_];
@@ -227,7 +227,7 @@ void McapWriter::close() {
     summary += records;
   }
   const std::uint64_t offsets_begin = summary_begin + summary.size();
-  // The footer without its checksum, which is of all that stands before it in the summary section.
+  // Footer without its checksum, which covers all preceding bytes of the summary section.
   const std::string footer = Fields()
                                  .number(static_cast<std::uint8_t>(kFooter))
                                  .number(std::uint64_t{20})

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes MCAP files (mcap.dev/spec, version 0): uncompressed chunks with an index, a summary and checksums.
+// Writer of MCAP files (mcap.dev/spec, version 0): uncompressed chunks with an index, a summary and
+// checksums.
 #pragma once
 
 #include <cstddef>
@@ -16,19 +17,21 @@
 
 namespace halocline::clients {
 
-// CRC-32 of ISO 3309, as in zlib; `crc` continues one.
+// Returns the CRC-32 of ISO 3309, as in zlib; `crc` is the checksum of the bytes before.
 std::uint32_t crc32(std::string_view bytes, std::uint32_t crc = 0);
 
+// Writer of one file.
 class McapWriter {
  public:
-  // The file is replaced by close(). Throws std::runtime_error when it cannot be written.
+  // Starts a file, which close() moves into place. Throws std::runtime_error when it cannot be written.
   explicit McapWriter(std::string path);
 
-  // Of messages in JSON with this JSON schema; a schema's name stands for one schema.
+  // Adds a channel of JSON messages with this JSON schema. Channels with the same name of a schema share the
+  // schema.
   std::uint16_t add_channel(const std::string& topic, const std::string& schema_name,
                             std::string_view json_schema);
   void write(std::uint16_t channel, SimTime at, std::string_view payload);
-  // Once, at the end. Throws as the constructor.
+  // Completes the file; to be called once. Throws as the constructor.
   void close();
 
  private:
@@ -45,11 +48,11 @@ class McapWriter {
   AtomicFile replacement_;
   std::ofstream file_;
   std::uint64_t written_ = 0;
-  std::uint32_t crc_ = 0;  // of the data section so far
+  std::uint32_t crc_ = 0;  // checksum of the data section so far
   std::map<std::string, std::uint16_t> schema_ids_;
-  std::vector<std::string> schemas_, channels_;  // records
+  std::vector<std::string> schemas_, channels_;  // encoded records
   std::size_t channels_in_chunks_ = 0, schemas_in_chunks_ = 0;
-  std::string chunk_;  // records of the chunk that is being filled
+  std::string chunk_;  // records of the current chunk
   std::uint64_t chunk_begin_ns_ = 0, chunk_end_ns_ = 0;
   std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> chunk_index_;
   std::vector<Chunk> chunks_;

@@ -33,13 +33,13 @@ namespace {
 
 using nlohmann::json;
 
-// What is written at an instant of a mission; sorted by time before it is.
+// Message to be written at an instant; all are sorted by time first.
 struct Writing {
   SimTime at;
   std::uint16_t channel = 0;
-  const MissionVehicle* vehicle = nullptr;    // its position
-  const packet_outcome_t* outcome = nullptr;  // else this outcome
-  const PacketRecord* refused = nullptr;      // else this refusal; else the scene
+  const MissionVehicle* vehicle = nullptr;    // position to be written
+  const packet_outcome_t* outcome = nullptr;  // otherwise this outcome
+  const PacketRecord* refused = nullptr;      // otherwise this refusal, otherwise the scene
 };
 
 std::string text_of(const json& message) {
@@ -53,7 +53,7 @@ bathymetry::LocalFrame required_frame(const MissionStore& mission) {
   return *frame;
 }
 
-// When states and packets were received, and both ends of the mission; in order.
+// Returns the times at which states and packets were received, and both ends of the run, sorted.
 std::vector<SimTime> times_received(const MissionStore& mission) {
   std::vector<SimTime> all{mission.begin(), mission.end()};
   for (const MissionVehicle& vehicle : mission.vehicles()) {
@@ -67,8 +67,8 @@ std::vector<SimTime> times_received(const MissionStore& mission) {
   return all;
 }
 
-// None from a minute after the last of what was received to the period of the next: a state a year later adds
-// no scenes of a year.
+// Adds the scenes. There are none from a minute after the last message until just before the next one: a
+// state that is a year late must not add a year of scenes.
 void add_scenes(const MissionStore& mission, std::uint16_t channel, std::vector<Writing>& all) {
   constexpr SimDuration kPeriod = SimDuration::from_milliseconds(500);
   constexpr SimDuration kLongestSilence = SimDuration::from_milliseconds(60'000);
@@ -90,7 +90,7 @@ void add_packets(const MissionStore& mission, std::uint16_t channel, std::vector
   }
 }
 
-// Those of `by_departure` that may be on their way.
+// Returns the packets of `by_departure` that may be under way.
 std::vector<const PacketRecord*> under_way(const std::vector<const PacketRecord*>& by_departure, SimTime at) {
   constexpr SimDuration kLongest = SimDuration::from_milliseconds(120'000);
   const auto first = std::lower_bound(by_departure.begin(), by_departure.end(), at - kLongest,
@@ -114,7 +114,7 @@ std::int64_t floor_division(std::int64_t value, std::int64_t by) {
   return value / by - (value % by < 0 ? 1 : 0);
 }
 
-// To the nearest millisecond.
+// Formats a time to the nearest millisecond.
 std::string iso_time(SimTime at) {
   const std::int64_t rounded_ms = floor_division(at.nanoseconds() + 500'000, 1'000'000);
   const std::time_t seconds = floor_division(rounded_ms, 1000);
@@ -134,7 +134,7 @@ std::vector<LinePlace> line_of(const bathymetry::LocalFrame& frame, const Missio
   return line;
 }
 
-// Coordinates and times as a feature has them: of one place, of a line, or of its pieces.
+// Coordinates and times of a GeoJSON feature: of one place, of a line, or of its pieces.
 struct TrackJson {
   const char* type;
   json coordinates = json::array(), time_s = json::array();
@@ -166,13 +166,13 @@ TrackJson track_json(const std::vector<LinePlace>& line) {
   return track;
 }
 
-// GPX knows no 180 E: its longitudes end below it.
+// GPX has no longitude of 180 degrees east: its range ends just below.
 double gpx_longitude_deg(double longitude_deg) {
   constexpr double kRounding_deg = 0.5e-8;
   return longitude_deg >= 180 - kRounding_deg ? -180 : longitude_deg;
 }
 
-// A name of a vehicle is [a-z0-9_-]; a scenario's is a text.
+// Escapes a text for XML. A vehicle's name is [a-z0-9_-], but a scenario's is any text.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text)

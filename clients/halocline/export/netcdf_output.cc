@@ -29,7 +29,7 @@ nc_type to_netcdf(NetcdfOutput::Type type) {
   return NC_DOUBLE;
 }
 
-constexpr std::size_t kFirstBytes = 1 << 20;  // grows
+constexpr std::size_t kFirstBytes = 1 << 20;  // initial size; netCDF enlarges it
 
 struct Free {
   void operator()(void* memory) const { std::free(memory); }

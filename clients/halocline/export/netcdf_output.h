@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A netCDF-4 file that is being written, through netCDF's C library: for modules that have it.
+// Writer of a netCDF-4 file through netCDF's C library, for modules that link it.
 //
-// It is made in memory and written by close(): HDF5 reports a full disk, and crashes when the file is closed
-// after that.
+// The file is built in memory and written by close(), because HDF5 crashes when a file is closed after an
+// error from a full disk.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace halocline::clients {
 
-// Functions throw std::runtime_error, with netCDF's own words.
+// File being written. Functions throw std::runtime_error with netCDF's message.
 class NetcdfOutput {
  public:
   enum class Type { kDouble, kInteger, kLong, kText };
@@ -27,15 +27,15 @@ class NetcdfOutput {
   int variable(const std::string& name, Type type, const std::vector<int>& dimensions);
   void attribute(int variable, const std::string& name, const std::string& value);
   void attribute(int variable, const std::string& name, double value);
-  void attribute(const std::string& name, const std::string& value);  // of the file
-  // Before any values: what stands for none, and that the variable is compressed.
+  void attribute(const std::string& name, const std::string& value);  // attribute of the file
+  // Sets NaN as the fill value and compresses the variable. To be called before any values are written.
   void fill_with_nan(int variable);
-  // The whole variable; the last dimension varies fastest.
+  // Write a whole variable; its last dimension varies fastest.
   void put(int variable, const std::vector<double>& values);
   void put(int variable, const std::vector<int>& values);
   void put(int variable, const std::vector<long long>& values);
   void put(int variable, const std::vector<const char*>& values);
-  // Of a variable's first dimension the values at one index.
+  // Writes the values at one index of the variable's first dimension.
   void put_at(int variable, std::size_t index, const std::vector<std::size_t>& other_sizes,
               const std::vector<double>& values);
 

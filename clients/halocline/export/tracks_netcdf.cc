@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tracks of a mission as netCDF-4, through netCDF's C library. Part of the module
-// halocline_tracks_netcdf.so, which only mission_export.cc loads.
+// Output of tracks as netCDF-4, through netCDF's C library. Part of the module halocline_tracks_netcdf.so,
+// which only mission_export.cc loads.
 #include <cstddef>
 #include <functional>
 #include <numbers>
@@ -21,7 +21,7 @@ namespace {
 
 struct Quantity {
   const char* name;
-  const char* standard_name;  // of CF; empty: none
+  const char* standard_name;  // CF standard name; empty: none
   const char* unit;
   const char* meaning;
   std::function<double(const Timed<TrackPoint>&)> value;

@@ -21,7 +21,7 @@ struct Span {
     high = std::max(high, value);
   }
   bool empty() const { return low > high; }
-  // Widened by a share of itself on either side, and never of no width.
+  // Returns the span widened by `share` of its width on either side, with a width above 0 in any case.
   Span widened(double share) const {
     const double margin = high > low ? share * (high - low) : std::max(1.0, std::abs(high) * 0.1);
     return {low - margin, high + margin};
@@ -52,7 +52,7 @@ void check(const Chart& chart) {
   }
 }
 
-// Room between the places where bars stand: the least distance between two of them.
+// Returns the space for the bars at one place: the least distance between two places.
 double bar_room(const Chart& chart) {
   std::vector<double> places;
   for (const Series& series : chart.series) {
@@ -154,13 +154,12 @@ class ChartScript {
   const Chart& chart_;
   int number_;
   std::string script_;
-  double base_ = 0;  // where stems rise from
+  double base_ = 0;  // lower end of stems
 };
 
 }  // namespace
 
-// In gnuplot's single-quoted strings nothing is special but the quote, which is doubled, and the end of the
-// line.
+// Doubles quotes and blanks out control characters: nothing else is special within gnuplot's single quotes.
 std::string gnuplot_text(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {

@@ -40,7 +40,8 @@ std::string text_of(std::FILE* file) {
   return text;
 }
 
-// gnuplot says nothing about a disk that was full; a whole picture has its end.
+// True when a picture is complete: gnuplot does not report a full disk, but only a complete file has its end
+// marker.
 bool has_end(std::string_view picture, bool is_png) {
   constexpr std::size_t kEndBytes = 64;
   picture.remove_prefix(picture.size() - std::min(kEndBytes, picture.size()));

@@ -17,9 +17,9 @@ constexpr std::chrono::milliseconds kPollInterval{20};
 constexpr std::chrono::seconds kStopTimeout{10};
 constexpr int kNotStarted = 127, kBySignal = 128;
 
-// In the child, between fork and exec: async-signal-safe calls only. The kernel sends SIGKILL to the child
-// when the thread that forked ends, however it ends; a parent that ended before the request is seen by the
-// parent id.
+// Runs in the child between fork and exec: async-signal-safe calls only. The kernel sends SIGKILL to the
+// child when the thread that forked ends, for any reason; a parent that ended before this was requested is
+// recognised by the parent id.
 [[noreturn]] void become(char* const* arguments, const char* output_path, pid_t parent) {
   const int in = open("/dev/null", O_RDONLY);
   const int out = open(output_path, O_WRONLY | O_CREAT | O_TRUNC, 0644);

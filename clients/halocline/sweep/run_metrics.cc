@@ -47,7 +47,7 @@ double mean(const std::vector<double>& values) {
   return values.empty() ? kNaN : sum / static_cast<double>(values.size());
 }
 
-// `sorted` ascending.
+// Returns a percentile of `sorted`, which is ascending: the element with rank ceil(share * size).
 double nearest_rank(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return kNaN;
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
@@ -58,7 +58,7 @@ struct Counts {
   OutcomeSummary outcomes{3'600'000'000};
   LogStatistics statistics;
   std::int64_t payload_bits = 0;
-  double sent_s = 0, longest_s = 0;  // durations of packets: their sum, and the greatest
+  double sent_s = 0, longest_s = 0;  // total and greatest duration of packets
   std::int64_t offered = 0;
   std::vector<double> network_delays_s, hops;
 
@@ -93,7 +93,7 @@ struct Counts {
   }
 };
 
-// Of packets received by the one vehicle that they were for.
+// Returns the total duration of packets received by the one vehicle that they were addressed to.
 double received_s(const OutcomeSummary& outcomes) {
   double sum_s = 0;
   for (const packet_outcome_t& o : outcomes.outcomes()) {
@@ -171,7 +171,7 @@ RunMetrics metrics_of(LogReader& log) {
   return metrics;
 }
 
-// JSON has no NaN: null.
+// NaN is written as null, because JSON has no NaN.
 std::string to_json(const RunMetrics& metrics) {
   Json json;
   json["simulated_s"] = metrics.simulated_s;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The results of one run that a sweep keeps.
+// Results of one run that a sweep keeps.
 //
-// A packet counts at a receiver that it was addressed to (or sent to all); those merely overheard count among
-// the outcomes only. Delays are travel times of the first significant path of what was delivered; latency
-// goes from the first bit that left to the last that arrived. Throughput counts the payload bits that reached
-// their destinations. Load and use of the channel are those of textbooks, G and S: the durations of the
-// packets sent, and of those received by the one vehicle that they were addressed to, over the run. Numbers
-// of a network are of NETWORK_EVENTs, from the offer to the delivery; its load is the packets offered times
-// the longest duration of a packet sent, which is that of their data. Percentiles are the least value that at
-// least that share of the sample does not exceed (nearest rank).
+// A packet counts at each receiver that it was addressed to (every vehicle for a broadcast); packets that are
+// only overheard count among the outcomes alone. Delays are travel times of the first significant path of
+// delivered packets; latency extends from the departure of the first bit to the arrival of the last.
+// Throughput counts the payload bits that reached their destinations. Channel load and channel use are the
+// textbooks' G and S: the summed durations of the packets sent, and of those received by the one vehicle that
+// they were addressed to, divided by the duration of the run. Numbers of a network come from NETWORK_EVENTs,
+// from the offer to the delivery; its load is the number of packets offered times the longest duration of a
+// packet sent, which is that of its data. A percentile is the smallest value that at least that share of the
+// sample does not exceed (nearest rank).
 #pragma once
 
 #include <array>
@@ -23,7 +24,8 @@
 
 namespace halocline::clients {
 
-// The numbers of a run that have a mean over seeds; NaN where the run has none (nothing was delivered).
+// Numbers of a run that are averaged over seeds; NaN when the run has none (such as a delay when nothing was
+// delivered).
 enum class RunNumber {
   kPacketsSent,
   kPacketsRefused,
@@ -46,32 +48,35 @@ enum class RunNumber {
 inline constexpr std::size_t kRunNumbers = 17;
 
 struct RunNumberInfo {
-  const char* name;       // as a column and a variable
-  const char* unit;       // as UDUNITS has it
-  const char* meaning;    // one line
-  bool is_share = false;  // of something: within 0 to 1
+  const char* name;       // name of the column and variable
+  const char* unit;       // unit as of UDUNITS
+  const char* meaning;    // description in one line
+  bool is_share = false;  // a proportion, within 0 to 1
 };
 const RunNumberInfo& info_of(std::size_t number);
 
+// Packets at their receivers.
 struct Delivered {
-  std::int64_t packets = 0, received = 0;  // at receivers
+  std::int64_t packets = 0, received = 0;
 };
 
+// Results of one run.
 struct RunMetrics {
   std::array<double, kRunNumbers> numbers{};
   double simulated_s = 0;
   Delivered all;
-  std::map<std::pair<std::string, std::string>, Delivered> by_pair;  // sender, receiver
-  OutcomeCounts outcomes{};                                          // addressed and overheard
+  std::map<std::pair<std::string, std::string>, Delivered> by_pair;  // keyed by sender and receiver
+  OutcomeCounts outcomes{};                                          // addressed and overheard packets
 
   double& operator[](RunNumber n) { return numbers[static_cast<std::size_t>(n)]; }
   double operator[](RunNumber n) const { return numbers[static_cast<std::size_t>(n)]; }
 };
 
+// Computes the results of a run from its log.
 RunMetrics metrics_of(LogReader& log);
 
 std::string to_json(const RunMetrics& metrics);
-// Throws std::runtime_error for a text that to_json did not write.
+// Reads results that to_json() wrote. Throws std::runtime_error for any other text.
 RunMetrics metrics_from_json(const std::string& text);
 
 }  // namespace halocline::clients

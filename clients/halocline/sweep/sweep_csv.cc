@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The results of a sweep as tables.
+// Output of a sweep's results as CSV tables.
 #include <cmath>
 #include <ostream>
 #include <sstream>
@@ -16,7 +16,7 @@
 namespace halocline::clients {
 namespace {
 
-// An empty cell where there is no number.
+// Returns the cell of a value; empty for NaN.
 std::string cell(double value) { return std::isnan(value) ? "" : format_number(value); }
 
 std::string column(std::string name) {

@@ -27,12 +27,12 @@ std::optional<std::string> content_of(const std::string& path) {
   return text.str();
 }
 
-// Of a result and the run that it is of, which the folder is named by.
+// Returns the checksum of a result together with the name of its run's folder.
 std::string check_sum(const std::string& folder, const std::string& text) {
   return fmt::format("{:016x}\n", xxh3(fs::path(folder).filename().string() + "\n" + text));
 }
 
-// For a shell: in single quotes.
+// Quotes a text for a shell, in single quotes.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -55,7 +55,7 @@ std::optional<RunMetrics> result_in(const std::string& folder) {
   try {
     return metrics_from_json(*text);
   } catch (const std::runtime_error&) {
-    return std::nullopt;  // of another version: to be done again
+    return std::nullopt;  // written by another version: the run is repeated
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The results of a sweep as netCDF-4, through netCDF's C library. Part of the module
+// Output of a sweep's results as netCDF-4, through netCDF's C library. Part of the module
 // halocline_sweep_netcdf.so, which only sweep_summary.cc loads.
 #include <cmath>
 #include <limits>
@@ -22,7 +22,7 @@ namespace {
 
 using Dimensions = std::vector<int>;
 
-// Variables are defined with their values.
+// netCDF file whose variables are defined and written together.
 class NetcdfFile : public NetcdfOutput {
  public:
   using NetcdfOutput::NetcdfOutput;
@@ -34,7 +34,7 @@ class NetcdfFile : public NetcdfOutput {
     attribute(variable, "units", unit);
     put(variable, values);
   }
-  // A dimension's own values, which may not be missing.
+  // Writes a dimension's coordinate variable, whose values may not be missing.
   void coordinates(const std::string& name, int dimension, const std::vector<double>& values,
                    const std::string& unit, const std::string& meaning) {
     const int variable = define(name, Type::kDouble, {dimension}, meaning);
@@ -63,14 +63,15 @@ class NetcdfFile : public NetcdfOutput {
   }
 };
 
-// environment.wind_mps: environment_wind_mps. A name of netCDF begins with a letter.
+// Returns a variable's name for a key: environment_wind_mps for environment.wind_mps. Names in netCDF begin
+// with a letter.
 std::string variable_name(const std::string& key) {
   std::string name;
   for (const char c : key) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   return std::isalpha(static_cast<unsigned char>(name.front())) != 0 ? name : "axis_" + name;
 }
 
-// By the suffix of the key (CONTRIBUTING.md); 1 for pure numbers.
+// Returns the unit that a key's suffix stands for (CONTRIBUTING.md); 1 for dimensionless values.
 std::string unit_of(const std::string& key) {
   static const std::vector<std::pair<const char*, const char*>> units{
       {"_mps", "m s-1"},  {"_hz", "Hz"},     {"_bps", "bit s-1"},         {"_deg", "degree"}, {"_db", "dB"},
@@ -81,7 +82,7 @@ std::string unit_of(const std::string& key) {
   return "1";
 }
 
-// Of an axis all of whose values are numbers.
+// Returns the values of an axis if all are numbers.
 std::optional<std::vector<double>> as_numbers(const SweepAxis& axis) {
   std::vector<double> numbers;
   for (const std::string& value : axis.values) {
@@ -93,7 +94,7 @@ std::optional<std::vector<double>> as_numbers(const SweepAxis& axis) {
 }
 
 struct Shape {
-  Dimensions point, seed, outcome, pair, bound;  // bound: of the last dimension of an interval
+  Dimensions point, seed, outcome, pair, bound;  // `bound` is the last dimension of an interval
 };
 
 Dimensions operator+(Dimensions a, const Dimensions& b) {
@@ -123,7 +124,7 @@ Shape define_axes(NetcdfFile& file, const SweepResults& results) {
   return shape;
 }
 
-// One variable for the values, one for their intervals.
+// Writes two variables: one for the values, one for their intervals.
 class Estimates {
  public:
   void add(double value, const ConfidenceInterval& interval) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a sweep runs: a scenario at every point of a grid of overrides, each with every seed.
+// Plan of a sweep: a scenario at every point of a grid of overrides, each with every seed.
 //
 //   [sweep]
 //   scenario = "seamount.toml"            # from this file's folder
@@ -11,7 +11,7 @@
 //   [[set]]
 //   override = "modem.source_level_db=170"  # at every point
 //
-// Runs are numbered from 0: the last axis varies fastest but for the seeds, which vary fastest of all.
+// Runs are numbered from 0. Seeds vary fastest, then the last axis.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,10 @@
 
 namespace halocline::clients {
 
+// Values of one key of the scenario.
 struct SweepAxis {
-  std::string key;                  // of the scenario: section.key
-  std::vector<std::string> values;  // each as TOML
+  std::string key;                  // key of the scenario: section.key
+  std::vector<std::string> values;  // values as TOML text
 };
 
 struct SweepPlan {
@@ -34,38 +35,39 @@ struct SweepPlan {
   FilePath scenario;
   std::vector<SweepAxis> axes;
   std::vector<std::int64_t> seeds{1};
-  std::vector<std::string> overrides;  // at every point
-  double duration_s = 0;               // 0: the scenario's
-  double level = 0.95;                 // of confidence
+  std::vector<std::string> overrides;  // applied at every point
+  double duration_s = 0;               // 0: the scenario's duration
+  double level = 0.95;                 // level of confidence of intervals
 
   std::size_t points() const;
   std::size_t runs() const { return points() * seeds.size(); }
 };
 
+// One run of a plan.
 struct SweepRun {
   std::size_t index = 0, point = 0;
-  std::vector<std::size_t> at;  // which value of each axis
+  std::vector<std::size_t> at;  // index of the value on each axis
   std::int64_t seed = 1;
-  std::vector<std::string> overrides;  // all of them, the seed's and the duration's included
+  std::vector<std::string> overrides;  // all overrides, including those for seed and duration
 };
 
-// The `index`-th run, below plan.runs().
+// Returns the run with that index, which must be below plan.runs().
 SweepRun run_of(const SweepPlan& plan, std::size_t index);
 
-// "environment.wind_mps=2,6,12"; commas within quotes and brackets do not part values. Throws
+// Parses "environment.wind_mps=2,6,12"; commas within quotes and brackets do not separate values. Throws
 // InvalidArgument.
 SweepAxis parse_axis(const std::string& text);
-// "1..20" or "1,5,9..12": ascending, each once, 0 to 9e15. Throws InvalidArgument.
+// Parses "1..20" or "1,5,9..12" as ascending, distinct seeds from 0 to 9e15. Throws InvalidArgument.
 std::vector<std::int64_t> parse_seeds(const std::string& text);
 std::string to_text(const std::vector<std::int64_t>& seeds);
 
-// Throws InvalidArgument for a plan without runs, with too many, or with an axis twice.
+// Throws InvalidArgument for a plan without runs, with too many runs, or with an axis twice.
 void check(const SweepPlan& plan);
 
 void visit(bus::ConfigVisitor& v, SweepPlan& plan);
-// The plan in a file. Throws bus::ConfigErrors.
+// Reads the plan in a file. Throws bus::ConfigErrors.
 SweepPlan load_plan(const std::string& path);
-// As a file that may lie anywhere.
+// Returns the plan as a file that is valid in any folder.
 std::string to_toml(const SweepPlan& plan);
 
 }  // namespace halocline::clients

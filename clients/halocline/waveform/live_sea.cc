@@ -21,17 +21,17 @@ namespace {
 
 using acoustics::Samples;
 
-// Five frames are a tenth of a second: with a period of STATE of 0.1 s the receiver is known when the last of
-// them arrives.
+// Number of frames in a block. Five frames are 0.1 s: with a STATE period of 0.1 s the receiver's position is
+// known when the last of them arrives.
 constexpr int kFrames = 5;
-// Samples to either side of a block by which its filters reach beyond it: 512, 255 and 16.
+// Samples by which the filters of a block reach beyond either side of it: 512, 255 and 16.
 constexpr std::ptrdiff_t kMargin = 1024;
-// Paths get shorter by less within a block.
+// Upper bound on the shortening of the first path's delay within a block.
 constexpr double kSooner_s = 0.005;
-// States and sounds are kept for so long: from 40 km away, with echoes.
+// Time for which states and sounds are kept: travel from 40 km away, with echoes.
 constexpr SimDuration kKept = SimDuration::from_milliseconds(40'000);
-constexpr double kPassband = 0.45;     // of the receiver's rate
-constexpr double kFastest_mps = 1600;  // that sound comes nearer, of the first block
+constexpr double kPassband = 0.45;     // share of the receiver's sampling rate
+constexpr double kFastest_mps = 1600;  // bound of sound speed plus closing speed, for the first block
 
 }  // namespace
 
@@ -59,11 +59,11 @@ LiveSea::LiveSea(const ScenarioConfig& config, const bathymetry::PreparedTerrain
 
 template <class Message>
 void LiveSea::keep(std::string channel, const Message& message) {
-  constexpr std::size_t kFew = 1000, kMost = 200'000;  // whatever times they claim
+  constexpr std::size_t kFew = 1000, kMost = 200'000;  // fewest and most events kept, for any time stamps
   auto& events = run_.events;
   const SimTime at = SimTime::from_utime(message.utime);
   events.push_back({at, std::move(channel), message});
-  // Half of them at a time.
+  // Half of the events are dropped at a time, so that dropping is rare.
   const bool are_late = events[events.size() / 2].at + kKept < at;
   if (events.size() < kFew || (!are_late && events.size() < kMost)) return;
   events.erase(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(events.size() / 2));
@@ -96,7 +96,7 @@ void LiveSea::silence(std::int32_t vehicle_id, SimTime from) {
   }
 }
 
-// The next kFrames of a link.
+// Computes the paths of the link's next kFrames frames.
 void LiveSea::add_block(const Sound& sound, SoundLink& link, double received_rate_hz) {
   const double begin_s = sound.pressure.begin_s, rate_hz = sound.pressure.rate_hz;
   const std::vector<double>& values = sound.pressure.values;
@@ -139,7 +139,7 @@ LiveSea::SoundLink& LiveSea::link_to(Sound& sound, const std::string& receiver) 
 void LiveSea::add_sound(Sound& sound, const std::string& receiver, Samples& received) {
   const double end_s = received.begin_s + static_cast<double>(received.values.size()) / received.rate_hz;
   SoundLink& link = link_to(sound, receiver);
-  // A sinc reaches 16 samples beyond the sound's end: less than a frame.
+  // Interpolation by a sinc reaches 16 samples beyond the end of the sound, which is less than a frame.
   while (link.progress.end_s() < sound.end_s() + kFrame.seconds() && link.next_arrival_s < end_s)
     add_block(sound, link, received.rate_hz);
   while (!link.blocks.empty() && link.blocks.front().last_arrival_s < received.begin_s)

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sound between vehicles while a scenario runs, as `halocline waveform` finds it afterwards.
+// Sound field between vehicles while a scenario runs, as `halocline waveform` computes it from a recording.
 //
-// Model: that of received_waveform.h, block by block. The paths of a sound on its way are searched every
-// kFrame of its departure, with the ends where their latest STATEs have them; the same paths whatever the
-// blocks are. Sampling rates of sender and receiver may differ: what lies above 0.45 of the receiver's rate
-// is filtered away.
-// Against received_waveform(): absorption over the band is by the way's length when the sound begins. Where
-// STATEs come more seldom than every 0.1 s, a vehicle goes straight on from the last. Water is that of the
-// scenario and its changes, not of SET_ENVIRONMENT.
+// Model: that of received_waveform.h, block by block. The paths of a sound are searched for every kFrame of
+// its departure, with both ends at the positions of their latest STATEs; they do not depend on the division
+// into blocks. Sender and receiver may have different sampling rates: frequencies above 0.45 of the
+// receiver's rate are filtered out.
+//
+// Differences from received_waveform(): absorption over the band uses the path length at the beginning of the
+// sound. When STATEs are more than 0.1 s apart, a vehicle is extrapolated along a straight line from the last
+// one. The water is that of the scenario and its changes; SET_ENVIRONMENT is ignored.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +38,7 @@ class LiveSea : public modem_gateway::SoundField {
  public:
   static constexpr SimDuration kLag = SimDuration::from_milliseconds(250);
 
-  // Subscribes on the bus. `has_noise`: of the sea and of vehicles.
+  // Subscribes on the bus. `has_noise` adds the noise of the sea and of vehicles.
   LiveSea(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, bus::Bus& bus,
           bool has_noise = true);
 
@@ -48,23 +49,24 @@ class LiveSea : public modem_gateway::SoundField {
                              std::size_t count) override;
 
  private:
-  // What left in a few frames, and its paths.
+  // Part of a sound that departs within a few frames, and its paths.
   struct Block {
     Way way;
     acoustics::AnalyticSignal sent;
     double sent_begin_s, last_arrival_s;
   };
-  // A sound on its way to one receiver.
+  // Propagation of a sound to one receiver.
   struct SoundLink {
     LinkProgress progress;
     std::vector<double> taps;
-    double next_arrival_s;  // of what leaves next, at the earliest
+    double next_arrival_s;  // earliest arrival of the next block
     std::deque<Block> blocks;
   };
+  // Sound that a vehicle emits.
   struct Sound {
     std::string vehicle;
     acoustics::Samples pressure;             // uPa at 1 m
-    std::map<std::string, SoundLink> links;  // by receiver
+    std::map<std::string, SoundLink> links;  // keyed by receiver
     double end_s() const {
       return pressure.begin_s + static_cast<double>(pressure.values.size()) / pressure.rate_hz;
     }
@@ -80,13 +82,13 @@ class LiveSea : public modem_gateway::SoundField {
   ScenarioConfig config_;
   bathymetry::PreparedTerrain terrain_;
   bool has_noise_;
-  Recording run_;                              // the last of it
-  std::set<std::string, std::less<>> placed_;  // vehicles whose STATE has come
+  Recording run_;                              // most recent messages only
+  std::set<std::string, std::less<>> placed_;  // vehicles with a STATE
   ScenarioLinks links_;
   std::deque<Sound> sounds_;
 };
 
-// For Composition.
+// Returns the maker of this sound field for Composition.
 modem_gateway::SoundFieldMaker live_sea_maker(const ScenarioConfig& config,
                                               const bathymetry::PreparedTerrain& terrain);
 

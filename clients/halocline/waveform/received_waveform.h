@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a hydrophone of a scenario records while others transmit waveforms.
+// Recording of a hydrophone in a scenario while vehicles transmit waveforms.
 //
-// Each sender's sound goes along the paths of its link to the receiver, as packets' does (scenario_links.h):
-// with the ends where a recorded run had them, the receiver when the sound arrives; with their phases, and
-// their fading at the arrival of the first by the model (acoustics/fading/link_fading.h) or a measured
-// channel; delayed, turned and summed by acoustics/waveform/moving_link.h. To that comes the noise of the sea
-// and of vehicles (recorded_noise.h). All draws are those of the scenario's seed: the same file every time.
+// Model. Each sender's sound follows the paths of its link to the receiver, as packets do (scenario_links.h):
+// with the ends where a recorded run had them, the receiver at the arrival of the sound; with the phases of
+// the paths and their fading at the arrival of the first, either by the model
+// (acoustics/fading/link_fading.h) or as a measured channel; delayed, rotated in phase and summed by
+// acoustics/waveform/moving_link.h. The noise of the sea and of vehicles is added (recorded_noise.h). All
+// random draws derive from the scenario's seed: the file is the same every time. Only the paths that the
+// scenario's propagation model finds are included.
 //
-// Levels. A sine of amplitude 1 in a sender's samples has the source level (rms, dB re 1 uPa at 1 m).
-// Received pressure p becomes the sample 10^(sensitivity / 20) p, p in uPa: at -190 dB re 1/uPa a sine of
-// amplitude 1 has 187 dB re 1 uPa. Left out: a path's own echoes beyond those that the scenario's model of
-// propagation finds.
+// Levels. A sine of amplitude 1 in a sender's samples has the source level (rms, dB re 1 uPa at 1 m). With
+// the sensitivity S in dB re 1/uPa, a received pressure p in uPa becomes the sample
+//
+//   10^(S / 20) p
+//
+// so that at S = -190 dB a sine of amplitude 1 has a level of 187 dB re 1 uPa.
 #pragma once
 
 #include <string>
@@ -25,22 +29,24 @@
 
 namespace halocline::clients {
 
+// Waveform that a vehicle transmits.
 struct SentWaveform {
   std::string vehicle;
-  acoustics::Samples sound;  // begin_s: simulation time at which the first leaves, 0 and up
-  Decibels source_level;     // of a sine of amplitude 1, dB re 1 uPa at 1 m
+  acoustics::Samples sound;  // begin_s: simulation time of its first sample, 0 or later
+  Decibels source_level;     // level of a sine of amplitude 1, dB re 1 uPa at 1 m
 };
 
+// Receiver and its recording.
 struct WaveformRules {
-  std::string receiver;        // a vehicle
-  double begin_s = 0;          // simulation time of the first sample recorded
-  double tail_s = 0.5;         // recorded after the last sound has arrived
+  std::string receiver;        // name of a vehicle
+  double begin_s = 0;          // simulation time of the first recorded sample
+  double tail_s = 0.5;         // recorded time after the end of the last arrival
   Decibels sensitivity{-190};  // dB re 1/uPa
   bool has_noise = true;
 };
 
-// Of one rate. Throws InvalidArgument where senders' rates differ, a vehicle is not of the scenario, or has
-// no state.
+// Returns the recording, at the sampling rate of the senders. Throws InvalidArgument when their rates differ,
+// or when a vehicle is not in the scenario or has no state.
 acoustics::Samples received_waveform(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain,
                                      const Recording& run, const std::vector<SentWaveform>& sent,
                                      const WaveformRules& rules);

@@ -34,7 +34,7 @@ using channel_server::NoiseOf;
 
 using Weight = std::function<double(std::int64_t sample)>;
 
-// A factor of time, taken once for so many samples.
+// Returns a factor that depends on time, evaluated once for each block of samples.
 Weight in_blocks(double rate_hz, const std::function<double(SimTime)>& factor) {
   constexpr std::int64_t kBlock = 1024;
   return [=, known = std::map<std::int64_t, double>()](std::int64_t sample) mutable {
@@ -54,7 +54,7 @@ void add(const std::vector<double>& samples, Samples& sound) {
   std::transform(samples.begin(), samples.end(), sound.values.begin(), sound.values.begin(), std::plus<>());
 }
 
-// Turn rates of propellers, as they were recorded.
+// Adds the recorded turn rates of propellers.
 void add_rates(const Recording& run, channel_server::VehicleNoise& noise) {
   for (const Recording::Event& event : run.events) {
     if (const auto* sensors = std::get_if<vehicle_sensors_t>(&event.message))
@@ -63,8 +63,9 @@ void add_rates(const Recording& run, channel_server::VehicleNoise& noise) {
   }
 }
 
-// How much louder a vehicle is at an instant than at its reference, of the amplitude: the power grows by its
-// sixth power.
+// Returns the amplitude of a vehicle's noise at an instant relative to its reference speed or turn rate.
+// Noise power grows with the sixth power of the speed, so amplitude grows with the third:
+//   a = (v / v_ref)^3
 std::function<double(SimTime)> loudness_of(const NoiseOf& noise, const channel_server::VehicleNoise& rates,
                                            const VehicleTrack& track) {
   return [&noise, &rates, &track](SimTime at) {
@@ -127,15 +128,15 @@ void add_vehicle_noise(const ScenarioConfig& config, ScenarioLinks& links, const
       add(own, sound);
       continue;
     }
-    // What arrives in the span has left before it by what sound takes, at 1400 m/s at the slowest, and half a
-    // second of echoes.
+    // Sound that arrives within the span departed earlier by its travel time, at no less than 1400 m/s, and
+    // by half a second for echoes.
     const SimTime begin = SimTime::from_seconds(sound.begin_s);
     const double range_m =
         (track.at(begin).position_ned_m - VehicleTrack(run, receiver).at(begin).position_ned_m).norm();
     Samples left{std::max(0.0, sound.begin_s - range_m / 1400 - 0.5), sound.rate_hz, {}};
     left.values.resize(static_cast<std::size_t>((end_s - left.begin_s) * sound.rate_hz));
     left.values = samples_of(spectrum, left, louder);
-    acoustics::Modem of_noise;  // sounds alike in all directions, in the receiver's band
+    acoustics::Modem of_noise;  // omnidirectional, in the receiver's band
     of_noise.centre_frequency_hz = links.modem_of(receiver).centre_frequency_hz;
     of_noise.bandwidth_hz = links.modem_of(receiver).bandwidth_hz;
     links.add_received(links.between(source.vehicle, of_noise, receiver, left.begin_s, end_s), left, sound);

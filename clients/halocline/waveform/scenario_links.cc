@@ -29,8 +29,8 @@ ScenarioConfig with_own_searches(ScenarioConfig config) {
   return config;
 }
 
-// As the paths fade at the arrival of the first: by the model, or as the measured channel whose taps they
-// are.
+// Returns the gains of the paths with their fading at the arrival of the first, by the model or as the
+// measured channel that provides the paths.
 std::vector<PathGain> gains_of(const Reception& reception, const acoustics::FadingModel& model,
                                const acoustics::FadingLink& pair, SimTime departure,
                                const acoustics::Modem& modem) {
@@ -102,10 +102,11 @@ std::vector<PathGain> ScenarioLinks::next_frame(LinkProgress& progress, const Ve
   return gains_of(reception, config_.channel_server.propagation.fading, pair, departure, progress.modem);
 }
 
-// `delay_s`: of the departure before, below 0 of none; set to that of this one.
+// Computes the reception with the receiver where it is at the arrival. `delay_s` is the delay of the previous
+// departure (below 0: none) and is set to that of this one.
 Reception ScenarioLinks::reception_of(SimTime departure, const End& from, End to,
                                       const VehicleTrack& receiver, double& delay_s) {
-  constexpr double kNear = 1500;  // m/s: for a first guess
+  constexpr double kNear = 1500;  // m/s, for a first estimate
   const int turns = delay_s < 0 ? 3 : 1;
   if (delay_s < 0)
     delay_s = (receiver.at(departure).position_ned_m - from.place.position_ned_m).norm() / kNear;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The links between the vehicles of a recorded run: what arrives of a sound that one of them makes.
+// Links between the vehicles of a recorded run: propagation of a sound from one vehicle to another.
 //
-// Paths are searched for every kFrame of the departure, every search anew: a cell that shares one would step.
-// The gains of paths are those of a modem's band; absorption at other frequencies than its centre is that of
-// the way of the first significant path, half way between the depths of the ends.
+// Paths are searched for every kFrame of the departure, with a search of its own for each frame: results
+// shared within a cell of positions would change in steps. The gains of paths are those in a modem's band.
+// Absorption at frequencies other than the band's centre is computed for the length of the first significant
+// path, at the mean depth of the ends.
 #pragma once
 
 #include <algorithm>
@@ -29,52 +30,54 @@ namespace halocline::clients {
 
 inline constexpr SimDuration kFrame = SimDuration::from_milliseconds(20);
 
-// Of a level re 1 uPa, uPa; of any ratio.
+// Converts a level re 1 uPa to an amplitude in uPa, or any level difference to a ratio of amplitudes.
 double amplitude_of(Decibels level);
 
-// From a vehicle, as one with that modem, to another.
+// Propagation from a vehicle with a given modem to another.
 struct Way {
   acoustics::MovingLink link;
   double length_m, depth_m;  // means over the time of departure
   double centre_hz;
 };
 
-// A link whose paths are searched as time goes on (ScenarioLinks::extend).
+// State of a link whose paths are searched as time goes on (ScenarioLinks::extend).
 struct LinkProgress {
   std::string from;
   acoustics::Modem modem;
   std::string to;
   double begin_s;
-  // So far.
+  // Results so far.
   int frames = 0;
-  double delay_s = -1;                         // of the last frame; below 0 of none
-  std::vector<acoustics::PathGain> last = {};  // of the last frame
+  double delay_s = -1;                         // last frame's delay; below 0: none yet
+  std::vector<acoustics::PathGain> last = {};  // gains in the last frame
   double sum_length_m = 0, sum_depth_m = 0;
-  // The departure up to which its paths are known.
+  // Returns the departure up to which paths are known, s.
   double end_s() const { return begin_s + kFrame.seconds() * std::max(frames - 1, 0); }
 };
 
+// Propagation between vehicles of a run.
 class ScenarioLinks {
  public:
-  // All must outlive it but `config`.
+  // The arguments except `config` must outlive this.
   ScenarioLinks(const ScenarioConfig& config, const bathymetry::Terrain& terrain, const Recording& run);
 
   const acoustics::Environment& water(SimTime at) const { return water_.propagation->environment(at); }
-  // Throws InvalidArgument where there is no such vehicle.
+  // Returns the id of a vehicle. Throws InvalidArgument when it does not exist.
   std::int32_t id_of(const std::string& vehicle) const;
   const acoustics::Modem& modem_of(const std::string& vehicle) const { return modems_.of(vehicle).modem; }
 
-  // Of what leaves between those times.
+  // Returns the propagation of sound that departs between those times.
   Way between(const std::string& from, const acoustics::Modem& sender, const std::string& to, double begin_s,
               double end_s);
-  // The next so many frames, with what they begin at: the same paths as between() finds, however they are
-  // taken. Of states that the run holds by now.
+  // Computes the next `frames` frames and returns them with the frame at which they begin. The paths are
+  // those that between() finds, for any division into calls. Only states that the run holds at the time of
+  // the call are used.
   Way extend(LinkProgress& progress, int frames);
-  // A filter of linear phase: what absorption takes of a frequency beyond what it takes of the band's centre,
-  // in the water at that instant. Nothing above `highest_hz` passes.
+  // Returns a linear-phase filter with the absorption at each frequency relative to that at the centre of the
+  // band, in the water at that instant. It blocks frequencies above `highest_hz`.
   std::vector<double> absorption_taps(const Way& way, SimTime at, double rate_hz,
                                       double highest_hz = std::numeric_limits<double>::infinity()) const;
-  // Adds what arrives by it of a sound, pressure at 1 m.
+  // Adds the received part of a sound, which is given as pressure at 1 m.
   void add_received(const Way& way, const acoustics::Samples& sound, acoustics::Samples& received) const;
 
  private:

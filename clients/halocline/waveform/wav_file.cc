@@ -21,7 +21,7 @@ struct Closer {
 };
 using File = std::unique_ptr<SNDFILE, Closer>;
 
-// Block by block, as a damaged header may claim any number of samples.
+// Reads block by block, because a damaged header may claim any number of samples.
 std::vector<double> read_samples(SNDFILE* file, sf_count_t count) {
   constexpr sf_count_t kBlock = 1 << 16;
   std::vector<double> values;
@@ -61,7 +61,7 @@ void write_wav(const std::string& path, const acoustics::Samples& sound) {
   AtomicFile replacement(path);
   File file(sf_open(replacement.temporary_path().c_str(), SFM_WRITE, &info));
   require(file != nullptr, path + ": cannot be written: " + sf_strerror(nullptr));
-  sf_command(file.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);  // it holds the time of day
+  sf_command(file.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);  // it would contain the time of day
   const auto count = static_cast<sf_count_t>(sound.values.size());
   require(sf_writef_double(file.get(), sound.values.data(), count) == count && sf_close(file.release()) == 0,
           path + ": cannot be written whole");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sampled sound in files.
+// Reading and writing of sound files.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace halocline::clients {
 
-// A file of one channel in any format that libsndfile reads (WAV, FLAC, ...), full scale 1; begin_s is 0.
-// Throws InvalidArgument, with the path, where it cannot be read, has several channels or no sample, or holds
-// a number that is none.
+// Reads a file with one channel in any format of libsndfile (WAV, FLAC, ...), full scale 1; begin_s is 0.
+// Throws InvalidArgument that names the path when the file cannot be read, has several channels or no
+// samples, or holds a sample that is not a finite number.
 acoustics::Samples read_sound(const std::string& path);
 
-// A WAV file of 32-bit floating-point samples; throws InvalidArgument, with the path, where it cannot be
-// written.
+// Writes a WAV file with 32-bit floating-point samples. Throws InvalidArgument that names the path when it
+// cannot be written.
 void write_wav(const std::string& path, const acoustics::Samples& sound);
 
 }  // namespace halocline::clients
