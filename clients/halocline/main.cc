@@ -56,7 +56,7 @@ void describe(CLI::App& app, int& exit_code) {
   refuse_nan(app);
 }
 
-// Returns an error message for a word in the place of a subcommand that is none; empty when all are valid.
+// Returns an error message for an unknown subcommand; empty when all subcommands are known.
 std::string wrong_subcommand(const CLI::App& app, int argc, char** argv) {
   const CLI::App* command = &app;
   for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {

@@ -48,7 +48,9 @@ class LinkHistory {
   std::size_t row_count() const { return rows_; }
   bool empty() const { return tables_.empty(); }
 
+  // Drops every second table of each transmitter, to bound memory.
   void thin();
+  // Drops the tables before `at`, except the last one of each transmitter, which still holds at `at`.
   void drop_before(SimTime at);
 
  private:

@@ -170,8 +170,8 @@ void MissionStore::take(const Received&, const scenario_info_t& part) {
 }
 
 void MissionStore::take(const Received& received, const terrain_tile_t& tile) {
-  const bool is_whole =
-      received.name.empty();  // empty for the map of the whole terrain; a client's name for an answer to it
+  // A tile without a name is the map of the whole terrain; a name is that of a client whose query it answers.
+  const bool is_whole = received.name.empty();
   const auto posts = static_cast<std::size_t>(tile.tile_rows) * static_cast<std::size_t>(tile.tile_columns);
   if (is_whole && tile.tile_status == terrain_tile_t::OK && tile.post_spacing_m > 0 &&
       posts == tile.seabed_z_m.size() && posts > 0)

@@ -139,6 +139,7 @@ class MissionStore {
   void give_id(MissionVehicle& vehicle, std::int32_t id);
   template <class Value>
   void keep(TimedSeries<Value>& series, SimTime at, const Value& value);
+  // Thins the series of all vehicles when they exceed MissionLimits::samples.
   void keep_limits();
   void drop_old();
 

@@ -27,7 +27,7 @@ class OutcomeLedger {
   // Sums outcomes over windows of `window_us` > 0 of simulation time, by the instant of departure, us.
   explicit OutcomeLedger(std::int64_t window_us);
 
-  // Adds an outcome once for each receiver that it stands for; by pair only when it names one receiver, by
+  // Adds an outcome once for each receiver that it represents; by pair only when it names one receiver, by
   // propagation unless it is OUT_OF_REACH. The caller leaves out repetitions.
   void add(const packet_outcome_t& outcome);
 

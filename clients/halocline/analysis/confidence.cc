@@ -80,6 +80,7 @@ MeanEstimate share_estimate(std::span<const double> values, double level) {
   if (sample.known.size() < 2) return estimate;
   const double p = std::clamp(sample.mean, 0.0, 1.0);
   if (p > 0 && p < 1 && sample.variance == 0) return estimate;  // the interval has no width
+  // Effective number of trials n of m values with mean p and variance s^2, from p (1 - p) / n = s^2 / m.
   const double trials = p > 0 && p < 1 ? p * (1 - p) * sample.count / sample.variance : sample.count;
   estimate.interval = score_interval(p, trials, sample.t(level));
   return estimate;

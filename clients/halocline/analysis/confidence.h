@@ -36,7 +36,7 @@ struct MeanEstimate {
 // Returns the mean and its interval. NaNs among the values, from runs without such a number, are left out.
 MeanEstimate mean_estimate(std::span<const double> values, double level);
 // Returns the mean and its interval for proportions in 0..1. When all values are 0, or all are 1, each counts
-// as one trial.
+// as one trial. Throws InvalidArgument for a value outside of 0..1.
 MeanEstimate share_estimate(std::span<const double> values, double level);
 
 }  // namespace halocline::clients

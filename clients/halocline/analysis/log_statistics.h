@@ -34,7 +34,7 @@ struct LogStatistics {
   };
   std::map<std::string, Undecodable> undecodable_by_channel;
   std::vector<std::string> files;          // parts of the log
-  std::vector<BadStretch> bad_stretches;   // bytes that are no event
+  std::vector<BadStretch> bad_stretches;   // parts of the files that are no valid event
   std::vector<LogFlows::OfChannel> flows;  // flows with missing messages or several sessions
   std::int64_t packets_sent = 0;           // packets with a receipt
   std::int64_t packets_delivered = 0;      // number of RECEIVEs

@@ -7,16 +7,15 @@
 //
 // Answers in the log (LINKS, RECEIPT, OUTCOME, ...) are not replayed. The times depend on the recorder:
 //
-//- A lockstep run stamps its log with simulation time: messages are replayed at their stamps, in their order.
-//  A stamp that breaks the order is damaged and is replaced by the one before it.
-//- Any other log (by lcm-logger, or recorded at sea) is replayed by the utime of the messages: STATE, MODEM,
-//  LISTEN and SET_ENVIRONMENT when they hold, SEND when it starts. A utime more than 30 days from the median
-//  of all states comes from another clock (or from none: 0); such a message is replayed at the latest valid
-//  utime that the log had reached. When no state has a valid time, all messages go by their stamps.
-//- Such a log whose first message is later than one day (Unix time, or the uptime of a machine) is shifted:
-// its
-//  first whole second becomes 0, `zero` keeps that second, and every utime of the replayed messages shifts
-//  too.
+// - A lockstep run stamps its log with simulation time: messages are replayed at their stamps, in order. A
+//   stamp that breaks the order is damaged and is replaced by the one before it.
+// - Any other log (by lcm-logger, or recorded at sea) is replayed by the utime of the messages: STATE, MODEM,
+//   LISTEN and SET_ENVIRONMENT when they hold, SEND when it starts. A utime more than 30 days from the median
+//   of all states comes from another clock (or from none: 0); such a message is replayed at the latest valid
+//   utime that the log had reached. When no state has a valid time, all messages go by their stamps.
+// - Such a log is shifted when its first message is later than one day (Unix time, or the uptime of a
+//   machine): its first whole second becomes 0, `zero` keeps that second, and every utime of the replayed
+//   messages shifts by it.
 //
 // Fields that a foreign vehicle leaves out are filled in. A vehicle_id or source_id of 0 becomes the
 // scenario's id for that name, otherwise the smallest free id. An orientation of all zeros becomes level and

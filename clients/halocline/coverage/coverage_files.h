@@ -25,7 +25,12 @@ struct CoverageFile {
 void require_coverage_file(const std::string& path);
 
 // Writes the map; replaces the file. Throws InvalidArgument as above; std::runtime_error when it cannot be
-// written.
+// written. Contents:
+//
+// GeoTIFF: one band for each quantity and depth, in this order; 32-bit floating point, NaN means no data.
+//
+// GeoJSON (RFC 7946: longitudes and latitudes): contour lines with quantity, value and depth_m; delivery at
+// 0.1, 0.25, 0.5, 0.75 and 0.9, other quantities at 5 to 20 round values.
 void write_coverage(const Coverage& coverage, const CoverageFile& file, const std::string& path);
 
 // Returns the reference system as text that PROJ and GDAL read.
@@ -34,10 +39,6 @@ std::string reference_system(const bathymetry::LocalFrame& frame);
 // Type of the functions that the module halocline_coverage_files.so exports:
 // halocline_write_coverage_geotiff, _geojson and _netcdf.
 using CoverageWriter = void(const Coverage& coverage, const CoverageFile& file, const std::string& path);
-
-// GeoTIFF: one band for each quantity and depth, in this order; 32-bit floating point, NaN means no data.
-// GeoJSON (RFC 7946: longitudes and latitudes): contour lines with quantity, value and depth_m; delivery at
-// 0.1, 0.25, 0.5, 0.75 and 0.9, other quantities at 5 to 20 round values.
 
 // Writes a picture: a map of each quantity at the best depth, and the mean delivery against depth. Throws as
 // run_gnuplot (plot/plot.h).

@@ -21,7 +21,7 @@ class NetcdfOutput {
   NetcdfOutput(const NetcdfOutput&) = delete;
   NetcdfOutput& operator=(const NetcdfOutput&) = delete;
 
-  // Writes the file.
+  // Writes the file from memory to disk.
   void close();
   int dimension(const std::string& name, std::size_t size);
   int variable(const std::string& name, Type type, const std::vector<int>& dimensions);

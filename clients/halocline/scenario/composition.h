@@ -84,7 +84,7 @@ class Composition {
   enum Kind { kRun, kReplay };
 
   // Creates the nodes. Their sessions are derived from the scenario's seed and their names. `recorded` steps
-  // in the place of the vehicle simulator and must outlive the composition. The terrain is prepared unless it
+  // instead of the vehicle simulator and must outlive the composition. The terrain is prepared unless it
   // is given. `make_sound` is needed for modem interfaces that exchange waveforms.
   Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded = nullptr,
               std::optional<bathymetry::PreparedTerrain> terrain = {},
@@ -94,7 +94,7 @@ class Composition {
   // vehicles, the channel servers last.
   std::vector<bus::Node*> nodes() const { return order_; }
   // Returns the number of threads for nodes of one stage (blocks of vehicles, shards of servers): as many as
-  // one of them may use by itself.
+  // a single one of them may use.
   int threads() const { return threads_; }
   const bathymetry::PreparedTerrain& terrain() const { return terrain_; }
 

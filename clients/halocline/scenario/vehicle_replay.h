@@ -11,10 +11,13 @@
 //   p q r                           rad/s, body axes
 //   cmd_rudder cmd_stern cmd_rpm    rad, rad, rpm: as commanded
 //   act_rudder act_stern act_rpm    rad, rad, rpm: actual
-//   cmd_thruster_<i>_rpm act_...    for each thruster of the model
-//   cmd_buoyancy_m3 act_...         for a model with a buoyancy engine
-//   cmd_moving_mass_m act_...       for a model with a moving mass
-//   weight_released                 0 or 1, for a model with a drop weight
+//   cmd_thruster_<i>_rpm            for each thruster of the model; as commanded
+//   act_thruster_<i>_rpm            actual
+//   cmd_buoyancy_m3                 for a model with a buoyancy engine; as commanded
+//   act_buoyancy_m3                 actual
+//   cmd_moving_mass_m               for a model with a moving mass; as commanded
+//   act_moving_mass_m               actual
+//   weight_released                 for a model with a drop weight: 0 or 1
 //
 // A command is written in the row of the instant from which it holds, as given. psi accumulates whole turns
 // unless it is wrapped to -pi to pi. The water is bottomless and at rest, with a surface if one is given.
