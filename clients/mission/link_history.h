@@ -28,6 +28,7 @@ std::span<const LinkColumn> link_columns();
 // Returns the column with that key; null when there is none.
 const LinkColumn* link_column(std::string_view key);
 
+// Link tables of all transmitters, by time.
 class LinkHistory {
  public:
   // Adds a table. Messages with the same time are parts of one table and are merged; a row that is there

@@ -40,6 +40,7 @@
 
 namespace halocline::clients {
 
+// Bounds of memory, as numbers of entries.
 struct MissionLimits {
   std::size_t samples = 3'000'000;    // entries in all series of vehicles, about 200 bytes each
   std::size_t link_rows = 1'000'000;  // about 200 bytes each
@@ -60,6 +61,7 @@ struct MissionScenario {
   double duration_s = 0;
 };
 
+// Numbers of messages.
 struct MissionCounts {
   std::int64_t messages = 0;      // passed to add()
   std::int64_t unknown = 0;       // on a channel that is none of Halocline's

@@ -13,6 +13,7 @@
 
 namespace halocline::clients {
 
+// Conversion of the times of one log: `zero_us` is subtracted from times that are near `middle_us`.
 struct MissionTime {
   std::int64_t zero_us = 0;                 // subtracted from every time
   std::optional<std::int64_t> middle_us{};  // median of the states' times; empty: every time is accepted

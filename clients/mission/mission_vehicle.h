@@ -14,6 +14,7 @@
 
 namespace halocline::clients {
 
+// Position (NED, m), attitude (rad) and speed of a vehicle at an instant.
 struct TrackPoint {
   Vec3 position_ned_m = Vec3::Zero();
   EulerAngles attitude;
@@ -39,6 +40,7 @@ std::optional<TrackState> state_at(const Track& track, SimTime at);
 std::vector<Timed<TrackPoint>> decimated_track(const Track& track, SimTime from, SimTime to,
                                                std::size_t max_points);
 
+// Record of one vehicle.
 struct MissionVehicle {
   std::size_t index = 0;  // position in the list of vehicles, in the order of their first message
   std::string name;       // the id as text while only that is known

@@ -13,6 +13,7 @@
 
 namespace halocline::clients {
 
+// Record of one program.
 struct NodeRecord {
   node_status_t status{};               // last STATUS; its counters start at 0 with the node
   std::int64_t statuses = 0;            // number of STATUS messages received
@@ -26,6 +27,7 @@ struct NodeRecord {
   }
 };
 
+// Records of all programs, and the rate of simulation time.
 class NodeHealth {
  public:
   // Stamps are times of the recorder or receiver: wall time, but simulation time in the log of a lockstep

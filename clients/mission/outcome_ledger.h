@@ -20,6 +20,7 @@ using OutcomeCounts = std::array<std::int64_t, kOutcomes>;
 // Counts indexed by packet_outcome_t.propagation_used.
 using PropagationCounts = std::array<std::int64_t, kPropagations>;
 
+// Counts of outcomes. A count is a number of receivers.
 class OutcomeLedger {
  public:
   using Pair = std::pair<std::int32_t, std::int32_t>;  // ids of sender and receiver

@@ -20,6 +20,7 @@
 
 namespace halocline::clients {
 
+// Name by which the messages about a packet are joined.
 struct PacketName {
   std::int32_t source_id = 0;
   std::int8_t kind = 0;  // packet_outcome_t.packet_kind
@@ -27,6 +28,7 @@ struct PacketName {
   auto operator<=>(const PacketName&) const = default;
 };
 
+// One transmission, or a SEND that was refused or is not yet transmitted.
 struct PacketRecord {
   std::uint64_t number = 0;  // in the order of first messages; never changes
   PacketName name;
@@ -51,6 +53,7 @@ struct PacketRecord {
 SimTime arrival_of(const packet_outcome_t& outcome);
 SimTime end_of(const packet_outcome_t& outcome);
 
+// Packets by name and by number.
 class PacketBook {
  public:
   // Times are simulation time. A message that is repeated changes nothing.

@@ -23,6 +23,7 @@
 
 namespace halocline::clients {
 
+// Ledger that also keeps the outcomes, without repetitions, and the names of vehicles.
 class OutcomeSummary : public OutcomeLedger {
  public:
   using OutcomeLedger::OutcomeLedger;

@@ -37,6 +37,7 @@
 
 namespace halocline::clients {
 
+// Messages to replay, with the counts of repairs and of what was left out.
 struct Recording {
   struct Event {
     SimTime at;
@@ -57,6 +58,7 @@ struct Recording {
   std::vector<std::pair<std::string, std::int32_t>> ids_given;  // vehicle and id
 };
 
+// Selects whether GPS, BATTERY and SENSORS are replayed too.
 enum class Played { kStatesAndPackets, kWithEquipment };
 
 // Reads the messages to replay. `scenario` provides ids for vehicles whose messages have none.

@@ -23,6 +23,7 @@
 
 namespace halocline::clients {
 
+// Options that describe the sea and the search, in the units of the command line.
 struct SeaDescription {
   std::string water;                                  // file or built-in name; empty: uniform speed
   std::optional<double> sound_speed_mps;              // 1000..2000

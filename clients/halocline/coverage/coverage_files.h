@@ -15,6 +15,7 @@
 
 namespace halocline::clients {
 
+// Contents and georeference of a file.
 struct CoverageFile {
   std::vector<CoverageQuantity> quantities;
   bathymetry::LocalFrame frame;

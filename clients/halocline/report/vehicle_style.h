@@ -15,6 +15,7 @@
 
 namespace halocline::clients {
 
+// Colour as "#rrggbb" on a light and on a dark page.
 struct VehicleColour {
   const char* on_light;
   const char* on_dark;

@@ -79,8 +79,8 @@ bathymetry::PreparedTerrain make_terrain(const ScenarioConfig& config);
 // Nodes of a scenario in the order in which they step.
 class Composition {
  public:
-  // Selects the nodes: kRun creates all of them; kReplay leaves out those whose messages a recorded log
-  // replaces: `recorded` publishes its states and transmissions.
+  // Selects the nodes: kRun creates all of them; kReplay creates the conductor, the bathymetry and the
+  // channel servers beside `recorded`, which publishes the states and transmissions of a log.
   enum Kind { kRun, kReplay };
 
   // Creates the nodes. Their sessions are derived from the scenario's seed and their names. `recorded` steps

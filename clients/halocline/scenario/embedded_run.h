@@ -25,6 +25,7 @@ struct EmbeddedRun {
   std::function<bool()> should_stop = [] { return false; };
 };
 
+// Result of an embedded run: the simulation time reached and the wall time taken.
 struct RunOutcome {
   SimTime reached;
   double wall_s = 0;

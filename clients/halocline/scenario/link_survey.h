@@ -33,6 +33,7 @@ struct LinkSurveyEnd {
   channel_server::VehicleModem modem;
 };
 
+// Result of a survey.
 struct LinkSurvey {
   channel_server::Reception reception;
   channel_server::LinkForecast forecast;

@@ -9,6 +9,7 @@
 
 namespace halocline::clients {
 
+// Progress of one run.
 class ProgressLine {
  public:
   ProgressLine(std::FILE* out, SimTime end, bool quiet);

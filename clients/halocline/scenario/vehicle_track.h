@@ -17,6 +17,7 @@ namespace halocline::clients {
 // Runs the scenario's vehicles on its terrain until `end` and returns the recording.
 Recording record_run(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, SimTime end);
 
+// Position and velocity of one vehicle as functions of time, NED, m and m/s.
 class VehicleTrack {
  public:
   struct Place {

@@ -47,6 +47,7 @@ enum class RunNumber {
 };
 inline constexpr std::size_t kRunNumbers = 17;
 
+// Description of a number for tables and files.
 struct RunNumberInfo {
   const char* name;       // name of the column and variable
   const char* unit;       // unit as of UDUNITS

@@ -29,6 +29,7 @@ struct SweepAxis {
   std::vector<std::string> values;  // values as TOML text
 };
 
+// Grid of axes, seeds and overrides for one scenario.
 struct SweepPlan {
   static constexpr std::size_t kMaxRuns = 1'000'000;
 

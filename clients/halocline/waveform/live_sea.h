@@ -34,6 +34,7 @@
 
 namespace halocline::clients {
 
+// Sound field that modem interfaces use during a run. The sound at an instant is complete kLag after it.
 class LiveSea : public modem_gateway::SoundField {
  public:
   static constexpr SimDuration kLag = SimDuration::from_milliseconds(250);
