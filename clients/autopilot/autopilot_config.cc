@@ -72,7 +72,7 @@ void visit_glide(ConfigVisitor& v, GlideGains& g) {
 const std::vector<std::string> kKinds{"waypoints", "heading", "loiter",   "survey",
                                       "follow",    "wait",    "seek_link"};
 
-// Visits the keys of some kinds alone.
+// Visits keys that apply only to the behaviours of the given kinds.
 void with_kind(ConfigVisitor& v, const Behaviour& b, std::initializer_list<BehaviourKind> kinds,
                const std::function<void()>& body) {
   bus::when_one_of(v, "kind", b.kind, kKinds, kinds, body);
@@ -141,9 +141,9 @@ void visit_search(ConfigVisitor& v, Behaviour& b) {
   v.number("least_gain", s.least_gain, {0, 1, "", "of the delivery probability, for which it moves"});
 }
 
-// What seeks a link needs places and listeners.
+// Checks that a behaviour that seeks a link has listeners and places to choose from.
 void check_search(ConfigVisitor& v, const Behaviour& b) {
-  constexpr std::size_t kMaxLinks = 1600;  // of best_place_query_t
+  constexpr std::size_t kMaxLinks = 1600;  // limit on listeners times places in best_place_query_t
   const std::size_t listeners = listeners_of(b.search).size();
   if (listeners == 0) v.problem("search.listeners", "at least one vehicle, with kind = seek_link");
   if (b.waypoints.empty() && b.search.deepest_m < b.search.shallowest_m)
@@ -219,7 +219,7 @@ void visit_broadcast(ConfigVisitor& v, Broadcast& broadcast) {
 const std::vector<std::string> kEnds{"loop", "hold", "stop", "surface"};
 const std::vector<std::string> kSteerings{"fins", "thrusters", "buoyancy"};
 
-// The gains of each steering; a glider's rudder is steered as fins are.
+// Visits the gains of the chosen steering. A glider's rudder uses the gains of fin steering.
 void visit_control(ConfigVisitor& v, PilotConfig& pilot) {
   const auto with = [&](std::initializer_list<Steering> steerings, const std::function<void()>& body) {
     bus::when_one_of(v, "steering", pilot.steering, kSteerings, steerings, body);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sections [vehicle.mission] and [autopilot] of a scenario file.
+// Configuration of the autopilot: the sections [vehicle.mission] and [autopilot] of a scenario file.
 #pragma once
 
 #include <cstdint>
@@ -21,36 +21,36 @@
 
 namespace halocline::clients {
 
-// What the vehicle is steered with.
+// Actuators by which the vehicle is steered.
 enum class Steering { kFins, kThrusters, kBuoyancy };
 
 // Source of the vehicle's position.
 enum class NavigateBy { kState, kSensors };
 
-// Its position reports, broadcast by modem.
+// Position reports that a formation leader broadcasts by its modem.
 struct Broadcast {
-  SimDuration period;  // 0: none
-  SimTime start;
+  SimDuration period;  // 0: no reports
+  SimTime start;       // time of the first report, by the vehicle's clock
 };
 
-// What one vehicle's pilot is to do. Without waypoints and behaviours the vehicle is not piloted.
+// Mission of one vehicle. A vehicle with neither waypoints nor behaviours is not piloted.
 struct PilotConfig {
   std::string vehicle;
   std::int32_t vehicle_id = 0;
   Mission mission;
-  std::vector<Behaviour> behaviours;  // instead of the mission's waypoints
-  double ground_ahead_m = 4;          // how far ahead of the vehicle the ground is looked at
+  std::vector<Behaviour> behaviours;  // replace the mission's waypoints
+  double ground_ahead_m = 4;          // m, look-ahead distance for the slope of the seabed
   NavigateBy navigate_by = NavigateBy::kState;
-  NavigatorRules navigator;  // with sensors
-  std::string usbl_beacons;  // names, with spaces between: by whose sound it finds its place
+  NavigatorRules navigator;  // used with navigate_by = sensors
+  std::string usbl_beacons;  // vehicles used as USBL beacons: names, separated by spaces
   AcousticFixRules acoustic_fix;
-  SimDuration dvl_fresh_for = SimDuration::from_milliseconds(1500);  // age of a ping that is still used
-  Vec3 start_ned_m = Vec3::Zero();                                   // where it is put into the water
+  SimDuration dvl_fresh_for = SimDuration::from_milliseconds(1500);  // maximum age of a ping in use
+  Vec3 start_ned_m = Vec3::Zero();                                   // starting position of the vehicle
   Broadcast broadcast;
   Steering steering = Steering::kFins;
-  Gains gains;             // of fins
-  HoverGains hover_gains;  // of thrusters
-  GlideGains glide;        // by buoyancy
+  Gains gains;             // for fins
+  HoverGains hover_gains;  // for thrusters
+  GlideGains glide;        // for a buoyancy engine
 
   bool is_piloted() const { return !mission.waypoints.empty() || !behaviours.empty(); }
 };
@@ -58,18 +58,18 @@ struct PilotConfig {
 struct AutopilotConfig {
   SimDuration command_period = SimDuration::from_milliseconds(100);
   SimDuration state_timeout = SimDuration::from_milliseconds(1000);
-  std::string only_vehicle;           // empty: all with a mission
-  std::vector<PilotConfig> vehicles;  // one for each of the scenario, piloted or not
+  std::string only_vehicle;           // name of the one vehicle to pilot; empty: all that have a mission
+  std::vector<PilotConfig> vehicles;  // one entry for each vehicle of the scenario, piloted or not
   ClockSetConfig clocks = {};
 };
 
 void visit(bus::ConfigVisitor& v, AutopilotConfig& config);
 
-// The places of a pilot's beacons by id: where they start. Throws InvalidArgument for a name that is no other
-// vehicle.
+// Returns the positions of a pilot's beacons by vehicle id. A beacon does not move: its position is where it
+// starts. Throws InvalidArgument when a name in usbl_beacons is not that of another vehicle.
 std::map<std::int32_t, Vec3> beacons_of(const AutopilotConfig& config, const PilotConfig& pilot);
 
-// The vehicle of this name if it broadcasts its place; else null.
+// Returns the vehicle of this name if it broadcasts its position, else null.
 const PilotConfig* find_leader(const AutopilotConfig& config, const std::string& name);
 
 }  // namespace halocline::clients

@@ -12,10 +12,10 @@
 namespace halocline::clients {
 namespace {
 
-// Of a message: 46 kB.
+// Limits of one vehicle_plan_t message, which then takes 46 kB.
 constexpr std::size_t kMaxBehavioursOfPlan = 100, kMaxWaypointsOfPlan = 1200;
 
-// The order of the enumerations is that of the messages' constants.
+// The message constants have the order of the enumerations.
 static_assert(static_cast<int>(BehaviourKind::kSeekLink) == plan_behaviour_t::SEEK_LINK);
 static_assert(static_cast<int>(AtEnd::kSurface) == vehicle_plan_t::SURFACE);
 static_assert(static_cast<int>(Activity::kSeekingLink) == autopilot_status_t::SEEKING_LINK);
@@ -129,7 +129,7 @@ void take_in(const position_estimate_t& estimate, Navigator& navigator) {
 LeaderReport to_report(const Situation& situation) {
   const Vec3& velocity = situation.velocity_ned_mps;
   const double speed = velocity.head<2>().norm();
-  // At rest the way it would go is where its bow points.
+  // The course over ground is undefined at rest; the heading is reported instead.
   const double course = speed > 0.05 ? elementary::atan2(velocity.y(), velocity.x()) : situation.attitude.yaw;
   return {situation.position_ned_m, course, speed, situation.time_s};
 }

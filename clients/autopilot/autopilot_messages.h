@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of the bus to the values of the control laws, and back.
+// Conversions between bus messages and the values of the autopilot's control laws.
 #pragma once
 
 #include <array>
@@ -24,45 +24,48 @@
 
 namespace halocline::clients {
 
-// From the state, reckoned on to `at` (core/dead_reckoning.h). The speed is the forward component over
-// ground; SENSORS holds the speed through the water.
+// Returns the situation from the true state, extrapolated to `at` (core/dead_reckoning.h). The water speed is
+// the forward component of the velocity over ground; the speed through the water itself is in SENSORS.
 Situation to_situation(const vehicle_state_t& state, SimTime at);
 
-// From the vehicle's own sensors alone; place and attitude by reckoning, at `time_s`.
+// Returns the situation at `time_s` from the vehicle's own sensors alone; position and attitude are those of
+// dead reckoning.
 Situation to_situation(const vehicle_sensors_t& sensors, const Navigator& navigator, double time_s);
 
-// What compass and gyro measured afresh.
+// Returns attitude and angular rates as far as compass and gyro measured them in this message.
 AttitudeReading to_attitude_reading(const vehicle_sensors_t& sensors);
 
-// With the velocity over ground of a Doppler log's ping, where one is given.
+// Returns the sample for the navigator. `ping`: a Doppler log's velocity over ground; empty: none.
 NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors, const AttitudeKeeper& attitude,
                                       const std::optional<vehicle_dvl_t>& ping);
 
-// Fixes within the navigator's history; others are ignored.
+// Give a position fix to the navigator. A fix from before the navigator's history is ignored.
 void take_in(const vehicle_gps_t& fix, Navigator& navigator);
-// `beacons`: places of those that are known, by id.
+// `beacons`: the known beacon positions by vehicle id; bearings of other vehicles are ignored.
 void take_in(const vehicle_usbl_t& bearing, const std::map<std::int32_t, Vec3>& beacons,
              const AcousticFixRules& rules, Navigator& navigator);
 
-// A localiser's place replaces the reckoned one when it is the only one left; carried on to the latest
-// sample. The reckoning goes on from there, through water that it holds to be still.
+// Replaces the dead-reckoned position by a localiser's estimate, extrapolated to the latest sample. Estimates
+// that are not unique are ignored. Dead reckoning continues from there, on the assumption that the water is
+// at rest.
 void take_in(const position_estimate_t& estimate, Navigator& navigator);
 
-// The report that a leader broadcasts.
+// Returns the report that a formation leader broadcasts.
 LeaderReport to_report(const Situation& situation);
 
-// Where a vehicle in this situation saw the ground.
+// Returns the altimeter measurement with the position at which it was made.
 AltimeterLook to_look(const vehicle_sensors_t& sensors, const Situation& situation);
 
-// The plan and how far it has come: `progress` is that before the first situation where it is empty. What
-// exceeds a message (100 behaviours, 1200 waypoints) is left out and counted.
+// Returns the plan and its progress; before the first situation `progress` is the default one. Behaviours
+// beyond 100 and waypoints beyond 1200 do not fit the message; they are left out and counted.
 vehicle_plan_t to_message(const Plan& plan, const PlanProgress& progress, const PilotConfig& config);
 
-// What the autopilot does and why; `points` of its command, empty where it gives none.
+// Returns the autopilot's activity and set points. `points`: set points of the latest command; empty: no
+// command was given.
 autopilot_status_t to_message(Activity activity, const PlanProgress& progress,
                               const std::optional<SetPoints>& points);
 
-// Time and numbering are the caller's.
+// Returns the command; the caller sets time stamp, session and sequence number.
 vehicle_command_t to_message(const ActuatorCommand& command);
 vehicle_command_t to_message(const std::array<double, 4>& thruster_rpm);
 

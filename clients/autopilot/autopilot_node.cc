@@ -18,7 +18,7 @@ namespace {
 constexpr SimDuration kPlanPeriod = SimDuration::from_milliseconds(60'000);
 constexpr SimDuration kStatusPeriod = SimDuration::from_milliseconds(1000);
 
-// The latest instant of the grid at or before `time`.
+// Returns the latest instant of the grid at or before `time`.
 SimTime grid_instant(SimTime time, SimDuration period) { return next_on_grid(time, period) - period; }
 
 }  // namespace
@@ -169,7 +169,7 @@ std::optional<Situation> AutopilotNode::situation_of(Pilot& pilot, SimTime insta
   return situation;
 }
 
-// Once for each measurement.
+// Adds an altitude measurement to the pilot once, though each is seen at several command instants.
 void AutopilotNode::look_at_ground(Pilot& pilot, const Situation& situation) {
   const bool known = pilot.sensors->altitude_status != vehicle_sensors_t::ALTITUDE_UNAVAILABLE;
   if (known && !pilot.looked) pilot.pilot.look_at_ground(to_look(*pilot.sensors, situation));
@@ -201,7 +201,7 @@ SetPoints AutopilotNode::steer(Pilot& pilot, const Situation& situation, SimTime
                          " east_m=" + format_number(place.y()) + " z_m=" + format_number(place.z()));
   }
   SetPoints points = pilot.pilot.steer_for(situation);
-  if (pilot.config.steering == Steering::kBuoyancy) points.speed_mps = 0;  // it follows from the buoyancy
+  if (pilot.config.steering == Steering::kBuoyancy) points.speed_mps = 0;  // follows from the buoyancy
   report_progress(pilot, before);
   if (const auto phase = pilot.pilot.follow_phase(); phase && phase != phase_before)
     bus().log().info("formation", "vehicle=" + pilot.config.vehicle + " now=\"" + to_text(*phase) + "\"");

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steers the vehicles that have a mission: receives their STATE and SENSORS and publishes their COMMAND on
-// the time grid, with PLAN at each change and once a minute and AUTOPILOT at each change and once a second;
-// leaders of a formation also publish SEND, followers receive RECEIVE; those that seek a link ask
-// by BEST_PLACE_QUERY.
+// Node that pilots the vehicles that have a mission.
 //
-// Position and attitude come from STATE (the true position), speed through the water and altitude
-// from SENSORS where a vehicle publishes it. With navigate_by = sensors all comes from SENSORS (navigator.h),
-// from DVL, GPS and USBL where the vehicle has them, and from ESTIMATE where a localiser publishes it; STATE
-// is not used, and z is the depth below the sea surface. A vehicle whose state (or sensors) is older than
-// the time-out gets no commands, and so falls into its safe state.
+// Bus channels:
+//   in   STATE, SENSORS         navigation state, see below
+//   out  COMMAND                on the time grid
+//   out  PLAN                   at each change and once a minute
+//   out  AUTOPILOT              at each change and once a second
+//   out  SEND                   position reports of a formation leader
+//   in   RECEIVE                reports of the leader, at a follower
+//   out  BEST_PLACE_QUERY       from vehicles that seek a link
+//
+// Position and attitude come from STATE (the true position), speed through the water and altitude from
+// SENSORS if the vehicle publishes it. With navigate_by = sensors all of them come from SENSORS
+// (navigator.h), from DVL, GPS and USBL where the vehicle has these sensors, and from ESTIMATE where a
+// localiser publishes it; STATE is then not used, and z is the depth below the sea surface. A vehicle whose
+// state (or sensors) is older than the time-out gets no commands, so that it enters its safe state.
 #pragma once
 
 #include <cstdint>
@@ -50,9 +56,9 @@ class AutopilotNode : public bus::Node {
   std::string status_text() const override;
 
  private:
-  // What PLAN and AUTOPILOT held last.
+  // Contents of the latest PLAN and AUTOPILOT messages, and when they are due again.
   struct Reported {
-    SimTime plan_due, status_due;  // again
+    SimTime plan_due, status_due;
     Activity activity = Activity::kWaitingForState;
     DepthRule depth_rule = DepthRule::kPlanned;
     std::size_t behaviour = 0, waypoint = 0;
@@ -62,15 +68,15 @@ class AutopilotNode : public bus::Node {
     PilotConfig config;
     std::optional<vehicle_state_t> state;
     std::optional<vehicle_sensors_t> sensors;
-    bool looked = false;  // its altitude was taken in
+    bool looked = false;  // the altitude in `sensors` was given to the pilot
     VehiclePilot pilot;
     std::int64_t sequence = 0;
-    std::optional<Navigator> navigator{};      // by sensors alone
-    std::optional<AttitudeKeeper> attitude{};  // likewise
-    std::optional<Situation> situation{};      // the latest
+    std::optional<Navigator> navigator{};      // positions by vehicle id
+    std::optional<AttitudeKeeper> attitude{};  // with navigate_by = sensors
+    std::optional<Situation> situation{};      // at the latest command
     std::unique_ptr<FormationLink> link{};
     std::unique_ptr<PlaceFinder> finder{};
-    std::optional<vehicle_dvl_t> ping{};  // the latest that holds a velocity
+    std::optional<vehicle_dvl_t> ping{};  // latest ping that measured a velocity over ground
     std::map<std::int32_t, Vec3> beacons{};
     Reported reported{};
 
@@ -86,7 +92,7 @@ class AutopilotNode : public bus::Node {
   std::optional<Situation> situation_of(Pilot& pilot, SimTime instant) const;
   void command_all(SimTime instant);
   bool is_fresh(std::int64_t utime, SimTime now) const;
-  // What it steered for.
+  // Returns the actuator command for the set points `points`.
   vehicle_command_t command_for(Pilot& pilot, const SetPoints& points, const Situation& situation) const;
   SetPoints steer(Pilot& pilot, const Situation& situation, SimTime instant);
   void report(Pilot& pilot, const std::optional<SetPoints>& points, SimTime instant);
@@ -97,7 +103,7 @@ class AutopilotNode : public bus::Node {
   VehicleTime clocks_;
   SimTime next_command_;
   bus::NumberedPublisher publisher_{bus()};
-  std::vector<std::unique_ptr<Pilot>> pilots_;  // in the scenario's order; handlers hold their addresses
+  std::vector<std::unique_ptr<Pilot>> pilots_;  // in the scenario's order; handlers hold pointers to them
 };
 
 }  // namespace halocline::clients

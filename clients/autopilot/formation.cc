@@ -14,9 +14,9 @@ namespace {
 constexpr std::uint8_t kKind = 0xF1;
 constexpr double kPerMetre = 10, kPerMps = 1000, kTurn = 65536;
 constexpr std::int64_t kLargest24 = (1 << 23) - 1, kTimeSpanMs = 65536;
-constexpr double kLookaheadM = 20;     // of the error across
-constexpr double kCatchUpPerS = 0.06;  // m/s a metre of the error along
-constexpr double kSlowest = 0.5;       // of the leader's speed
+constexpr double kLookaheadM = 20;     // look-ahead distance for the cross-track error
+constexpr double kCatchUpPerS = 0.06;  // 1/s, speed added per metre of along-track error
+constexpr double kSlowest = 0.5;       // minimum speed, as a fraction of the leader's
 
 void put(std::vector<std::uint8_t>& bytes, std::int64_t value, int count) {
   for (int i = 0; i < count; ++i) bytes.push_back(static_cast<std::uint8_t>((value >> (8 * i)) & 0xff));
@@ -67,7 +67,8 @@ std::optional<LeaderReport> decode_report(std::span<const std::uint8_t> payload,
   }
   report.course_rad = wrapped(static_cast<double>(get(payload, 10, 2)) / kTurn * 2 * std::numbers::pi);
   report.speed_mps = static_cast<double>(get(payload, 12, 2)) / kPerMps;
-  // A report may have been rounded up to a millisecond after it was made; nothing travels faster than that.
+  // The instant in a report is rounded to a millisecond, by up to half a millisecond past its making. A
+  // travel time is longer than that, so the age never wraps round.
   const std::int64_t received_ms = std::llround(received_s * 1000);
   const std::int64_t age_ms = ((received_ms - get(payload, 14, 2)) % kTimeSpanMs + kTimeSpanMs) % kTimeSpanMs;
   report.time_s = static_cast<double>(received_ms - age_ms) / 1000;

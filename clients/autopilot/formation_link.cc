@@ -11,7 +11,7 @@
 namespace halocline::clients {
 namespace {
 
-// The first instant of start + k period that is not before `time`.
+// Returns the first instant of start + k period that is not before `time`.
 SimTime next_report_at(const Broadcast& broadcast, SimTime time) {
   if (broadcast.period <= SimDuration()) return SimTime::never();
   if (time <= broadcast.start) return broadcast.start;

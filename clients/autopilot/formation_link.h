@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The acoustic side of a formation: a leader's reports out on a time grid, those of the leaders it follows
-// in.
+// Modem traffic of a formation: broadcasts a leader's reports on a time grid and receives those of the
+// leaders that are followed.
 //
-// Reports start at start + k period by the vehicle's clock; one whose instant passed while nothing ran is not
-// sent late. The position in a report is the latest situation's, stamped with its own time by the sender's
-// clock, which the receiver takes for its own: two clocks that differ misdate it.
+// Reports are due at start + k period by the vehicle's clock; a report whose instant passed while the node
+// was not running is not sent late. A report holds the position of the latest situation, with that
+// situation's time by the sender's clock. The receiver reads the time as one of its own clock, so a
+// difference between the two clocks misdates the report.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +29,12 @@ class FormationLink {
  public:
   using Listener = std::function<void(const std::string& leader, const LeaderReport& report)>;
 
-  // `leaders`: id to name of those whose reports are passed on. Bus, listener and clocks must outlive the
-  // link.
+  // `leaders`: id and name of each vehicle whose reports are passed on. Bus, listener and clocks must outlive
+  // the link.
   FormationLink(bus::Bus& bus, const PilotConfig& pilot, std::map<std::int32_t, std::string> leaders,
                 Listener listener, const VehicleTime& clocks);
 
-  // Sends the report that is due, and repeats what the bus may have lost.
+  // Sends the report that is due, and resends packets that the bus may have lost.
   void step(const bus::Now& now, const std::optional<Situation>& situation);
   bus::Due due() const {
     return {.sim = clocks_.due(own_id(), next_report_), .steady = modem_.next_resend()};
@@ -43,7 +44,7 @@ class FormationLink {
 
  private:
   std::int32_t own_id() const { return modem_.address().vehicle_id; }
-  // Ahead of simulation time, s.
+  // Returns how far the vehicle's clock is ahead of simulation time, s.
   double clock_error_s(double time_s) const;
   void take(const modem_receive_t& packet) const;
   void send(SimTime steady, SimTime at, LeaderReport report);
@@ -53,7 +54,7 @@ class FormationLink {
   Listener listener_;
   ModemClient modem_;
   const VehicleTime& clocks_;
-  SimTime next_report_;  // by the vehicle's clock
+  SimTime next_report_;  // instant of the next report, by the vehicle's clock
 };
 
 }  // namespace halocline::clients

@@ -11,7 +11,7 @@ namespace halocline::clients {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kOrbitGain = 2.0;  // how sharply the orbit is approached; Beard and McLain use 1 to 4
+constexpr double kOrbitGain = 2.0;  // gain of the approach to the orbit; Beard and McLain use 1 to 4
 
 Eigen::Vector2d horizontal(const Vec3& from, const Vec3& to) { return (to - from).head<2>(); }
 
@@ -48,7 +48,8 @@ Progress begin(const Vec3& position_ned_m) { return {.leg_start_ned_m = position
 
 Progress advance(const Mission& mission, Progress progress, const Vec3& position_ned_m) {
   require(!mission.waypoints.empty(), "a mission needs a waypoint");
-  // At most once round: a mission whose waypoints all lie within reach does not spin here.
+  // One round at most: bounds the loop when all waypoints of a looping mission lie within the acceptance
+  // radius.
   for (std::size_t i = 0; i < mission.waypoints.size() && !progress.at_end; ++i) {
     if (!is_reached(mission, progress, position_ned_m)) break;
     const bool last = progress.target + 1 == mission.waypoints.size();

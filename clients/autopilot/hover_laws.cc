@@ -12,7 +12,7 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-constexpr double kSlowMps = 0.3;  // below it the push up and down alone changes the depth
+constexpr double kSlowMps = 0.3;  // forward speed below which the set pitch goes to 0
 
 double rpm_for(const HoverGains& g, double thrust_n) {
   const double full = thrust_n < 0 ? g.astern_ratio * g.full_thrust_n : g.full_thrust_n;
@@ -20,8 +20,11 @@ double rpm_for(const HoverGains& g, double thrust_n) {
   return std::copysign(rpm, thrust_n);
 }
 
-// The force wanted in the horizontal plane, with the drag of the set speed while the point is far. The
-// integral moves only near the point, and no further than the thrusters.
+// Returns the wanted horizontal force, north and east, N:
+//
+//   F = P e - D v + C V^2 e / e_max + integral,  |e| <= e_max = V D / P
+//
+// The integral changes only within 2 e_max of the point and is limited to the full thrust of a thruster.
 Vec2 horizontal_force(const HoverGains& g, const StationPoint& point, const HoverMeasured& m, double dt_s,
                       HoverIntegrals& integrals) {
   const Vec2 away = (point.position_ned_m - m.position_ned_m).head<2>();
@@ -49,8 +52,8 @@ double down_force(const HoverGains& g, const StationPoint& point, const HoverMea
   return g.depth_p_n_per_m * error - g.depth_d_n_s_per_m * m.velocity_ned_mps.z() + integrals.down_n;
 }
 
-// On the way the hull points along its path, so that the flow does not turn it further: nose up to climb. At
-// rest it lies level.
+// Returns the set pitch: along the path while under way, nose up in a climb, so that the flow does not turn
+// the hull away from it; level at rest.
 double wanted_pitch(const HoverGains& g, const StationPoint& point, const HoverMeasured& m) {
   const double forward_mps = m.velocity_ned_mps.x() * elementary::cos(m.heading_rad) +
                              m.velocity_ned_mps.y() * elementary::sin(m.heading_rad);
@@ -81,11 +84,11 @@ std::array<double, 4> hover_command(const HoverGains& g, const StationPoint& poi
   const double heave = down_force(g, point, m, dt_s, integrals);
   const double pitch =
       g.pitch_p_nm * (wanted_pitch(g, point, m) - m.pitch_rad) - g.pitch_d_nm_s * m.pitch_rate_radps;
-  // Turning comes before pushing: what yaw and pitch leave of the thrust is surge's and heave's.
+  // Turning takes priority: surge and heave get the thrust that yaw and pitch leave.
   const double most = g.full_thrust_n * g.astern_ratio;
   const double differ = std::clamp(yaw / (2 * g.beside_axis_m), -most, most);
   const double tilt =
-      std::clamp(pitch / (2 * g.from_middle_m), -most, most);  // a push down at the bow pitches down
+      std::clamp(pitch / (2 * g.from_middle_m), -most, most);  // nose down by a downward push at the bow
   const double ahead =
       std::clamp(surge / 2, -(g.full_thrust_n - std::abs(differ)), g.full_thrust_n - std::abs(differ));
   const double down =

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of several places a vehicle goes to so that others hear it best.
+// Choice of the place where a vehicle is best heard by others.
 //
-// Rule. It goes to the place of the greatest mean delivery, of equals that of the greatest ratio, whenever it
-// is asked for, but stays where that gains less than `least_gain` of mean delivery: so it does not run to and
-// fro between places alike. Where the present place delivers nothing at all, any gain counts. Before the
-// first answer it is the first place. Pure.
+// Rule: the vehicle goes to the place with the greatest mean delivery probability, and among equals to the
+// one with the greatest mean SINR, each time that the channel server has been asked. It stays
+// where it is when the move would gain less than `least_gain` of mean delivery, so that it does not oscillate
+// between places that are alike. When its present place delivers nothing at all, any gain counts. Before the
+// first answer the chosen place is the first. Pure.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +18,10 @@
 
 namespace halocline::clients {
 
-// The places of a behaviour that seeks a link: its waypoints, or the depths above its centre.
+// Returns the candidate places of a behaviour that seeks a link: its waypoints, or the depths at its
+// centre. Throws InvalidArgument when the depths do not ascend by a step above 0.
 std::vector<Vec3> places_of(const Behaviour& behaviour);
-// The names in a text with spaces between.
+// Returns the names of the listeners, which `search` separates by spaces.
 std::vector<std::string> listeners_of(const LinkSearch& search);
 
 class LinkSeeker {
@@ -30,7 +32,8 @@ class LinkSeeker {
   const LinkSearch& search() const { return search_; }
   const Vec3& chosen() const { return places_[chosen_]; }
 
-  // How well each place is heard, and which is the best; one that is out of range changes nothing.
+  // Takes in the mean delivery probability of each place and the index of the best place. An index or a
+  // number of places that does not fit changes nothing.
   void take(const std::vector<double>& mean_delivery, int best);
 
   void archive(Archive& a) { a(chosen_); }

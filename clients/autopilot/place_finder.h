@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Asks the channel server where a vehicle that seeks a link is best heard, and hands on what it answers.
+// Queries of a vehicle that seeks a link: asks the channel server at which place it is best heard.
 //
-// A question is asked of an instant, once a period, and its answer counts kAnswerAfter later: so what the
-// vehicle does depends on simulation time, not on how long the answer took. A question without an answer by
-// then is asked again.
+// A query refers to an instant and is sent once a period; its answer takes effect kAnswerAfter later. The
+// vehicle's actions thus depend on simulation time, not on how long the answer took. A query that is not
+// answered by then is sent again.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,13 @@ class PlaceFinder {
  public:
   static constexpr SimDuration kAnswerAfter = SimDuration::from_milliseconds(1000);
 
-  // The bus must outlive it.
+  // The bus must outlive the PlaceFinder.
   PlaceFinder(bus::Bus& bus, std::string vehicle);
   PlaceFinder(const PlaceFinder&) = delete;
   PlaceFinder& operator=(const PlaceFinder&) = delete;
 
-  // At each instant of commands; `seeker` is null while the vehicle does something else. True when it changed
-  // its mind.
+  // Advances to a command instant. `seeker`: null while the vehicle does something else. Returns true when
+  // the chosen place has changed.
   [[nodiscard]] bool step(SimTime instant, LinkSeeker* seeker);
   void restart();
   void archive(Archive& a) { a(asked_at_, next_, request_id_, answer_); }
@@ -37,9 +37,9 @@ class PlaceFinder {
 
   bus::Bus& bus_;
   std::string vehicle_;
-  std::optional<SimTime> asked_at_;  // while an answer is awaited
+  std::optional<SimTime> asked_at_;  // instant of the query that awaits its answer
   SimTime next_;
-  std::int64_t request_id_;  // other sessions have others
+  std::int64_t request_id_;  // starts at a value that differs between sessions
   std::optional<best_place_reply_t> answer_;
 };
 

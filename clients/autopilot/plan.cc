@@ -84,7 +84,8 @@ Plan make_plan(const Mission& mission, std::vector<Behaviour> behaviours) {
   Plan plan{std::move(behaviours), {}, mission.at_end, mission.hold_radius_m};
   const std::size_t count = plan.behaviours.size();
   for (std::size_t i = 0; i < count; ++i) {
-    // A route ends and gives way; only the last one applies at_end, unless the plan loops.
+    // Only the last route applies at_end, and not when the plan loops; a route before it stops at its end,
+    // where the next behaviour takes over.
     const bool ends_here = is_last(plan, i) && (plan.at_end != AtEnd::kLoop || count == 1);
     plan.routes.push_back(route_of(plan.behaviours[i], mission, ends_here ? plan.at_end : AtEnd::kStop));
   }
@@ -96,7 +97,7 @@ PlanProgress begin(const Vec3& position_ned_m, double time_s) {
 }
 
 PlanProgress advance(const Plan& plan, PlanProgress progress, const Vec3& position_ned_m, double time_s) {
-  // At most once round, as with waypoints.
+  // One round at most, as in advance() of a mission's waypoints.
   for (std::size_t i = 0; i < plan.behaviours.size() && !progress.ended; ++i) {
     if (has_route(plan.behaviours[progress.index])) {
       progress.route = advance(plan.routes[progress.index], progress.route, position_ned_m);

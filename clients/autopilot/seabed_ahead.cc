@@ -8,10 +8,9 @@
 namespace halocline::clients {
 namespace {
 
-// On the way down to a height whose ground is out of the altimeter's reach: this far below the vehicle,
-// always.
+// Set depth below the vehicle while it descends to a height and its altimeter does not reach the seabed yet.
 constexpr double kBlindDescentM = 4;
-constexpr double kClearlyBelowM = 0.5;  // the minimum height: less is the control's error
+constexpr double kClearlyBelowM = 0.5;  // below the minimum height: more than a control error
 constexpr double kPullUpRadPerM = 0.3;  // a metre below the minimum height demands about the maximum pitch
 
 }  // namespace
@@ -43,7 +42,8 @@ std::optional<GroundLine> SeabedAhead::ground(double time_s) const {
     covariance += (p.way_m - mean_way) * (p.z_ned_m - mean_z);
     variance += (p.way_m - mean_way) * (p.way_m - mean_way);
   }
-  // Points within half a metre of each other determine no slope.
+  // The points have a standard deviation of less than half a metre along the path, too little to determine a
+  // slope.
   const bool spread = variance > 0.25 * static_cast<double>(points_.size());
   const double slope = spread ? covariance / variance : 0;
   const double z = spread ? mean_z + slope * (way_m_ - mean_way) : points_.back().z_ned_m;

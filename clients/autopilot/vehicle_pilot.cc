@@ -8,8 +8,8 @@
 namespace halocline::clients {
 namespace {
 
-constexpr double kCarrotM = 10;       // thrusters steer for a point this far along a course
-constexpr double kMinSpeedMps = 0.3;  // of a follower through the water: below it fins do not steer
+constexpr double kCarrotM = 10;       // distance along a course of the point that thrusters steer for
+constexpr double kMinSpeedMps = 0.3;  // minimum water speed of a follower, for fins to be effective
 
 Measured measured_of(const Situation& s) {
   return {s.position_ned_m.z(), s.attitude.yaw,   s.attitude.pitch,
@@ -41,7 +41,7 @@ SetPoints VehiclePilot::planned(const Situation& situation) {
   auto& follower = followers_[progress_->index];
   if (!follower || progress_->ended) return set_points(plan_, *progress_, situation.position_ned_m);
   SetPoints points = follower->steer_for(situation.time_s, situation.position_ned_m);
-  // What the current adds on the way, the propeller need not.
+  // The follower's set speed is over ground; the propeller needs the speed through the water.
   const Vec3 bow(elementary::cos(situation.attitude.yaw), elementary::sin(situation.attitude.yaw), 0);
   points.speed_mps += situation.water_speed_mps - situation.velocity_ned_mps.dot(bow);
   points.speed_mps = std::max(points.speed_mps, kMinSpeedMps);
@@ -53,7 +53,7 @@ LinkSeeker* VehiclePilot::seeker() {
   return &*seekers_[progress_->index];
 }
 
-// With thrusters: to the place itself.
+// Fins circle about the chosen place, thrusters steer straight to it.
 SetPoints VehiclePilot::circling(const LinkSeeker& seeker, const Vec3& position_ned_m) const {
   const Behaviour& behaviour = plan_.behaviours[progress_->index];
   return {.course_rad = course_on_circle(seeker.chosen(), behaviour.radius_m,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One vehicle's pilot: from its navigation state to set points, and on to actuator commands.
+// Pilot of one vehicle: from its navigation state to set points, and from these to actuator commands.
 //
-// It carries a plan (plan.h) through, follows a leader by its reports (formation.h), keeps above the
-// ground that its altimeter showed it (seabed_ahead.h), and steers with fins (control_laws.h), with
-// thrusters (hover_laws.h) or by buoyancy (glide_laws.h). Values in, values out: where a situation comes from
-// is the node's.
+// The pilot carries out a plan (plan.h), follows a leader by its reports (formation.h), keeps above the
+// seabed that its altimeter has measured (seabed_ahead.h), and steers with fins (control_laws.h), with
+// thrusters (hover_laws.h) or by buoyancy (glide_laws.h). It is independent of the bus: AutopilotNode
+// provides the situations.
 #pragma once
 
 #include <array>
@@ -25,35 +25,35 @@
 
 namespace halocline::clients {
 
-// The navigation state at an instant; NED metres, m/s, radians.
+// Navigation state at one instant; NED metres, m/s, radians.
 struct Situation {
   double time_s = 0;
   Vec3 position_ned_m = Vec3::Zero();
   Vec3 velocity_ned_mps = Vec3::Zero();  // over ground
   EulerAngles attitude;
   double pitch_rate_radps = 0, yaw_rate_radps = 0;
-  double water_speed_mps = 0;  // forward through the water
+  double water_speed_mps = 0;  // forward speed through the water
 
   void archive(Archive& a) {
     a(time_s, position_ned_m, velocity_ned_mps, attitude, pitch_rate_radps, yaw_rate_radps, water_speed_mps);
   }
 };
 
-// What it does, and why: autopilot_status_t, in its order.
+// Current activity and its reason. The order is that of the constants in autopilot_status_t.
 enum class Activity {
   kWaitingForState,
   kLostState,
   kFollowingLeg,
   kKeepingHeading,
   kLoitering,
-  kHolding,   // where the plan ended
+  kHolding,   // circles where the plan ended
   kFinished,  // stopped where the plan ended
   kWaitingForLeader,
   kFollowingLeader,
-  kLeaderLost,      // keeps its course
-  kCirclingSafely,  // without its leader
+  kLeaderLost,      // keeps its last course
+  kCirclingSafely,  // circles without its leader
   kWaiting,
-  kSurfacing,    // where the plan ended
+  kSurfacing,    // rises where the plan ended
   kSeekingLink,  // at the place where it is best heard, or on the way there
 };
 
@@ -63,32 +63,32 @@ class VehiclePilot {
 
   void look_at_ground(const AltimeterLook& look) { seabed_.add(look); }
 
-  // A report received from the vehicle `leader`.
+  // Takes in a report received from the vehicle `leader`.
   void on_leader_report(const std::string& leader, const LeaderReport& report);
 
-  // What to steer for in this situation. Situations come in order of time.
+  // Returns the set points in this situation. Situations must come in order of time.
   SetPoints steer_for(const Situation& situation);
 
   ActuatorCommand with_fins(const Gains& gains, const SetPoints& points, const Situation& situation,
                             double dt_s);
   ActuatorCommand by_buoyancy(const GlideGains& glide, const Gains& gains, const SetPoints& points,
                               const Situation& situation, double dt_s);
-  // Straight to the point steered for where there is one, else along the course.
+  // Steers straight to the station of the set points; without one, along their course.
   std::array<double, 4> with_thrusters(const HoverGains& gains, const SetPoints& points,
                                        const Situation& situation, double dt_s);
 
   // Empty before the first situation.
   const std::optional<PlanProgress>& progress() const { return progress_; }
-  // Of the behaviour at hand; empty when it does not follow.
+  // Phase of the current behaviour; empty when it does not follow a leader.
   std::optional<FollowPhase> follow_phase() const;
   const Plan& plan() const { return plan_; }
-  // Of the behaviour at hand; null when it does not seek a link.
+  // Link seeker of the current behaviour; null when it does not seek a link.
   LinkSeeker* seeker();
-  // Of the latest situation; kWaitingForState before the first.
+  // Activity in the latest situation; kWaitingForState before the first.
   Activity activity() const;
-  // What it does, in words.
+  // Returns the activity in words.
   std::string text() const;
-  // As if nothing had happened yet.
+  // Resets to the state of construction.
   void restart();
   void archive(Archive& a);
 
@@ -99,8 +99,8 @@ class VehiclePilot {
   Plan plan_;
   SeabedRules seabed_rules_;
   SeabedAhead seabed_;
-  std::vector<std::optional<Follower>> followers_;  // of each behaviour that follows
-  std::vector<std::optional<LinkSeeker>> seekers_;  // of each that seeks a link
+  std::vector<std::optional<Follower>> followers_;  // one for each behaviour; empty unless it follows
+  std::vector<std::optional<LinkSeeker>> seekers_;  // one for each behaviour; empty unless it seeks
   std::optional<PlanProgress> progress_;
   Integrals integrals_;
   HoverIntegrals hover_integrals_;

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a vehicle has gone through the water, by its own speed and heading.
+// Dead reckoning: the path of a vehicle through the water by its own speed and heading.
 //
-// Model: between two measurements the velocity through the water changes evenly (trapezium rule); after the
-// last one it stays. Horizontal velocity = speed * cos(pitch), along the heading: the vehicle goes where it
-// points, so a drift to the side or an angle of attack is an error (the REMUS of the vehicle simulator ends a
-// sharp turn of 110 degrees 2.7 m beside where this puts it). Current is
-// the business of whoever uses this.
+// Model: the velocity through the water changes linearly between two measurements (trapezium rule) and is
+// constant after the last one. Its horizontal part is
 //
-// The sum of all turns, left and right alike, is counted beside it, for whoever reckons with drift in turns.
+//   v = speed cos(pitch) (cos(heading), sin(heading))
 //
-// Times rise; a measurement of the same instant or an earlier one is left out. Kept for kRemembered.
+// The vehicle is taken to move where it points, so sideslip and angle of attack cause errors (the REMUS of
+// the vehicle simulator ends a sharp turn of 110 degrees 2.7 m beside the position computed here). Currents
+// are not included; the caller adds them.
+//
+// The sum of the magnitudes of all turns is kept as well, for a model of the errors that grow in turns.
+//
+// Measurements must come in order of time; one that is not later than the last is ignored. The history goes
+// back kRemembered.
 #pragma once
 
 #include <deque>
@@ -24,10 +28,10 @@ namespace halocline::clients {
 
 using Vec2 = Eigen::Vector2d;  // north, east
 
-// What a vehicle measures of itself.
+// Measurements of a vehicle's own motion.
 struct OwnMotion {
   SimTime at;
-  double water_speed_mps = 0;  // forward, through the water
+  double water_speed_mps = 0;  // forward speed through the water
   double heading_rad = 0;      // clockwise from north
   double pitch_rad = 0;        // positive nose up
   double depth_m = 0;          // below the sea surface
@@ -39,14 +43,14 @@ class DeadReckoning {
 
   void take(const OwnMotion& motion);
   bool empty() const { return points_.empty(); }
-  SimTime last() const { return points_.back().at; }  // not when empty
-  // Whether `at` lies within the history: not dropped yet, not before the first measurement.
+  SimTime last() const { return points_.back().at; }  // not to be called when empty
+  // True when `at` lies within the history or after it.
   bool covers(SimTime at) const { return !empty() && at >= points_.front().at; }
 
-  // Gone through the water since the first measurement, m; for an instant that it covers.
+  // Returns the displacement through the water since the first measurement, m; requires covers(at).
   Vec2 gone_ne_m(SimTime at) const;
   double depth_m(SimTime at) const;
-  // The sum of the turns since the first measurement, rad; rises.
+  // Sum of the magnitudes of all turns since the first measurement, rad; never decreases.
   double turned_rad(SimTime at) const;
 
   void archive(Archive& a) { a(points_); }
@@ -61,7 +65,8 @@ class DeadReckoning {
 
     void archive(Archive& a) { a(at, gone_ne_m, velocity_ne_mps, depth_m, heading_rad, turned_rad); }
   };
-  // The point before `at` and how far `at` lies on the way to the next: 0..1; 0 after the last.
+  // Returns the index of the point before `at`, and the fraction of the interval to the next point at which
+  // `at` lies, 0 to 1; 0 after the last point.
   std::pair<std::size_t, double> place_of(SimTime at) const;
 
   std::deque<Point> points_;

@@ -21,7 +21,7 @@ acoustics::SoundSpeedProfile to_profile(const environment_t& environment) {
   std::vector<acoustics::SpeedRow> rows;
   for (std::size_t i = 0; i < environment.layer_depth_m.size(); ++i)
     rows.push_back({environment.layer_depth_m[i], environment.layer_sound_speed_mps[i]});
-  // What absorbs does not matter to travel times.
+  // Travel times do not depend on absorption, so one temperature and salinity do for all layers.
   return acoustics::SoundSpeedProfile::from_speeds(
       rows, {environment.layer_temperature_degc.front(), environment.layer_salinity_psu.front()});
 }
@@ -39,7 +39,7 @@ void set_estimate(position_estimate_t& message, const PositionEstimate& estimate
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   covariance.topLeftCorner<2, 2>() = estimate.position_covariance_m2;
   covariance(2, 2) = rules.depth_sigma_m * rules.depth_sigma_m;
-  Eigen::Map<Eigen::Matrix3d>(message.covariance_ned_m2) = covariance;  // symmetric: rows are columns
+  Eigen::Map<Eigen::Matrix3d>(message.covariance_ned_m2) = covariance;  // symmetric: any storage order
   Eigen::Map<Vec3>(message.current_ned_mps) << estimate.current_ne_mps, 0;
   message.likelihood = estimate.weight;
   if (!rules.estimate_clock()) return;

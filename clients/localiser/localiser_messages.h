@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of the bus to the values of the position estimator, and back.
+// Conversions between bus messages and the values of the position estimator.
 #pragma once
 
 #include "acoustics/sea/sound_speed_profile.h"
@@ -13,13 +13,13 @@ namespace halocline::clients {
 
 OwnMotion to_motion(const vehicle_sensors_t& sensors);
 
-// Throws InvalidArgument when a sound speed is none of water.
+// Throws InvalidArgument when a sound speed is not one of water.
 acoustics::SoundSpeedProfile to_profile(const environment_t& environment);
 
-// The position in STATE, extrapolated to `at` by its velocity.
+// Returns the position in STATE, extrapolated to `at` by its velocity.
 Vec3 true_position(const vehicle_state_t& state, SimTime at);
 
-// The fields of the estimate, of a vehicle at this z.
+// Sets the fields of the estimate in `message`. `z_ned_m`: z of the vehicle.
 void set_estimate(position_estimate_t& message, const PositionEstimate& estimate, double z_ned_m,
                   const EstimatorRules& rules);
 

@@ -17,9 +17,9 @@
 namespace halocline::clients {
 namespace {
 
-constexpr SimDuration kLag = SimDuration::from_milliseconds(100);
+constexpr SimDuration kLag = SimDuration::from_milliseconds(100);  // longer than a message takes
 
-// Passes on, in their order, the messages stamped at `latest` or before.
+// Calls `use` for each message stamped at `latest` or before, in the order of reception, and removes it.
 template <class Message, class Function>
 void take_until(std::deque<Message>& received, SimTime latest, Function&& use) {
   while (!received.empty() && SimTime::from_utime(received.front().utime) <= latest) {
@@ -28,7 +28,7 @@ void take_until(std::deque<Message>& received, SimTime latest, Function&& use) {
   }
 }
 
-// The first instant of start + k period at or after `time`.
+// Returns the first instant of start + k period at or after `time`.
 SimTime next_ping_at(const VehicleLocaliser& config, SimTime time) {
   if (config.ping_period == SimDuration()) return SimTime::never();
   if (time <= config.ping_start) return config.ping_start;
@@ -115,7 +115,8 @@ void LocaliserNode::on_step(const bus::Now& now) {
   next_estimate_ = instant + period_;
 }
 
-// Started into a running simulation, or late: pings of the past stay unsent.
+// Sends the ping that is due. When the node starts late, only the latest due ping is sent; earlier ones are
+// skipped.
 void LocaliserNode::ping(Vehicle& vehicle, const bus::Now& now) {
   const std::int32_t id = vehicle.config.vehicle_id;
   const SimTime own = clocks_.shown(id, now.sim);
@@ -157,7 +158,8 @@ void LocaliserNode::take_packet(Vehicle& vehicle, const modem_receive_t& packet)
                                  " verdict=" + kWords.at(static_cast<std::size_t>(verdict)));
 }
 
-// By the vehicle's clock, less its estimated offset: its other measurements are stamped with simulation time.
+// Returns the arrival by the vehicle's clock less its estimated offset, since the vehicle's other
+// measurements are stamped with simulation time.
 SimTime LocaliserNode::arrival_of(const Vehicle& vehicle, const modem_receive_t& packet) {
   const SimTime shown =
       SimTime::from_utime(packet.departure_utime) + SimDuration::from_seconds(packet.travel_time_s);

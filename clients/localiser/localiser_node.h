@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Estimates the positions of vehicles from acoustic ranges to beacons, and publishes them as
+// Node that estimates the positions of vehicles from acoustic ranges to beacons, and publishes them as
 // ESTIMATE.<vehicle>.
 //
-// Inputs are those the vehicle itself has: its SENSORS (depth, heading, pitch, speed through the
-// water) and the packets its modem receives. The node sends pings in its name, to one beacon after the other,
-// and takes ranges from the travel times of the answers; with `use_stamps` also from stamped packets of
-// beacons. A travel time becomes a length by the mean sound speed between the two depths, of the profile in
-// ENVIRONMENT: a straight path; where the water bends sound, the range is off: by Fermat's principle
-// the bent way is quicker, by (g r)^2 / (24 c^2) of the time for a gradient g (5 cm in 1 km at 0.05 1/s, 4 m
-// at 0.45 1/s). Before the first ENVIRONMENT (the channel server repeats it once a minute) no range is used.
-// STATE serves only to compute the error of the estimate.
+// Its inputs are those that the vehicle itself has: its SENSORS (depth, heading, pitch, speed through the
+// water) and the packets that its modem receives. The node sends pings in the vehicle's name, to the beacons
+// in turn, and computes ranges from the travel times of the replies; with `use_stamps` also from stamped
+// packets of the beacons. A range is the travel time multiplied by the mean sound speed between the two
+// depths, from the profile in ENVIRONMENT, which assumes a straight path. Where the water refracts sound, the
+// range is short, since by Fermat's principle the bent ray is faster. For a sound-speed gradient g, a
+// horizontal range r and a sound speed c, the relative error is
 //
-// Estimates are published on the time grid, and know what was stamped 0.1 s before or earlier: longer than a
-// message takes, so that a run in many processes gives what one in lockstep does. An answer is counted from
+//   (g r)^2 / (24 c^2)    5 cm in 1 km at 0.05 1/s, 4 m at 0.45 1/s
+//
+// No range is used before the first ENVIRONMENT (the channel server repeats it once a minute). STATE serves
+// only to compute the error of the estimate.
+//
+// Estimates are published on the time grid and use data stamped at least 0.1 s earlier. That is longer than a
+// message takes, so that a run of separate processes gives the same results as one in lockstep. The range of
+// a ping holds at the instants when its packets left and arrived, so it loses nothing by being used later.
 // the instants that the water gave it, so its lateness costs nothing.
 #pragma once
 
@@ -37,8 +42,8 @@ namespace halocline::clients {
 
 class LocaliserNode : public bus::Node {
  public:
-  // Localises the vehicles of `config` that have beacons. Throws InvalidArgument for a beacon that the
-  // scenario does not have, or a vehicle that has two names for one.
+  // Localises the vehicles of `config` that have beacons. Throws InvalidArgument when a beacon is not another
+  // vehicle of the scenario.
   LocaliserNode(lcm::LCM& lcm, bus::NodeIdentity identity, const LocaliserConfig& config);
 
  protected:
@@ -61,14 +66,14 @@ class LocaliserNode : public bus::Node {
     std::vector<Beacon> beacons;
     ModemClient modem;
     PositionEstimator estimator;
-    std::deque<vehicle_sensors_t> sensors;  // received, not used yet; likewise the next three
+    std::deque<vehicle_sensors_t> sensors;  // received, not yet used; so are the next three
     std::deque<vehicle_state_t> states;
     std::deque<modem_receive_t> packets;
     std::deque<vehicle_gps_t> fixes;
-    std::optional<vehicle_state_t> truth;
-    position_estimate_t last{};  // published
+    std::optional<vehicle_state_t> truth;  // latest true state
+    position_estimate_t last{};            // latest estimate published
     std::int64_t pings = 0, used = 0, refused = 0;
-    SimTime next_ping;  // by the vehicle's clock
+    SimTime next_ping;  // instant of the next ping, by the vehicle's clock
 
     void archive(Archive& a);
   };
@@ -86,9 +91,9 @@ class LocaliserNode : public bus::Node {
   SimDuration period_;
   VehicleTime clocks_;
   SimTime next_estimate_;
-  std::optional<environment_t> environment_;  // the latest, from which water_ is made
+  std::optional<environment_t> environment_;  // latest message, from which water_ is computed
   std::optional<Water> water_;
-  std::vector<std::unique_ptr<Vehicle>> vehicles_;  // handlers hold their addresses
+  std::vector<std::unique_ptr<Vehicle>> vehicles_;  // message handlers hold pointers to the vehicles
 };
 
 }  // namespace halocline::clients

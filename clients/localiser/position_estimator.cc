@@ -13,13 +13,13 @@
 namespace halocline::clients {
 namespace {
 
-// An outlier comes by an echo, up to some hundreds of metres late, once in a hundred ranges.
+// Outliers are taken to be 1 in 100 ranges, by echoes that are late by up to some hundreds of metres.
 constexpr double kOutlierShare = 0.01, kOutlierDensityPerM = 1.0 / 500;
-// Ranges whose directions differ by less than 6 degrees fix no position to start from.
+// Minimum sine of the angle between the directions to two beacons for a start: about 6 degrees.
 constexpr double kMinSine = 0.1;
-constexpr double kUnknownM = 1000;  // standard deviation that two ranges then narrow down
-constexpr int kIterations = 4;      // of an update; each squares the error of the linearisation
-constexpr std::size_t kMaxWaiting = 16;
+constexpr double kUnknownM = 1000;  // standard deviation at a start, before its two ranges are used
+constexpr int kIterations = 4;      // iterations of an update; each squares the error of the linearisation
+constexpr std::size_t kMaxWaiting = 16;  // ranges kept for a start
 
 double gaussian(double normalised_square, double variance) {
   return elementary::exp(-0.5 * normalised_square) / std::sqrt(2 * std::numbers::pi * variance);
@@ -127,7 +127,16 @@ double PositionEstimator::variance(const Hypothesis& hypothesis, const Expected&
          (2 * there.gradient.dot(hypothesis.cross * k) + k.dot(hypothesis.clock_covariance * k));
 }
 
-// Gauss-Newton for the state that is most likely by what was expected and by the range.
+// Iterated update (Gauss-Newton): finds the state of maximum likelihood given the prediction and the range.
+// The gain of the measurement h(x) with gradient H, for an iterate x_i that starts from the prediction x, P,
+// is
+//
+//   v       = H^T P H + R
+//   K       = P H / v
+//   x_(i+1) = x + K (z - h(x_i) - H^T (x - x_i))
+//
+// with H taken at x_i. The clock's state and covariance are updated in the same way; the cross covariance
+// couples the two.
 void PositionEstimator::update(Hypothesis& hypothesis, const RangeMeasurement& range) const {
   const Hypothesis before = hypothesis;
   for (int i = 0; i < kIterations; ++i) {
@@ -147,7 +156,8 @@ void PositionEstimator::update(Hypothesis& hypothesis, const RangeMeasurement& r
   hypothesis.covariance = (0.5 * (hypothesis.covariance + hypothesis.covariance.transpose())).eval();
 }
 
-// Whether the range moved the hypothesis.
+// Updates weight and state of a hypothesis by a range. Returns true when the range moved the state: an
+// outlier only lowers the weight.
 bool PositionEstimator::weigh(Hypothesis& hypothesis, const RangeMeasurement& range) const {
   const Expected there = expected(hypothesis, range);
   const double v = variance(hypothesis, there, range);
@@ -190,7 +200,7 @@ void PositionEstimator::drop_unlikely() {
                    [](const Hypothesis& a, const Hypothesis& b) { return a.weight > b.weight; });
   const Hypothesis best = hypotheses_.front();
   const Eigen::Matrix2d information = best.covariance.topLeftCorner<2, 2>().inverse();
-  // One that has come within a standard deviation of the best is the same place.
+  // Hypotheses within a standard deviation of the best one are the same position.
   const auto goes = [&](const Hypothesis& other) {
     const Vec2 apart = (other.mean - best.mean).head<2>();
     return other.weight < kForgotten * best.weight || apart.dot(information * apart) < 1;
@@ -212,8 +222,8 @@ void PositionEstimator::start_from_ranges(const RangeMeasurement& latest) {
   if (!hypotheses_.empty()) waiting_.clear();
 }
 
-// Both crossings of the circles that the ranges draw about the beacons, these carried along as the vehicle
-// went.
+// Adds a hypothesis at each crossing of two circles, the loci of the vehicle by one range each. A circle's
+// centre is the beacon, shifted by the vehicle's path since the range was measured.
 void PositionEstimator::add_crossings(const RangeMeasurement& one, const RangeMeasurement& other) {
   struct Circle {
     Vec2 centre = Vec2::Zero();
@@ -237,7 +247,7 @@ void PositionEstimator::add_crossings(const RangeMeasurement& one, const RangeMe
   if (apart <= 0 || a.radius <= 0 || b.radius <= 0) return;
   const double along = (a.radius * a.radius - b.radius * b.radius + apart * apart) / (2 * apart);
   const double across_square = a.radius * a.radius - along * along;
-  // sin of the angle between the two directions = twice the triangle's area / (r_a r_b)
+  // sin(angle between the two directions) = 2 (area of the triangle) / (r_a r_b)
   if (across_square <= 0 || std::sqrt(across_square) * apart < kMinSine * a.radius * b.radius) return;
   const Vec2 unit = line / apart;
   for (const double side : {-1.0, 1.0}) {

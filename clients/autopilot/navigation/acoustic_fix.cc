@@ -11,7 +11,7 @@ namespace halocline::clients {
 std::optional<PlaceFix> place_by_beacon(const AcousticFixRules& rules, const Vec3& beacon,
                                         const BeaconMeasurement& measured, const EulerAngles& attitude,
                                         double own_z_m) {
-  constexpr double kMinLevelPart = 0.1;  // of the direction: about 6 degrees from the vertical
+  constexpr double kMinLevelPart = 0.1;  // minimum horizontal part: about 6 degrees from the vertical
   const double level = elementary::cos(measured.elevation_rad);
   const Vec3 towards = to_quaternion(attitude) * Vec3(level * elementary::cos(measured.bearing_rad),
                                                       level * elementary::sin(measured.bearing_rad),

@@ -10,7 +10,7 @@
 namespace halocline::clients {
 namespace {
 
-// Standard deviation of an angle of which nothing is known.
+// Standard deviation of an unknown angle, uniform over the circle.
 constexpr double kUnknown = std::numbers::pi / std::numbers::sqrt3;
 
 Quaternion turned(const Quaternion& q, const Vec3& turn_body_rad) {

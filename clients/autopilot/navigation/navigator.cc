@@ -73,7 +73,7 @@ void Navigator::fix(double north_m, double east_m, double deviation_m) {
   deviation_m_ = std::sqrt(p * (1 - gain));
 }
 
-// What was reckoned before was off by the same.
+// Moves the present position, and the history by the same correction.
 void Navigator::move_to(const Eigen::Vector2d& north_east_m) {
   const Eigen::Vector2d correction = north_east_m - position_ned_m_.head<2>();
   position_ned_m_.head<2>() = north_east_m;

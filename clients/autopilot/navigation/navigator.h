@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Position by the vehicle's own sensors: dead reckoning between fixes.
+// Position by the vehicle's own sensors: dead reckoning between position fixes.
 //
-// Model: position moves by the velocity over ground where a Doppler log measures it, else by the speed
-// through the water along the hull's axis (heading, pitch), as if the water stood still; velocity changes
-// evenly between samples (trapezium). z is the measured depth. Uncertainty: a standard deviation of each
-// horizontal axis that grows with time, by `log_drift_mps` while the speed is that through the water (the
-// current that is not known) and by `ground_drift` times the way while it is that over ground (the Doppler
-// log's scale and the compass): both are lasting errors, so deviations add up, not variances. While the gyro
-// carries the heading on without a compass (attitude_keeper.h) it grows by that heading's deviation times the
-// way as well, by the way at most. A fix moves the position by P / (P + R) of the difference (Kalman's gain
-// with one variance for both axes) and leaves 1 / (1/P + 1/R). So in a current c the error grows as c t, and
-// a good fix takes it away. A fix of up to kMemory s ago is compared with the place reckoned then. Left out:
-// the current is not estimated, nor the compass's error; sideslip without a Doppler log.
+// Model: the position is the time integral (trapezium rule) of the velocity over ground where a Doppler log
+// measures it, else of the speed through the water along the hull's axis (heading, pitch), as if the water
+// were at rest. z is the measured depth.
+//
+// Uncertainty is a standard deviation sigma, common to both horizontal axes, which grows over a step of time
+// dt and length ds by
+//
+//   log_drift_mps dt     with the speed through the water (unknown current)
+//   ground_drift ds      with the velocity over ground (scale error of the Doppler log, compass error)
+//   min(heading_deviation, 1) ds    in addition, while the gyro replaces the compass (attitude_keeper.h)
+//
+// These are systematic errors, so deviations add up, not variances. A fix of variance R moves the position by
+// the Kalman gain, with one variance P = sigma^2 for both axes:
+//
+//   gain = P / (P + R),  P -> 1 / (1/P + 1/R)
+//
+// In a current c the error thus grows as c t, and a good fix removes it. A fix that is up to kMemory_s old is
+// compared with the position estimated for its instant. Left out: estimation of the current and of the
+// compass error, sideslip without a Doppler log.
 #pragma once
 
 #include <deque>
@@ -23,21 +31,21 @@
 namespace halocline::clients {
 
 struct NavigatorRules {
-  double log_drift_mps = 0.1;    // metres a second through unknown currents, 0 or above
-  double ground_drift = 0.01;    // metres a metre of way over ground, 0 or above
-  double start_deviation_m = 1;  // of the place it is put into the water, 0 or above
-  // Of a gyro that carries the heading on without a compass, at most; 0 or above: 36 degrees an hour
+  double log_drift_mps = 0.1;    // metres per second by unknown currents, 0 or above
+  double ground_drift = 0.01;    // metres per metre travelled over ground, 0 or above
+  double start_deviation_m = 1;  // deviation of the starting position, 0 or above
+  // Maximum bias of the gyro that replaces the compass: 36 degrees per hour; 0 or above.
   double gyro_bias_radps = 1.7453292519943296e-4;
 };
 
-// The sensor readings of an instant.
+// Sensor readings of one instant.
 struct NavigationSample {
   double time_s = 0;
   EulerAngles attitude;
-  double depth_m = 0;                              // becomes z
-  double water_speed_mps = 0;                      // forward through the water
-  std::optional<Vec3> ground_velocity_body_mps{};  // of a Doppler log
-  double heading_deviation_rad = 0;                // without a compass, see attitude_keeper.h
+  double depth_m = 0;                              // used as z
+  double water_speed_mps = 0;                      // forward speed through the water
+  std::optional<Vec3> ground_velocity_body_mps{};  // from a Doppler log
+  double heading_deviation_rad = 0;                // while the compass is unavailable, see attitude_keeper.h
 
   void archive(Archive& a) {
     a(time_s, attitude, depth_m, water_speed_mps, ground_velocity_body_mps, heading_deviation_rad);
@@ -46,21 +54,21 @@ struct NavigationSample {
 
 class Navigator {
  public:
-  // `start_ned_m`: where the vehicle is put into the water.
+  // `start_ned_m`: starting position of the vehicle.
   Navigator(const Vec3& start_ned_m, NavigatorRules rules);
 
-  // Samples come in order of time; one that is not later than the last is ignored.
+  // Takes in a sample. Samples must come in order of time; one that is not later than the last is ignored.
   void add(const NavigationSample& sample);
-  // A position measured at the latest sample, or at `time_s`; `deviation_m` of each axis, above 0. One from
-  // before the history is ignored.
+  // Takes in a position measured at the latest sample, or at `time_s`. `deviation_m`: standard deviation of
+  // each axis, above 0. A fix from before the history is ignored.
   void fix(double north_m, double east_m, double deviation_m);
   void fix(double north_m, double east_m, double deviation_m, double time_s);
 
-  // The position of another estimator that uses all data of this one and more: replaces this one's.
+  // Replaces the position by that of another estimator that uses all data of this one and more.
   void replace(double north_m, double east_m, double deviation_m);
 
-  // What was measured and reckoned at `time_s`, linear between samples; of the latest sample from that on.
-  // Empty before the history.
+  // Returns attitude and estimated position at `time_s`, linear between samples; from the latest sample on,
+  // those of the latest sample. Empty before the history.
   struct Past {
     double time_s = 0;
     EulerAngles attitude;
@@ -72,10 +80,10 @@ class Navigator {
 
   bool has_sample() const { return last_.has_value(); }
   const NavigationSample& last() const { return *last_; }
-  // At `time_s`, not before the latest sample: carried on by its velocity.
+  // Returns the position at `time_s`, not before the latest sample: extrapolated by its velocity.
   Vec3 position_ned_m(double time_s) const;
   Vec3 velocity_ned_mps() const { return velocity_ned_mps_; }
-  // Standard deviation of north and of east.
+  // Standard deviation of the north and of the east component, m.
   double deviation_m() const { return deviation_m_; }
 
   void archive(Archive& a) { a(position_ned_m_, velocity_ned_mps_, deviation_m_, last_, past_); }
@@ -88,7 +96,7 @@ class Navigator {
   Vec3 velocity_ned_mps_ = Vec3::Zero();
   double deviation_m_;
   std::optional<NavigationSample> last_;
-  std::deque<Past> past_;  // ascending
+  std::deque<Past> past_;  // in ascending order of time
 };
 
 }  // namespace halocline::clients
