@@ -8,14 +8,16 @@ namespace {
 
 double held(double value, double limit) { return std::clamp(value, -limit, limit); }
 
-// (command - value) / T, no faster than the rate.
+// Returns the rate of an actuator with first-order lag and rate limit:
+//
+//   d x / dt = clip((x_c - x) / T, +-rate)
 double slow_rate(const SlowActuator& a, double value, double command) {
   return held((command - value) / a.lag_s, a.rate);
 }
 
 }  // namespace
 
-// Saturation: -max <= command <= max.
+// Saturation: -limit <= command <= limit. The weight of a model without one cannot be released.
 ActuatorValues limited(const ModelParameters& p, const ActuatorValues& command) {
   ActuatorValues held_to;
   held_to.rudder_rad = held(command.rudder_rad, p.fin_servo.max_angle_rad);
@@ -30,7 +32,9 @@ ActuatorValues limited(const ModelParameters& p, const ActuatorValues& command) 
   return held_to;
 }
 
-// First-order lag: d delta / dt = (delta_c - delta) / T, of all alike (Fossen 2021, section 9.4).
+// First-order lag of each actuator (Fossen 2021, section 9.4):
+//
+//   d delta / dt = (delta_c - delta) / T
 ActuatorValues actuator_rate(const ModelParameters& p, const ActuatorValues& value,
                              const ActuatorValues& command) {
   ActuatorValues rate;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Velocities and forces along and about the body's axes as plain numbers, which a compiler keeps in
-// registers.
+// Velocities and forces along and about the body axes, as plain numbers that a compiler keeps in registers.
 //
 // An Eigen vector whose coefficients are set one by one and then added as a whole goes through memory and
-// waits there for each coefficient; the right-hand side of a vehicle's motion took a third longer that way.
+// waits there for each coefficient, which made the right-hand side of the equations of motion a third slower.
 // Names are those of SNAME 1950 (Fossen 2021, table 2.1). Frame: body, about CO, x forward, y starboard, z
-// down. SI and radians.
+// down. SI units and radians.
 #pragma once
 
 #include <cmath>
@@ -15,7 +14,7 @@
 
 namespace halocline::vehicle_sim {
 
-// A vector of the body frame.
+// Vector in the body frame.
 struct Axes {
   double x = 0, y = 0, z = 0;
 
@@ -33,7 +32,8 @@ inline Axes cross(const Axes& a, const Axes& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Surge, sway, heave, m/s; rates of roll, pitch, yaw, rad/s; or their rates of change.
+// Velocities of surge, sway and heave, m/s, and rates of roll, pitch and yaw, rad/s; or their time
+// derivatives.
 struct BodyVelocity {
   double u = 0, v = 0, w = 0, p = 0, q = 0, r = 0;
 
@@ -73,7 +73,7 @@ inline BodyForce operator*(double s, const BodyForce& f) {
   return {s * f.x, s * f.y, s * f.z, s * f.k, s * f.m, s * f.n};
 }
 
-// `matrix` times six numbers, summed column by column.
+// Returns `matrix` times a vector of six numbers, summed column by column.
 inline Vec6 times(const Mat6& matrix, double c0, double c1, double c2, double c3, double c4, double c5) {
   Vec6 sum = matrix.col(0) * c0;
   sum += matrix.col(1) * c1;

@@ -6,22 +6,29 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-// q turned by the rotation vector `angle` of the world frame, radians.
+// Returns q rotated by the rotation vector `angle`, world frame, rad.
 Quaternion turned(const Quaternion& q, const Vec3& angle) { return (rotation_by(angle) * q).normalized(); }
 
-// nu_r = nu - (R^T v_c, 0): velocity over ground less the water's.
+// Returns the velocity relative to the water (Fossen 2021, section 10.3):
+//
+//   nu_r = nu - (R^T v_c, 0)
 Vec6 relative_velocity(const VehicleState& state, const Vec3& current_ned) {
   Vec6 nu = state.velocity_body;
   nu.head<3>() -= state.orientation.conjugate() * current_ned;
   return nu;
 }
 
-// The same momentum with its moment about `pivot` r: L_r = L - r x P.
+// Returns the same momentum with its moment about `pivot`, r:
+//
+//   L_r = L - r x P
 Impulse about(const Impulse& impulse, const Vec3& pivot) {
   return {impulse.linear, impulse.moment - pivot.cross(impulse.linear)};
 }
 
-// (P, L) = M nu_r, turned to the world frame (Fossen 2021, eq. 6.42 and 6.48).
+// Returns momentum and moment of momentum about CO, rotated to the world frame (Fossen 2021, eq. 6.42 and
+// 6.48):
+//
+//   (P, L) = M nu_r
 Impulse momentum_about_origin_of_body(const Model& model, const VehicleState& state,
                                       const Vec3& current_ned) {
   const Vec6 momentum = model.mass() * relative_velocity(state, current_ned);
@@ -36,12 +43,15 @@ Vec6 in_body_frame(const Quaternion& orientation, const Impulse& impulse) {
 
 }  // namespace
 
-// v + omega x r (rigid body kinematics, Fossen 2021, chapter 2)
+// Rigid-body kinematics (Fossen 2021, chapter 2): v + omega x r.
 Vec3 velocity_at(const Motion& cg, const Vec3& point_ned_m) {
   return cg.velocity + cg.angular_velocity.cross(point_ned_m - cg.position);
 }
 
-// p_g = p + R r_g, v_g = R (v + omega x r_g).
+// Position and velocity of the centre of gravity:
+//
+//   p_g = p + R r_g
+//   v_g = R (v + omega x r_g)
 Motion motion_of_cg(const Model& model, const VehicleState& s) {
   const Vec3& r = model.parameters().center_of_gravity_m;
   const Vec3 v = s.linear_velocity_body_mps(), w = s.angular_velocity_body_radps();
@@ -56,7 +66,10 @@ void set_motion_of_cg(VehicleState& s, const Model& model, const Motion& cg) {
   s.velocity_body << to_body * cg.velocity - w.cross(r), w;
 }
 
-// Semi-implicit Euler: p_g + h v_g, exp(h omega / 2) q.
+// Semi-implicit Euler step, with h the step:
+//
+//   p_g <- p_g + h v_g
+//   q   <- exp(h omega / 2) q
 VehicleState moved(const Model& model, const VehicleState& from, const Motion& cg, double step_s) {
   VehicleState to = from;
   to.orientation = turned(from.orientation, step_s * cg.angular_velocity);
@@ -71,7 +84,7 @@ VehicleState moved_freely(const Model& model, const VehicleState& from, const Ve
   return moved(model, from, cg, step_s);
 }
 
-// J = h f, and its moment p x J.
+// Impulse J = h f and its moment p x J about the world's origin.
 Impulse impulse_of(const Vec3& force_n, const Vec3& point_ned_m, double step_s) {
   return {step_s * force_n, step_s * point_ned_m.cross(force_n)};
 }
@@ -81,7 +94,10 @@ Impulse momentum_of(const Model& model, const VehicleState& state, const Vec3& c
   return about(own, -state.position_ned_m);
 }
 
-// a^T M^-1 a with a = (n, r x n), the unit impulse along n at r from CO, body frame.
+// Inverse effective mass at the point r from CO, with a = (n, r x n) the unit impulse along n in the body
+// frame:
+//
+//   1 / m_eff = a^T M^-1 a
 double inverse_mass_at(const Model& model, const VehicleState& pose, const Vec3& point_ned_m,
                        const Vec3& direction) {
   const Vec3 arm = point_ned_m - pose.position_ned_m;
@@ -89,8 +105,8 @@ double inverse_mass_at(const Model& model, const VehicleState& pose, const Vec3&
   return along.dot(model.inverse_mass() * along);
 }
 
-// nu = nu_free + M^-1 J moves the vehicle to its pose; there the momentum M nu_free + J gives its velocity,
-// with the moment taken about the pose that was reached.
+// The pose is reached with the velocity nu_free + M^-1 J. The velocity there follows from the momentum M
+// nu_free + J, with the moment taken about the new position.
 VehicleState struck(const Model& model, const VehicleState& from, const VehicleState& free,
                     const Impulse& impulse, const Vec3& current_ned, double step_s) {
   const Impulse push = about(impulse, free.position_ned_m);

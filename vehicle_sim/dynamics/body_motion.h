@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle as a rigid body that is pushed: its motion at the centre of gravity, and how an impulse changes
-// it.
+// Motion of a vehicle as a rigid body under impulses: the motion of its centre of gravity, and its change by
+// an impulse.
 //
 // Model: an impulse J at a point p changes the momentum of vehicle and water, M nu in the body frame (Fossen
-// 2021, eq. 6.42 and 6.48; Lamb 1932, art. 119), by J and p x J. Added mass makes a hull heavier across than
-// along it, so the momentum is turned with the body: what is conserved is its value in the world frame. Left
-// out: the water that two hulls share when they are close (each has its added mass as if alone). Pure
-// functions; any number of threads.
+// 2021, eq. 6.42 and 6.48; Lamb 1932, art. 119), by J, and the moment of momentum by p x J. Since the added
+// mass of a hull is greater across than along it, the momentum in the body frame changes as the body rotates;
+// its value in the world frame is conserved. Left out: the interaction of two hulls through the water when
+// they are close (each has its added mass as if alone). Pure functions, safe in any number of threads.
 #pragma once
 
 #include "core/frames.h"
@@ -14,46 +14,48 @@
 
 namespace halocline::vehicle_sim {
 
-// The motion of the centre of gravity, world frame.
+// Motion of the centre of gravity in the world frame.
 struct Motion {
   Vec3 position, velocity, angular_velocity;
 };
 
-// Of the point of the body that is at `point_ned_m`.
+// Returns the velocity of the point of the body that is at `point_ned_m`.
 Vec3 velocity_at(const Motion& cg, const Vec3& point_ned_m);
 
 Motion motion_of_cg(const Model& model, const VehicleState& state);
 
-// Writes a motion of the centre of gravity into the state, whose orientation is already set.
+// Writes a motion of the centre of gravity into the state, whose orientation must already be set.
 void set_motion_of_cg(VehicleState& state, const Model& model, const Motion& cg);
 
-// The state after a step of `step_s` at the velocities of `cg`, from its position and the state's
-// orientation.
+// Returns the state after a step of `step_s` at the velocities of `cg`, from the position in `cg` and the
+// orientation in `from`.
 VehicleState moved(const Model& model, const VehicleState& from, const Motion& cg, double step_s);
 
-// The same at the velocity of `free`, the solution of the step without contacts.
+// Returns the state after a step from `from` at the velocity of `free`, the solution of the step without
+// contacts.
 VehicleState moved_freely(const Model& model, const VehicleState& from, const VehicleState& free,
                           double step_s);
 
-// An impulse on a body, world frame, N s; `moment` (N m s) is about the world's origin.
+// Impulse on a body in the world frame, N s, with its moment about the world's origin, N m s.
 struct Impulse {
   Vec3 linear = Vec3::Zero(), moment = Vec3::Zero();
 };
 
-// What `force_n` at `point` gives in `step_s`.
+// Returns the impulse of `force_n` at `point_ned_m` over `step_s`.
 Impulse impulse_of(const Vec3& force_n, const Vec3& point_ned_m, double step_s);
 
-// Momentum of vehicle and water relative to water that moves at `current_ned_mps`; moment about the world's
-// origin.
+// Returns the momentum of vehicle and water relative to water that moves at `current_ned_mps`; the moment is
+// about the world's origin.
 Impulse momentum_of(const Model& model, const VehicleState& state, const Vec3& current_ned_mps);
 
-// How fast the hull's point moves along the unit `direction` for each unit of impulse along it there, 1/kg.
+// Returns the change of the point's velocity along the unit vector `direction` for a unit impulse along it
+// there, 1/kg.
 double inverse_mass_at(const Model& model, const VehicleState& pose, const Vec3& point_ned_m,
                        const Vec3& direction);
 
-// Where the vehicle, at `from`, is after a step whose free solution is `free` when `impulse` acts as well:
-// its momentum is that of `free` plus the impulse, to rounding; its pose the old one and the first estimate
-// of the velocity, x + h v.
+// Returns the state after a step from `from` whose free solution is `free`, when `impulse` acts as well. Its
+// momentum is that of `free` plus the impulse, to rounding. Its pose is the old one plus h v, with v the
+// first estimate of the velocity.
 VehicleState struck(const Model& model, const VehicleState& from, const VehicleState& free,
                     const Impulse& impulse, const Vec3& current_ned_mps, double step_s);
 

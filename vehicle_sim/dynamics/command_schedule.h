@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Schedule of a vehicle's commands: each holds from its own time on, until a later one, or until the
-// time-out; then the vehicle is in its safe state.
+// Schedule of a vehicle's commands: each holds from its own time on, until a later one holds or the time-out
+// passes; then the vehicle is in its safe state.
 //
-// Safe state (safe_state): a vehicle without a pilot slows down and drifts; one that is buoyant (the
-// scenario's buoyancy_over_weight above 1) or has a buoyancy engine comes up. A vehicle that was never
-// commanded is in it too. The command at an instant does not depend on the order in which commands with
+// In the safe state (safe_state) a vehicle slows down and drifts; one that is buoyant (the scenario's
+// buoyancy_over_weight above 1) or has a buoyancy engine rises to the surface. A vehicle that has had no
+// command is in the safe state, too. The command at an instant does not depend on the order in which commands
+// with different times were received.
 // different times came.
 #pragma once
 
@@ -24,24 +25,24 @@ struct TimedCommand {
 
 enum class CommandVerdict {
   kTaken,
-  kTooOld,   // older than the time-out, or than a command already obeyed
-  kTooMany,  // more wait for their time than a pilot needs
+  kTooOld,   // older than the time-out, or than a command that already held
+  kTooMany,  // more commands wait for their time than a pilot needs
 };
 
 class CommandSchedule {
  public:
   static constexpr std::size_t kMaxWaiting = 1000;
 
-  // `timeout` above 0: the age at which a command is no longer obeyed, but `safe` is.
+  // `timeout`, above 0: age beyond which a command no longer holds and `safe` takes its place.
   explicit CommandSchedule(SimDuration timeout, const ActuatorValues& safe = {});
 
-  // Schedules a command received at `now`. Of two for one instant the one received later counts.
+  // Schedules a command received at `now`. Of two commands with the same time the one received later counts.
   [[nodiscard]] CommandVerdict add(const TimedCommand& command, SimTime now);
 
-  // The command that holds at `now`; calls must not go back in time.
+  // Returns the command that holds at `now`; `now` must not decrease between calls.
   ActuatorValues at(SimTime now);
 
-  // True when the last at() gave the safe state for want of a command.
+  // True when the last at() returned the safe state because no command held.
   bool is_safe_state() const { return safe_; }
 
   void archive(Archive& a) { a(obeyed_, waiting_, commanded_, safe_); }

@@ -10,7 +10,7 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-constexpr double kFastest = 10;  // m/s, beyond any current of the sea
+constexpr double kFastest = 10;  // m/s, faster than any ocean current
 constexpr std::uint32_t kNorth = 0, kEast = 1;
 
 GaussMarkovProcess process(const RandomCurrent& random, std::uint64_t seed, std::uint32_t component) {
@@ -42,8 +42,10 @@ OceanCurrent::OceanCurrent(const CurrentSettings& settings, std::uint64_t seed)
   check(settings_);
 }
 
-// A cos(2 pi t / T + phi) toward the azimuth, one tidal constituent; and a first-order Gauss-Markov process
-// in north and in east (Fossen 2021, section 10.3).
+// One tidal constituent toward an azimuth, and a first-order Gauss-Markov process in north and in east
+// (Fossen 2021, section 10.3):
+//
+//   v = A cos(2 pi t / T + phi) (cos(azimuth), sin(azimuth)) + (x_north(t), x_east(t))
 Vec3 OceanCurrent::changing_part(SimTime now) {
   const TidalCurrent& tide = settings_.tide;
   const double along = tide.amplitude_mps *
@@ -59,7 +61,7 @@ WaterMotion OceanCurrent::everywhere(SimTime now, SimDuration step) {
   return {settings_.uniform_ned_mps + here, (then - here) / step.seconds()};
 }
 
-// Linear between the depths of the table, constant beyond.
+// Linear interpolation between the depths of the table, constant beyond them.
 Vec3 OceanCurrent::at_depth(double depth_m) const {
   const auto& table = settings_.by_depth;
   if (table.empty()) return Vec3::Zero();
@@ -74,8 +76,10 @@ Vec3 OceanCurrent::at_depth(double depth_m) const {
           a.east_mps + share * (below->east_mps - a.east_mps), 0};
 }
 
-// Du/Dt = du/dt + (u . grad) u, by where the water is a step later: its pressure gradient carries what it
-// displaces along.
+// The material derivative, by the velocity where the water will be after a step h. The pressure gradient in
+// the water gives this acceleration to the water that a hull displaces.
+//
+//   Du/Dt = du/dt + (u . grad) u = (u(x + h u, t + h) - u(x, t)) / h
 WaterMotion motion_of(const ocean::OceanField& field, const Vec3& place, SimTime now, SimDuration step) {
   const Vec3 here = field.current_ned_mps(place, now.seconds());
   const Vec3 then = field.current_ned_mps(place + step.seconds() * here, (now + step).seconds());

@@ -13,7 +13,7 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-// A VehicleState, or its rate, as plain numbers (why: body_axes.h).
+// A VehicleState, or its rate of change, as plain numbers (see body_axes.h for the reason).
 struct Numbers {
   Axes position;
   std::array<double, 4> orientation;  // x, y, z, w
@@ -26,12 +26,13 @@ Numbers to_numbers(const VehicleState& s) {
   return {s.position_ned_m, {q.x(), q.y(), q.z(), q.w()}, s.velocity_body, s.actuators};
 }
 
-// The world's axes in the body frame: rows of the matrix that turns body to world.
+// World axes in the body frame: the rows of the rotation matrix from body to world.
 struct WorldAxes {
   Axes north, east, down;
 };
 
-// Between the stages of a step the quaternion is off unit length by the square of the angle turned.
+// The quaternion is normalised here, since between the stages of a step its length differs from 1 by the
+// square of the angle of rotation.
 WorldAxes world_axes(const std::array<double, 4>& q) {
   const double length = std::sqrt((q[0] * q[0] + q[2] * q[2]) + (q[1] * q[1] + q[3] * q[3]));
   const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
@@ -42,8 +43,10 @@ WorldAxes world_axes(const std::array<double, 4>& q) {
           {xz - wy, yz + wx, 1 - (xx + yy)}};
 }
 
-// u_c = V cos(beta - psi), v_c = V sin(beta - psi), w_c = 0; (cos psi, sin psi) is the heading of the body's
-// x axis.
+// Current in the body frame by the yaw angle alone, with V and beta the speed and direction of the current
+// and (cos psi, sin psi) the horizontal direction of the body's x axis:
+//
+//   u_c = V cos(beta - psi),  v_c = V sin(beta - psi),  w_c = 0
 Axes turned_by_yaw(const WorldAxes& axes, const Vec3& v) {
   const double north = axes.north.x, east = axes.east.x, level = elementary::hypot(north, east);
   const double cos_yaw = level > 0 ? north / level : 1, sin_yaw = level > 0 ? east / level : 0;
@@ -54,8 +57,11 @@ Axes turned_to_body(const WorldAxes& axes, const Vec3& v) {
   return v.x() * axes.north + v.y() * axes.east + v.z() * axes.down;
 }
 
-// nu_r = nu - (R^T v_c, 0), and the rate of the current in the turning body frame, R^T dv_c/dt - omega x v_c
-// (Fossen 2021, section 10.3).
+// Velocity relative to the water, and the rate of change of the current in the rotating body frame (Fossen
+// 2021, section 10.3):
+//
+//   nu_r    = nu - (R^T v_c, 0)
+//   v_c_dot = R^T dv_c/dt - omega x v_c
 RelativeFlow relative_flow(const Model& model, const BodyVelocity& nu, const WorldAxes& axes,
                            const Water& water) {
   RelativeFlow flow;
@@ -101,24 +107,30 @@ BodyForce thrusters_force(const ModelParameters& p, const Numbers& state, const 
   return force;
 }
 
-// Buoyancy of floats, rho g V at their centroid c, and what the pressure of water that accelerates at a_w
-// does beyond the acceleration of the whole vehicle with it (relative_flow: m a_w at the centre of gravity):
-// rho V a_w at c less m a_w there, V and c of floats and body together. In waves much longer than the hull
-// the sum is the force of Froude and Krylov.
+// Buoyancy of the floats, and the force of the pressure gradient in water that accelerates at a_w.
+// relative_flow already accelerates the whole vehicle with the water, which applies m a_w at the centre of
+// gravity r_g. The rest is
+//
+//   X = rho g V up,         K = c x X                                          buoyancy
+//   X = (rho V + m_b - m) a_w,  K = (rho V c + m_b r_b - m r_g) x a_w         pressure gradient
+//
+// with V and c the volume and centroid of the floats' wet part, and m_b and r_b the mass of the water that
+// the body displaces and its centre. In waves much longer than the hull, buoyancy and m a_w together with
+// this rest are the Froude-Krylov force.
 BodyForce floats_force(const Model& model, const WetFloats& wet, const WorldAxes& axes, const Water& water) {
   const ModelParameters& p = model.parameters();
   const double rho = p.water_density_kg_m3, g = p.gravity_m_s2;
   const Axes up = -1.0 * axes.down;
   const BodyForce buoyancy(rho * g * wet.volume_m3 * up, rho * g * cross(wet.moment_m4, up));
   const Axes rate = turned_to_body(axes, water.current_rate_ned_mps2);
-  const double body_kg = wet.bottom_share * p.buoyancy_n / g;  // of the water that the body displaces
+  const double body_kg = wet.bottom_share * p.buoyancy_n / g;  // mass of the water that the body displaces
   const double excess_kg = rho * wet.volume_m3 + body_kg - p.mass_kg;
   const Axes excess_moment =
       rho * wet.moment_m4 + body_kg * Axes(p.center_of_buoyancy_m) - p.mass_kg * Axes(p.center_of_gravity_m);
   return buoyancy + BodyForce(excess_kg * rate, cross(excess_moment, rate));
 }
 
-// Of the flow at the propeller, as its thrust counts it.
+// Returns the inflow speed of the propeller by the model's CurrentTreatment.
 double inflow_speed_mps(const ModelParameters& p, const Numbers& state, const RelativeFlow& flow) {
   return p.current_treatment == CurrentTreatment::kUpstream ? length(state.velocity.linear())
                                                             : flow.speed_mps;
@@ -142,8 +154,10 @@ BodyForce stern_force(const ModelParameters& p, const Numbers& state, const Rela
                         state.actuators.propeller_hz);
 }
 
-// -g(eta) = ((W - B) d, (W r_g - B r_b) x d) (Fossen 2021, section 4.1): weight at CG, buoyancy at CB; `down`
-// = d is the world's z axis in the body frame.
+// Weight at CG and buoyancy at CB (Fossen 2021, section 4.1), with d the world's z axis in the body frame,
+// `down`:
+//
+//   -g(eta) = ((W - B) d, (W r_g - B r_b) x d)
 BodyForce restoring_force(const Model& model, const Axes& down, const Submergence& under) {
   const ModelParameters& p = model.parameters();
   const double weight = model.weight_n(), buoyancy = p.buoyancy_n * under.hull;
@@ -152,8 +166,10 @@ BodyForce restoring_force(const Model& model, const Axes& down, const Submergenc
           cross(weight * Axes(p.center_of_gravity_m) - buoyancy * center_of_buoyancy, down)};
 }
 
-// What the set points of a buoyancy engine and a moving mass add to these: rho g V up at its place, m g down
-// for each metre that the mass is off its middle.
+// Force of the buoyancy engine and moment of the moving mass: the extra volume V at r_e lifts by rho g V, and
+// the mass m_p displaced by x adds m_p g x to the moment of the weight.
+//
+//   X = -rho g V d,  K = (m_p g (x, 0, 0) - rho g V r_e) x d
 BodyForce ballast_force(const ModelParameters& p, const ActuatorValues& actuators, const Axes& down,
                         double submerged_share) {
   const double lift_n = p.water_density_kg_m3 * p.gravity_m_s2 * actuators.buoyancy_m3 * submerged_share;
@@ -167,9 +183,12 @@ BodyForce total_coriolis_force(const Model& model, const BodyVelocity& nu_r) {
   return coriolis_force(model.rigid_body_mass(), nu_r) + roll_only_coriolis_force(p.added_mass, nu_r);
 }
 
-// M nu_r_dot = tau - C(nu_r) nu_r - D nu_r - g, nu_dot = nu_r_dot + the rate of the current (Fossen 2021,
-// section 10.3; the forces: hull_forces.h and actuator_forces.h). Forces of the water go with the share of
-// the hull under it.
+// Equations of motion (Fossen 2021, section 10.3), with nu_c the velocity of the current in the body frame.
+// The forces are those of hull_forces.h and actuator_forces.h. Hydrodynamic forces are scaled by the
+// submerged share of the hull.
+//
+//   M nu_r_dot = tau - C(nu_r) nu_r - D(nu_r) nu_r - g(eta)
+//   nu_dot     = nu_r_dot + nu_c_dot
 BodyVelocity acceleration(const Model& model, const Numbers& state, const WorldAxes& axes,
                           const Water& water) {
   const ModelParameters& p = model.parameters();
@@ -188,14 +207,14 @@ BodyVelocity acceleration(const Model& model, const Numbers& state, const WorldA
   return {flow.current_rate + Axes(a[0], a[1], a[2]), Axes(a[3], a[4], a[5])};
 }
 
-// p_dot = R v.
+// Kinematics of the position: p_dot = R v.
 Axes position_rate(const WorldAxes& axes, const Axes& v) {
   const Axes &n = axes.north, &e = axes.east, &d = axes.down;
   return {n.x * v.x + n.y * v.y + n.z * v.z, e.x * v.x + e.y * v.y + e.z * v.z,
           d.x * v.x + (d.y * v.y + d.z * v.z)};
 }
 
-// q_dot = 1/2 q (0, omega), coefficients x, y, z, w.
+// Kinematics of the quaternion, coefficients in the order x, y, z, w: q_dot = 1/2 q (0, omega).
 std::array<double, 4> quaternion_rate(const std::array<double, 4>& at, const Axes& omega) {
   const double x = at[0], y = at[1], z = at[2], w = at[3], p = omega.x, q = omega.y, r = omega.z;
   return {0.5 * (w * p + y * r - z * q), 0.5 * (w * q + (z * p - x * r)), 0.5 * (w * r - y * p + x * q),
@@ -221,7 +240,7 @@ ActuatorValues advanced(const ActuatorValues& a, const ActuatorValues& rate, dou
   return next;
 }
 
-// s + dt rate
+// Returns s + dt rate.
 Numbers advanced(const Numbers& s, const Numbers& rate, double dt) {
   Numbers next{s.position + dt * rate.position, s.orientation, s.velocity + dt * rate.velocity,
                advanced(s.actuators, rate.actuators, dt)};
@@ -229,7 +248,7 @@ Numbers advanced(const Numbers& s, const Numbers& rate, double dt) {
   return next;
 }
 
-// The water some time into the step.
+// Returns the water `seconds` after the start of the step.
 Water after(const Water& water, double seconds) {
   Water later = water;
   later.current_ned_mps += seconds * water.current_rate_ned_mps2;
@@ -271,8 +290,9 @@ StateRate rate_of_change(const Model& model, const VehicleState& state, const Ac
           rate.velocity.vector(), rate.actuators};
 }
 
-// y + h / 6 (k_1 + 2 k_2 + 2 k_3 + k_4), the classical method of Runge and Kutta; the quaternion is then
-// brought back to unit length.
+// Classical Runge-Kutta method of order 4; the quaternion is normalised after the step.
+//
+//   y <- y + h / 6 (k_1 + 2 k_2 + 2 k_3 + k_4)
 VehicleState rk4_step(const Model& model, const VehicleState& state, const ActuatorValues& command,
                       const Water& water, double step_s) {
   const ActuatorValues held = limited(model.parameters(), command);
@@ -284,12 +304,14 @@ VehicleState rk4_step(const Model& model, const VehicleState& state, const Actua
   const Numbers k4 = rate_of_change(model, advanced(start, k3, step_s), held, at_end);
   const Numbers sum = advanced(advanced(advanced(k1, k2, 2), k3, 2), k4, 1);
   Numbers end = advanced(start, sum, step_s / 6);
-  end.actuators.weight = std::max(state.actuators.weight, held.weight);  // released for good
+  end.actuators.weight = std::max(state.actuators.weight, held.weight);  // stays released
   return {Vec3(end.position.x, end.position.y, end.position.z),
           Quaternion(end.orientation.data()).normalized(), end.velocity.vector(), end.actuators};
 }
 
-// 1/2 nu^T M nu - W z_g + B z_b.
+// Mechanical energy, with z_g and z_b the z of the centres of gravity and of buoyancy:
+//
+//   E = 1/2 nu^T M nu - W z_g + B z_b
 double mechanical_energy_j(const Model& model, const VehicleState& state) {
   const ModelParameters& p = model.parameters();
   const double kinetic = 0.5 * state.velocity_body.dot(model.mass() * state.velocity_body);

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The right-hand side of a vehicle's motion, and its solution step by step.
+// Equations of motion of a vehicle, and their integration step by step.
 //
-// Model and sources: vehicle_model.h, hull_forces.h, actuator_forces.h, submergence.h. The current changes
-// evenly over a step; its rate in the turning body frame is R' dv_c/dt - omega x v_c, which carries a
-// neutrally buoyant hull along as the water's own pressure does. Forces of the water scale with the share of
-// the hull under it. Integration: the classical Runge-Kutta method of order 4 with the command held over the
-// step and the quaternion brought back to unit length after it. For `remus100-pvs` a step of 10 ms errs by
-// less than 1e-6 m over minutes where the forces are smooth. Steps up to 20 ms are stable for vehicles of
-// this size. Pure functions; may run in any number of threads at once.
+// Model and sources: vehicle_model.h, hull_forces.h, actuator_forces.h, submergence.h. The current changes at
+// a constant rate over a step. Its rate of change in the rotating body frame is
+//
+//   R^T dv_c/dt - omega x v_c
+//
+// which accelerates a neutrally buoyant hull as the pressure gradient in the water does. Hydrodynamic forces
+// are scaled by the submerged share of the hull. Integration: the classical Runge-Kutta method of order 4,
+// with the command held over the step and the quaternion normalised after it. For `remus100-pvs` the error of
+// 10 ms steps is below 1e-6 m over minutes where the forces are smooth. Steps up to 20 ms are stable for
+// vehicles of this size. Pure functions, safe in any number of threads.
 //
 //   const Model model(remus100_pvs_parameters(CurrentTreatment::kUpstream));
 //   VehicleState state;
@@ -23,39 +26,40 @@ namespace halocline::vehicle_sim {
 
 // Time derivative of a VehicleState.
 struct StateRate {
-  Vec3 position = Vec3::Zero();                           // m/s, world
-  Eigen::Vector4d orientation = Eigen::Vector4d::Zero();  // of the quaternion's x, y, z, w, 1/s
-  Vec6 velocity = Vec6::Zero();                           // m/s^2, rad/s^2, body
+  Vec3 position = Vec3::Zero();                           // m/s, world frame
+  Eigen::Vector4d orientation = Eigen::Vector4d::Zero();  // 1/s, coefficients x, y, z, w
+  Vec6 velocity = Vec6::Zero();                           // m/s^2 and rad/s^2, body frame
   ActuatorValues actuators;                               // rad/s, Hz/s
 };
 
-// The flow at a vehicle.
+// Flow of the water relative to a vehicle.
 struct RelativeFlow {
   BodyVelocity nu_r;     // velocity relative to the water
-  Axes current_rate;     // rate of the current as seen in the body frame, m/s^2
+  Axes current_rate;     // rate of change of the current in the body frame, m/s^2
   double speed_mps = 0;  // |v_r|
 };
 
 RelativeFlow relative_flow(const Model& model, const VehicleState& state, const Water& water);
 
-// nu_dot: acceleration in the body frame, m/s^2 and rad/s^2, from the state's actuators (not from a command).
+// Returns nu_dot, the acceleration in the body frame, m/s^2 and rad/s^2. Actuators act as they are in the
+// state, not as commanded.
 Vec6 acceleration(const Model& model, const VehicleState& state, const Water& water);
 
-// All rates. `limited_command`: within the actuators' limits, see limited().
+// Returns all rates of change. `limited_command`: a command within the actuators' limits, see limited().
 StateRate rate_of_change(const Model& model, const VehicleState& state, const ActuatorValues& limited_command,
                          const Water& water);
 
-// The state after `step_s` (above 0) with the command held. A state or command that is not finite gives one
-// that is not finite.
+// Returns the state after `step_s` (above 0) with the command held. The result is not finite when the state
+// or the command is not.
 VehicleState rk4_step(const Model& model, const VehicleState& state, const ActuatorValues& command,
                       const Water& water, double step_s);
 
-// Mechanical power of propeller and thrusters, W, from the state's actuators.
+// Returns the mechanical power of propeller and thrusters at their speeds in the state, W.
 double shaft_power_w(const Model& model, const VehicleState& state, const Water& water);
 
-// Kinetic energy 1/2 nu' M nu plus potential energy of weight and buoyancy, joules; zero at rest at z = 0,
-// level, with CO, CG and CB at one depth. For a vehicle under water. Without actuators and current it never
-// grows.
+// Returns the kinetic energy 1/2 nu^T M nu plus the potential energy of weight and buoyancy, J; zero at rest
+// at z = 0, level, with CO, CG and CB at one depth. For a submerged vehicle. It never grows without actuators
+// and current.
 double mechanical_energy_j(const Model& model, const VehicleState& state);
 
 }  // namespace halocline::vehicle_sim

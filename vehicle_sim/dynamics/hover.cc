@@ -18,14 +18,14 @@ constexpr double kDensity = 1026, kGravity = 9.81;  // kg/m^3, m/s^2
 constexpr double kLength = 1.4, kDiameter = 0.35;   // m
 constexpr double kSemiAxial = kLength / 2, kSemiTransverse = kDiameter / 2;
 constexpr double kMetacentre = 0.02;             // m, CG below CB
-constexpr double kRollAddedInertia = 0.3;        // A_44 over I_x, as remus100-pvs
-constexpr double kSpeedTime = 20, kYawTime = 1;  // s: damping = M_kk / time, as remus100-pvs
-constexpr double kRollDampingRatio = 0.3, kPitchDampingRatio = 0.8;  // as remus100-pvs
+constexpr double kRollAddedInertia = 0.3;        // A_44 / I_x, the value of remus100-pvs
+constexpr double kSpeedTime = 20, kYawTime = 1;  // s: damping = M_kk / time, the values of remus100-pvs
+constexpr double kRollDampingRatio = 0.3, kPitchDampingRatio = 0.8;  // the values of remus100-pvs
 constexpr double kDampingDecay = 3;                                  // s/m
 constexpr double kFrontalDrag = 0.3;  // on the frontal area: a blunt spheroid with thrusters and openings
-constexpr double kBodyLiftOnDiameter = 1.2, kLiftCenterFromNose = 0.65, kSectionDrag = 1.1;  // as torpedo
+constexpr double kBodyLiftOnDiameter = 1.2, kLiftCenterFromNose = 0.65, kSectionDrag = 1.1;  // from torpedo
 constexpr int kStrips = 10;
-constexpr double kBesideAxis = 0.25, kAftOfMiddle = 0.45;  // m, places of the thrusters
+constexpr double kBesideAxis = 0.25, kAftOfMiddle = 0.45;  // m, positions of the thrusters
 
 Thruster thruster_at(const Vec3& position, const Vec3& direction) {
   Thruster t;
@@ -34,9 +34,9 @@ Thruster thruster_at(const Vec3& position, const Vec3& direction) {
   t.diameter_m = 0.076;
   t.advance_speed_ratio = 1;
   t.max_hz = 60;
-  // T = K_T0 rho n^2 D^4 at the bollard: 51.5 N at 60 Hz
+  // Bollard thrust T = K_T0 rho n^2 D^4: 51.5 N at 60 Hz.
   t.thrust_at_rest = 51.5 / (kDensity * elementary::pow(t.max_hz, 2) * elementary::pow(t.diameter_m, 4));
-  t.thrust_at_max = 0.3 * t.thrust_at_rest;  // of ducted propellers of unit pitch: Oosterveld 1970
+  t.thrust_at_max = 0.3 * t.thrust_at_rest;  // ducted propellers of unit pitch, Oosterveld 1970
   t.advance_max = 0.6;
   t.torque_at_rest = t.torque_at_max = 0.04;
   t.torque_share = 0.1;
@@ -45,8 +45,9 @@ Thruster thruster_at(const Vec3& position, const Vec3& direction) {
   return t;
 }
 
-// X_u = -k_1 m, Y_v = Z_w = -k_2 m, M_q = N_r = -k' I (Lamb 1932, sections 114 and 115); K_p by its share of
-// I_x.
+// Added masses by Lamb's factors (Lamb 1932, sections 114 and 115), and K_p as a share of I_x:
+//
+//   X_u = -k_1 m,  Y_v = Z_w = -k_2 m,  M_q = N_r = -k' I
 Vec6 added_mass_diagonal(double mass, const Vec3& inertia) {
   const LambFactors k = lamb_factors(kSemiAxial, kSemiTransverse);
   Vec6 diagonal;
@@ -55,8 +56,11 @@ Vec6 added_mass_diagonal(double mass, const Vec3& inertia) {
   return diagonal;
 }
 
-// D_kk = M_kk / T_k in surge, sway, heave and yaw; 2 zeta_k sqrt(W z_g M_kk) in roll and pitch (Fossen 2021,
-// section 6.4: damping from time constants and damping ratios).
+// Linear damping (Fossen 2021, section 6.4): by time constants T_k in surge, sway, heave and yaw, by damping
+// ratios zeta_k in roll and pitch:
+//
+//   D_kk = M_kk / T_k
+//   D_kk = 2 zeta_k sqrt(W z_g M_kk)
 Damping damping(const Vec6& m, double weight) {
   Damping d;
   d.linear << m[0] / kSpeedTime, m[1] / kSpeedTime, m[2] / kSpeedTime,
@@ -75,8 +79,9 @@ ModelParameters hover_parameters() {
   p.water_density_kg_m3 = kDensity;
   p.gravity_m_s2 = kGravity;
   p.hull = {kLength, kDiameter};
-  // A solid spheroid as heavy as its water: m = 4/3 pi rho a b^2, I_x = 2/5 m b^2, I_y = I_z = m (a^2 + b^2)
-  // / 5.
+  // A solid spheroid of the density of the water:
+  //
+  //   m = 4/3 pi rho a b^2,  I_x = 2/5 m b^2,  I_y = I_z = m (a^2 + b^2) / 5
   p.mass_kg = 4.0 / 3 * pi * kDensity * a * b * b;
   p.buoyancy_n = p.mass_kg * kGravity;
   p.center_of_gravity_m = {0, 0, kMetacentre};
@@ -87,7 +92,7 @@ ModelParameters hover_parameters() {
   p.added_mass = added.asDiagonal();
   const Mat6 rigid = rigid_body_mass_matrix(p.mass_kg, p.inertia_kg_m2, p.center_of_gravity_m);
   p.damping = damping(rigid.diagonal() + added, p.mass_kg * kGravity);
-  // The slope on the diameter squared, C_L,d d^2 = C_L S.
+  // The lift slope refers to the diameter squared: C_L,d d^2 = C_L S.
   p.body_lift = {.reference_area_m2 = pi * b * b,
                  .axial_drag = kFrontalDrag,
                  .lift_slope_per_rad = kBodyLiftOnDiameter * kDiameter * kDiameter / (pi * b * b),

@@ -26,7 +26,7 @@ void check(const OpenLoopRun& run) {
   }
 }
 
-// The angle nearest to `near` that differs from `angle` by whole turns.
+// Returns the angle nearest to `near` that differs from `angle` by whole turns.
 double unwrapped(double angle, double near) {
   constexpr double kTurn = 2 * std::numbers::pi;
   return angle + kTurn * std::round((near - angle) / kTurn);
@@ -44,7 +44,7 @@ std::vector<OpenLoopSample> run_open_loop(const Model& model, const OpenLoopRun&
   const SimTime end = SimTime() + run.duration;
   OpenLoopSample now{SimTime(), run.start, to_euler(run.start.orientation).yaw, {}};
   std::vector<OpenLoopSample> samples;
-  std::optional<Model> lightened;  // once a weight is gone
+  std::optional<Model> lightened;  // model without its drop weight, once released
   auto next = run.schedule.begin();
   for (SimTime next_sample;;) {
     for (; next != run.schedule.end() && next->from <= now.time; ++next) now.command = next->actuators;

@@ -19,22 +19,24 @@ constexpr double kDensity = 1026, kGravity = 9.81;  // kg/m^3, m/s^2
 constexpr double kLength = 1.6, kDiameter = 0.19;   // m
 constexpr double kSemiAxial = kLength / 2, kSemiTransverse = kDiameter / 2;
 constexpr double kMetacentre = 0.02;                                              // m, CG below CB
-constexpr double kRollAddedInertia = 0.3;                                         // A_44 over I_x
+constexpr double kRollAddedInertia = 0.3;                                         // A_44 / I_x
 constexpr double kSurgeTime = 20, kSwayTime = 20, kHeaveTime = 20, kYawTime = 1;  // s: damping = M_kk / time
 constexpr double kRollDampingRatio = 0.3, kPitchDampingRatio = 0.8;
-constexpr double kDampingDecay = 3;         // s/m, of surge and sway damping
-constexpr double kHullZeroLiftDrag = 0.42;  // on the frontal area
-constexpr double kPlanformShare = 0.7;      // reference area over length times diameter
+constexpr double kDampingDecay = 3;         // s/m, decay of surge and sway damping
+constexpr double kHullZeroLiftDrag = 0.42;  // drag coefficient on the frontal area
+constexpr double kPlanformShare = 0.7;      // reference area / (length times diameter)
 constexpr double kOswald = 0.7;
-constexpr double kHoernerHalf =
-    1.1977288343558283;  // Hoerner 1965, section drag at breadth over twice draft = 1/2
+// Section drag at breadth over twice draft = 1/2 (Hoerner 1965).
+constexpr double kHoernerHalf = 1.1977288343558283;
 constexpr int kStripIntervals = 20;
-constexpr double kFinArea = 0.00665;                   // m^2, of one fin
+constexpr double kFinArea = 0.00665;                   // m^2, one fin
 constexpr double kFinPlace = -0.8;                     // m
 constexpr double kRudderLift = 0.5, kSternLift = 0.7;  // 1/rad
 constexpr double kMaxFinDegrees = 15, kMaxRpm = 1525;
 
-// X_u = -k_1 m, Y_v = Z_w = -k_2 m, M_q = N_r = -k' I (Fossen 2021, section 8.1.5); K_p = -0.3 I_x.
+// Added masses (Fossen 2021, section 8.1.5), and K_p = -0.3 I_x:
+//
+//   X_u = -k_1 m,  Y_v = Z_w = -k_2 m,  M_q = N_r = -k' I
 Mat6 added_mass(double mass, const Vec3& inertia) {
   const LambFactors k = lamb_factors(kSemiAxial, kSemiTransverse);
   Vec6 diagonal;
@@ -43,9 +45,11 @@ Mat6 added_mass(double mass, const Vec3& inertia) {
   return diagonal.asDiagonal();
 }
 
-// D_kk = M_kk / T_k: surge, sway, heave and yaw by time constants. D_kk = 2 zeta_k w_k M_kk: roll and pitch
-// by their damping ratios at the natural frequencies w_k = sqrt(W z_g / M_kk) (the published program, after
-// Fossen 2021, section 6.4).
+// Linear damping (the published program, after Fossen 2021, section 6.4): by time constants T_k in surge,
+// sway, heave and yaw, by damping ratios zeta_k at the natural frequencies w_k in roll and pitch:
+//
+//   D_kk = M_kk / T_k
+//   D_kk = 2 zeta_k w_k M_kk,  w_k = sqrt(W z_g / M_kk)
 Damping damping(const Mat6& m, double weight) {
   const double roll_frequency = std::sqrt(weight * kMetacentre / m(3, 3));
   const double pitch_frequency = std::sqrt(weight * kMetacentre / m(4, 4));
@@ -57,8 +61,10 @@ Damping damping(const Mat6& m, double weight) {
   return d;
 }
 
-// C_La = pi A / (1 + sqrt(1 + (A / 2)^2)), A = b^2 / S: Helmbold's wing of low aspect ratio; C_D0 from the
-// frontal to the reference area.
+// Lift slope of a wing of low aspect ratio A (Helmbold), with C_D0 converted from the frontal to the
+// reference area S:
+//
+//   C_La = pi A / (1 + sqrt(1 + (A / 2)^2)),  A = b^2 / S
 LiftDrag lift_drag() {
   LiftDrag l;
   l.reference_area_m2 = kPlanformShare * kLength * kDiameter;
@@ -69,7 +75,7 @@ LiftDrag lift_drag() {
   return l;
 }
 
-// Allen et al. 2000, with the wake fraction and thrust deduction of the published program.
+// Propeller of Allen et al. 2000, with the wake fraction and thrust deduction of the published program.
 Thruster propeller() {
   Thruster t;
   t.position_m = {kFinPlace, 0, 0};
@@ -90,12 +96,14 @@ Thruster propeller() {
 
 }  // namespace
 
-// With the eccentricity e = sqrt(1 - (b / a)^2):
+// Lamb's factors (Lamb 1932, sections 114 and 115; Fossen 2021, section 8.1.5), with the eccentricity e:
+//
+//   e       = sqrt(1 - (b / a)^2)
 //   alpha_0 = 2 (1 - e^2) / e^3 (1/2 ln((1 + e) / (1 - e)) - e)
-//   beta_0 = 1 / e^2 - (1 - e^2) / (2 e^3) ln((1 + e) / (1 - e))
-//   k_1 = alpha_0 / (2 - alpha_0), k_2 = beta_0 / (2 - beta_0),
-//   k' = e^4 (beta_0 - alpha_0) / ((2 - e^2) (2 e^2 - (2 - e^2) (beta_0 - alpha_0)))
-// (Lamb 1932, sections 114 and 115; Fossen 2021, section 8.1.5).
+//   beta_0  = 1 / e^2 - (1 - e^2) / (2 e^3) ln((1 + e) / (1 - e))
+//   k_1     = alpha_0 / (2 - alpha_0)
+//   k_2     = beta_0 / (2 - beta_0)
+//   k'      = e^4 (beta_0 - alpha_0) / ((2 - e^2) (2 e^2 - (2 - e^2) (beta_0 - alpha_0)))
 LambFactors lamb_factors(double a, double b) {
   require(b > 0 && a > b, "Lamb's factors need 0 < transverse < axial semi-axis");
   const double e2 = 1 - (b / a) * (b / a), e = std::sqrt(e2);
@@ -113,7 +121,9 @@ ModelParameters remus100_pvs_parameters(CurrentTreatment treatment) {
   p.water_density_kg_m3 = kDensity;
   p.gravity_m_s2 = kGravity;
   p.hull = {kLength, kDiameter};
-  // A neutrally buoyant solid spheroid: m = 4/3 pi rho a b^2, I_x = 2/5 m b^2, I_y = I_z = m (a^2 + b^2) / 5.
+  // A neutrally buoyant solid spheroid:
+  //
+  //   m = 4/3 pi rho a b^2,  I_x = 2/5 m b^2,  I_y = I_z = m (a^2 + b^2) / 5
   p.mass_kg = 4.0 / 3 * pi * kDensity * a * b * b;
   p.buoyancy_n = p.mass_kg * kGravity;
   p.center_of_gravity_m = {0, 0, kMetacentre};

@@ -18,28 +18,30 @@ double share_of_disc(double depth_m, double radius_m) {
 }
 
 constexpr int kColumns = 8;
-// Of points on a circle of radius 1: cos and sin of multiples of 45 degrees.
+// Points on the unit circle: cos and sin of multiples of 45 degrees.
 constexpr double kHalf = std::numbers::sqrt2 / 2;
 constexpr double kCircle[kColumns][2] = {{1, 0},  {kHalf, kHalf},   {0, 1},  {-kHalf, kHalf},
                                          {-1, 0}, {-kHalf, -kHalf}, {0, -1}, {kHalf, -kHalf}};
-constexpr double kRamp = 0.02;  // of the height: a bottom that dips in so far is wet
-constexpr double kMinUpright =
-    0.05;  // cosine of the tilt, about 87 degrees: beyond, the hull lies on its side
-
-// Wet length of a column from its bottom up, 0 to its height. A point at r of the body frame lies below the
-// surface by f(r) = (down - slope) . r - surface_below_co; along the column, r = bottom - s z, f falls by
-// (down - slope).z a metre.
+constexpr double kRamp = 0.02;  // fraction of the height: a bottom that is this deep is wet
+// Cosine of the tilt, about 87 degrees, beyond which the hull lies on its side.
+constexpr double kMinUpright = 0.05;
+// point r of the body frame is
+//
+//   f(r) = (down - slope) . r - surface_below_co
+//
+// and decreases along the column, r = bottom - s z, by (down - slope).z per metre.
 double wet_length(double bottom_below_m, double upright, double height_m) {
   if (upright > kMinUpright) return std::clamp(bottom_below_m / upright, 0.0, height_m);
-  if (upright < -kMinUpright)  // keel up: what is near the deck is wet
+  if (upright < -kMinUpright)  // keel up: the wet part is at the deck
     return height_m - std::clamp(bottom_below_m / upright, 0.0, height_m);
   return bottom_below_m > 0 ? height_m : 0;
 }
 
 }  // namespace
 
-// Area of a segment of the unit circle over pi, its chord at -s from the centre: 1 - (acos s - s sqrt(1 -
-// s^2)) / pi.
+// Area of a segment of the unit circle, over pi, with s the distance of the chord above the centre:
+//
+//   A / pi = 1 - (acos(s) - s sqrt(1 - s^2)) / pi
 double submerged_share_of_circle(double depth_in_radii) {
   const double s = depth_in_radii;
   if (s >= 1) return 1;
@@ -47,20 +49,20 @@ double submerged_share_of_circle(double depth_in_radii) {
   return 1 - (elementary::acos(s) - s * std::sqrt(1 - s * s)) / std::numbers::pi;
 }
 
-// Sections at xi in (-1, 1) along the axis have the radius D/2 sqrt(1 - xi^2) and the volume 1 - xi^2; their
-// sum by the midpoint rule.
+// Sums over sections of the spheroid by the midpoint rule. The section at xi in (-1, 1) along the axis has
+// the radius D/2 sqrt(1 - xi^2), and a volume proportional to 1 - xi^2.
 Submergence submergence(const ModelParameters& model, const VehicleState& state, double surface_z_m,
                         const Vec3& slope) {
   const HullShape& hull = model.hull;
   const double depth = depth_below_surface_m(state.position_ned_m, surface_z_m);
   if (is_wholly_submerged(hull, depth)) return {};
   const Vec3 bow = state.orientation * Vec3::UnitX();
-  const double down_along_x = bow.z() - slope.dot(bow);  // under the surface, a metre along the hull
+  const double down_along_x = bow.z() - slope.dot(bow);  // submersion per metre along the hull
   double weight_sum = 0, wet_sum = 0, wet_moment = 0;
   for (int i = 0; i < kSections; ++i) {
     const double along = (2 * i + 1.0) / kSections - 1;  // -1 to 1 over the hull
     const double x = along * hull.length_m / 2;
-    const double volume = 1 - along * along;  // of the section, in units that cancel
+    const double volume = 1 - along * along;  // volume of the section; its unit cancels
     const double radius = hull.diameter_m / 2 * std::sqrt(volume);
     const double wet = volume * share_of_disc(depth + x * down_along_x, radius);
     weight_sum += volume;
@@ -72,8 +74,13 @@ Submergence submergence(const ModelParameters& model, const VehicleState& state,
           wet_sum > 0 ? wet_moment / wet_sum : 0};
 }
 
-// V = sum a_i l_i, and its moment sum a_i l_i (bottom_i - l_i / 2 z); a_i = pi L B / 4 / 8. The columns at
-// 1/sqrt(2) of the half axes have the ellipse's second moments, A L^2 / 16 and A B^2 / 16.
+// Volume and moment of the wet part, as sums over columns of cross-section a_i and wet length l_i:
+//
+//   V     = sum a_i l_i,  a_i = pi L B / 4 / 8
+//   V c   = sum a_i l_i (bottom_i - l_i / 2 z)
+//
+// The columns lie at 1/sqrt(2) of the half axes, where they have the second moments of the ellipse, A L^2 /
+// 16 and A B^2 / 16.
 WetFloats wet_floats(const std::vector<Float>& floats, double surface_below_co_m, const Axes& down,
                      const Axes& slope) {
   const Axes below = down - slope;

@@ -7,14 +7,15 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-// Prestero 2001, after Hoerner 1965: of a low fin of the vehicle's planform; of a cylinder across the flow;
-// of a slender body on its diameter squared, which acts at 0.65 of the length from the leading end.
+// Coefficients of Prestero 2001, after Hoerner 1965: lift slope of a fin of low aspect ratio with the
+// vehicle's planform; drag of a cylinder across the flow; lift slope of a slender body on its diameter
+// squared, which acts at 0.65 of the length from the leading end.
 constexpr double kFinLiftSlope = 3.12;  // 1/rad
 constexpr double kSectionDrag = 1.1;
 constexpr double kBodyLiftOnDiameter = 1.2;  // 1/rad
 constexpr double kLiftCenterFromNose = 0.65;
-constexpr double kFinNormalDrag = 1.2;    // of a flat plate across the flow, Hoerner 1965
-constexpr double kFinsFromStern = 0.036;  // m, Prestero 2001: the fin posts before the hull's end
+constexpr double kFinNormalDrag = 1.2;    // flat plate normal to the flow, Hoerner 1965
+constexpr double kFinsFromStern = 0.036;  // m, Prestero 2001: distance of the fin posts from the stern
 constexpr int kStrips = 10;
 
 }  // namespace
@@ -25,7 +26,8 @@ ModelParameters torpedo_parameters() {
   p.name = kTorpedoName;
   p.added_mass_coriolis = AddedMassCoriolis::kFull;
   p.damping.decay_s_per_m[2] = p.damping.decay_s_per_m[1];
-  // The slope on the diameter squared, C_L,d d^2 = C_L S; its place from the leading end, behind the middle.
+  // The lift slope refers to the diameter squared: C_L,d d^2 = C_L S. It acts at a fraction of the length
+  // from the leading end, behind the middle.
   p.body_lift = {
       .reference_area_m2 = p.lift_drag.reference_area_m2,
       .axial_drag = p.lift_drag.zero_lift_drag,

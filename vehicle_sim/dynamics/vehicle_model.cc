@@ -13,8 +13,8 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-constexpr double kLargest = 1e12;  // far above any vehicle; refuses infinities
-constexpr double kMin = 1e-12;     // "above 0"
+constexpr double kLargest = 1e12;  // far above any vehicle; excludes infinities
+constexpr double kMin = 1e-12;     // smallest value that counts as above 0
 
 void require_positive(double value, const char* what, const char* unit) {
   require_in_range(value, kMin, kLargest, what, unit);
@@ -117,14 +117,16 @@ void check_actuators(const ModelParameters& p) {
 
 }  // namespace
 
-// S(a) b = a x b.
+// Returns the cross-product matrix: S(a) b = a x b.
 Mat3 skew(const Vec3& a) {
   Mat3 s;
   s << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
   return s;
 }
 
-// M_RB = H(r_g)^T diag(m I, I_g) H(r_g), H(r) = [I, S(r)^T; 0, I] (Fossen 2021, eq. 3.35).
+// Rigid-body mass matrix about CO (Fossen 2021, eq. 3.35):
+//
+//   M_RB = H(r_g)^T diag(m I, I_g) H(r_g),  H(r) = [I, S(r)^T; 0, I]
 Mat6 rigid_body_mass_matrix(double mass_kg, const Mat3& inertia_kg_m2, const Vec3& center_of_gravity_m) {
   Mat6 about_cg = Mat6::Zero();
   about_cg.topLeftCorner<3, 3>() = mass_kg * Mat3::Identity();
@@ -146,11 +148,14 @@ Model::Model(ModelParameters parameters) : parameters_(std::move(parameters)) {
   require(mass_.allFinite() && mass_.isApprox(mass_.transpose()), "the mass matrix is not symmetric");
   require(mass_.llt().info() == Eigen::Success, "the mass matrix is not positive definite");
   inverse_mass_ = mass_.inverse();
-  if (parameters_.drop_weight.mass_kg > 0) Model{without_weight(parameters_)};  // must be possible, too
+  if (parameters_.drop_weight.mass_kg > 0) Model{without_weight(parameters_)};  // throws when not possible
 }
 
-// A body less a part: m' = m - m_w, m' r' = m r - m_w r_w, I' = I - (m m_w / m') (d^2 1 - d d^T) with d = r_w
-// - r, the parallel axes of both about the new centre of gravity; a weight is a point.
+// Body without a point mass m_w at r_w, by the parallel axis theorem about the new centre of gravity:
+//
+//   m'    = m - m_w
+//   m' r' = m r - m_w r_w
+//   I'    = I - (m m_w / m') (d^2 1 - d d^T),  d = r_w - r
 ModelParameters without_weight(ModelParameters p) {
   const DropWeight weight = p.drop_weight;
   if (weight.mass_kg == 0) return p;

@@ -14,8 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kLowest = 0.5, kHighest = 4;  // times the peak's frequency: all but 0.5 % of the energy
-constexpr double kNarrowBelow = 0.07, kNarrowAbove = 0.09;  // JONSWAP's sigma
+constexpr double kLowest = 0.5, kHighest = 4;  // times the peak frequency: all but 0.5 % of the energy
+constexpr double kNarrowBelow = 0.07, kNarrowAbove = 0.09;  // sigma of JONSWAP below and above the peak
 
 double uniform(std::uint64_t seed, const char* purpose, int component) {
   return uniform_at({.seed = seed,
@@ -24,9 +24,10 @@ double uniform(std::uint64_t seed, const char* purpose, int component) {
                      .which = 0});
 }
 
-// JONSWAP: S(omega) ~ omega^-5 exp(-5/4 (omega_p / omega)^4) gamma^b, b = exp(-(omega - omega_p)^2 / (2
-// sigma^2 omega_p^2)), sigma = 0.07 below the peak and 0.09 above (Hasselmann et al. 1973); gamma = 1 is
-// Pierson and Moskowitz 1964.
+// JONSWAP spectrum (Hasselmann et al. 1973), up to a factor; gamma = 1 is that of Pierson and Moskowitz 1964:
+//
+//   S(omega) ~ omega^-5 exp(-5/4 (omega_p / omega)^4) gamma^b
+//   b        = exp(-(omega - omega_p)^2 / (2 sigma^2 omega_p^2)),  sigma = 0.07 below the peak, 0.09 above
 double spectrum(double omega, double peak, double gamma) {
   const double sigma = omega <= peak ? kNarrowBelow : kNarrowAbove;
   const double bell = elementary::exp(-elementary::pow((omega - peak) / (sigma * peak), 2) / 2);
@@ -34,16 +35,18 @@ double spectrum(double omega, double peak, double gamma) {
          elementary::pow(gamma, bell);
 }
 
-// Deep water: k = omega^2 / g.
+// Dispersion relation of deep water: k = omega^2 / g.
 WaveField::Component component(double amplitude, double omega, double phase) {
   return {amplitude, omega, omega * omega / WaveField::kGravity, phase};
 }
 
-// a_i = sqrt(2 S(omega_i) d omega), scaled so that the sum of a_i^2 / 2 is (H_s / 4)^2.
+// Amplitudes of the components, scaled to the significant height H_s:
+//
+//   a_i = sqrt(2 S(omega_i) d omega),  sum of a_i^2 / 2 = (H_s / 4)^2
 std::vector<WaveField::Component> sea(const WaveSettings& s, double gamma, std::uint64_t seed) {
   const double peak = 2 * pi / s.period_s, width = (kHighest - kLowest) * peak / s.components;
   std::vector<WaveField::Component> components;
-  double energy = 0;  // sum of a^2 / 2, to be (height / 4)^2
+  double energy = 0;  // sum of a^2 / 2
   for (int i = 0; i < s.components; ++i) {
     const double omega = kLowest * peak + (i + uniform(seed, "wave-frequency", i)) * width;
     const double amplitude = std::sqrt(2 * spectrum(omega, peak, gamma) * width);
@@ -72,8 +75,11 @@ WaveField::WaveField(const WaveSettings& s, std::uint64_t seed)
   }
 }
 
-// theta = k s - omega t + phi; v = a omega exp(-k d) (cos theta along, sin theta up), and its rate of change
-// at a fixed place (Faltinsen 1990, table 2.1).
+// Orbital velocity and its rate of change at a fixed place (Faltinsen 1990, table 2.1):
+//
+//   theta = k s - omega t + phi
+//   v     = a omega exp(-k d) (cos(theta) along, sin(theta) up)
+//   dv/dt = a omega^2 exp(-k d) (sin(theta) along, -cos(theta) up)
 WaterMotion WaveField::at(const Vec3& position_ned_m, double depth_m, SimTime now) const {
   const double along = north_ * position_ned_m.x() + east_ * position_ned_m.y(), t = now.seconds();
   const double depth = std::max(depth_m, 0.0);
