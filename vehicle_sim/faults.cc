@@ -45,7 +45,7 @@ VehicleFaults::Dead VehicleFaults::dead_sensors() const {
 }
 
 ActuatorValues VehicleFaults::obeyed(ActuatorValues command) const {
-  if (!has_power_) {  // what does not turn stays where it was
+  if (!has_power_) {  // actuators that do not spin stay where they are
     ActuatorValues still = left_at_;
     still.propeller_hz = 0;
     still.thruster_hz = {};
@@ -68,8 +68,10 @@ void VehicleFaults::leak(double seconds, double water_density_kg_m3) {
 }
 
 ModelParameters VehicleFaults::broken(ModelParameters sound) const {
-  // Two bodies as one: the common centre of gravity, and the inertia about it with their reduced mass at the
-  // distance.
+  // Vehicle and water as one body, with the reduced mass mu at the distance r between their centres:
+  //
+  //   r_g' = r_g + m_w / (m + m_w) r
+  //   I'   = I + mu (r^2 1 - r r^T),  mu = m m_w / (m + m_w)
   const double dry_kg = sound.mass_kg, all_kg = dry_kg + water_kg_;
   const Vec3& r = sound.leak_offset_m;
   sound.inertia_kg_m2 +=

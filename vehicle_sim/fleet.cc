@@ -34,10 +34,10 @@ Fleet::Fleet(const FleetSettings& settings, std::vector<FleetMember> members,
     if (member.model->parameters().drop_weight.mass_kg > 0) weighted_.push_back(i);
   }
   for (const FleetTether& tether : settings.tethers) tie(tether);
-  move_water();  // where the vehicles start
+  move_water();  // at the starting positions
 }
 
-// An end on a member that is fixed is a fixed point.
+// Adds a tether. An end on a fixed member becomes a fixed point.
 void Fleet::tie(const FleetTether& t) {
   require(t.member < members_.size() && moves(t.member), "a tether starts from a vehicle that moves");
   require(!t.to_member || *t.to_member < members_.size(), "a tether's other end needs a vehicle");
@@ -116,7 +116,7 @@ void Fleet::set_broken_model(std::size_t member) {
                                   : std::make_shared<const Model>(faults.broken(sound_parameters(member))));
 }
 
-// A weight is gone from the step after its release on.
+// Removes each released weight from the model; it acts up to the end of the step in which it was released.
 void Fleet::drop_weights() {
   std::erase_if(weighted_, [this](std::size_t member) {
     if (!has_released(member)) return false;
@@ -125,7 +125,7 @@ void Fleet::drop_weights() {
   });
 }
 
-// The step is made with the water that is inside half way through it.
+// Fills leaks over a step. The model of the step has the mass of water at the middle of the step.
 void Fleet::fill_leaks() {
   for (const std::size_t member : leaking_) {
     const ModelParameters sound = sound_parameters(member);
@@ -206,8 +206,10 @@ Water Fleet::water_at(std::size_t index, const Vec3& position_ned_m) const {
   return water;
 }
 
-// The surface z = still - elevation by its tangent plane at the vehicle: dz/ds = a_s / g, for elevation's
-// slope is -a_s / g, and dz/dt = v_z.
+// Tangent plane of the surface at the vehicle, z = still level - elevation. The elevation's slope is -a_s /
+// g, so
+//
+//   dz/ds = a_s / g,  dz/dt = v_z
 void Fleet::move_surface(std::size_t index, const Vec3& position_ned_m, Water& water) const {
   const ModelParameters& p = members_[index].model->parameters();
   const double least_depth =
@@ -242,7 +244,7 @@ void Fleet::archive(Archive& a) {
   move_water();
 }
 
-// A current is a function of its settings, the seed and time.
+// Currents are archived by their settings: a current is a function of its settings, the seed and time.
 void Fleet::archive_currents(Archive& a) {
   CurrentSettings current = current_.settings();
   std::vector<std::pair<SimTime, CurrentSettings>> changes;
@@ -289,7 +291,9 @@ VehicleState Fleet::state_at(std::size_t index, SimTime when) const {
                   ahead.seconds());
 }
 
-// At r from CO: p + R r, R (v + omega x r).
+// State of a point at r from CO:
+//
+//   p + R r,  R (v + omega x r)
 KinematicState Fleet::published_at(std::size_t index, SimTime when) const {
   const VehicleState state = state_at(index, when);
   KinematicState seen = to_kinematic_state(state);

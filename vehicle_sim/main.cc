@@ -47,8 +47,8 @@ int main(int argc, char** argv) {
     visit(v, recipe);
     visit(v, config);
   };
-  // The ground that hulls touch is the same terrain that the bathymetry service answers from, made in this
-  // process.
+  // The seabed that hulls touch is the terrain of the bathymetry service, built in this process from the same
+  // recipe.
   program.make_node = [&](const NodeProgram::Context& context) {
     const auto prepared = prepare_terrain(
         recipe, {context.scenario.origin_latitude_deg, context.scenario.origin_longitude_deg});

@@ -17,9 +17,9 @@ namespace {
 using bus::ConfigVisitor;
 using bus::NumberRule;
 
-constexpr double kMax = 1e9;  // of what has no natural bound
+constexpr double kMax = 1e9;  // limit of parameters without a natural bound
 
-// Six numbers, surge to yaw.
+// Visits six numbers, surge to yaw.
 void visit_six(ConfigVisitor& v, std::string_view key, Vec6& values, const NumberRule& rule) {
   std::vector<double> list(values.data(), values.data() + 6);
   v.numbers(key, list, rule);
@@ -27,7 +27,7 @@ void visit_six(ConfigVisitor& v, std::string_view key, Vec6& values, const Numbe
   values = Vec6(list.data());
 }
 
-// A matrix by its diagonal and, where they are not zero, the elements right of it, row by row.
+// Visits a matrix by its diagonal and, where they are not zero, the elements right of it, row by row.
 template <class Matrix>
 void visit_symmetric(ConfigVisitor& v, const std::string& key, Matrix& m, double lowest_on_diagonal,
                      std::string_view unit, const std::string& meaning) {
@@ -184,7 +184,7 @@ void visit_ballast(ConfigVisitor& v, ModelParameters& p) {
   });
 }
 
-// The values that rules on single keys cannot see.
+// Checks combinations of values, which rules on single keys cannot.
 void check_as_a_whole(ConfigVisitor& v, const ModelParameters& p) {
   try {
     const Model model(p);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vehicle models as TOML files: every parameter with its unit and range, and where a model of a scenario
-// comes from.
+// Vehicle models as TOML files: every parameter with its unit and range, and the loading of a scenario's
+// models.
 //
-// A file starts from nothing (an effect that it does not name is absent) or, with `based_on`, from a built-in
-// model. Its [sensors] are those that such a vehicle carries unless a scenario sets them
-// (vehicle_sim_config.h). Unknown keys, wrong types and impossible values are errors with file, line, key and
-// what is allowed. docs/vehicles.md explains the parameters; models/vehicles/ holds the built-in models as
-// such files.
+// A file starts from an empty model (an effect that it does not name is absent) or, with `based_on`, from a
+// built-in one. Its [sensors] are those that such a vehicle carries unless a scenario sets them
+// (vehicle_sim_config.h). Unknown keys, wrong types and values out of range are errors that name file, line,
+// key and the allowed values. docs/vehicles.md explains the parameters; models/vehicles/ holds the built-in
+// models as such files.
 #pragma once
 
 #include <optional>
@@ -20,26 +20,26 @@
 
 namespace halocline::vehicle_sim {
 
-// Visits every parameter as the keys of the current table.
+// Visits every parameter as a key of the current table.
 void visit(bus::ConfigVisitor& v, ModelParameters& parameters);
 
-// True for what names a file rather than a built-in model.
+// True when `model` names a file rather than a built-in model.
 bool names_a_model_file(const FilePath& model);
 
-// What such a file holds.
+// Contents of a model file.
 struct ModelFile {
   ModelParameters parameters;
-  std::optional<SensorSettings> sensors;  // where it has [sensors]
+  std::optional<SensorSettings> sensors;  // empty without [sensors]
 };
 
-// A built-in model by name, or a file (ending in .toml). Throws
-// bus::ConfigErrors with what is wrong in the file, InvalidArgument for a name that is none.
+// Loads a built-in model by name, or a file (ending in .toml). Throws bus::ConfigErrors when the file has
+// errors, and InvalidArgument for an unknown name.
 ModelFile load_model(const FilePath& model);
 
-// The same from text; `name_for_errors` stands for the file.
+// Loads a model from text; `name_for_errors` takes the place of the file's name.
 ModelFile parse_model(const std::string& text, const std::string& name_for_errors);
 
-// The model as a file, every key with unit, range and meaning.
+// Returns the model as a file, every key with unit, range and meaning.
 std::string model_toml(const ModelFile& model);
 
 }  // namespace halocline::vehicle_sim

@@ -12,7 +12,7 @@ namespace {
 struct BuiltInModel {
   const char* name;
   const char* purpose;
-  ModelParameters (*make)();  // null: a file
+  ModelParameters (*make)();  // null: the model is a file
 };
 
 ModelParameters remus100_pvs_galilean() { return remus100_pvs_parameters(CurrentTreatment::kGalilean); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicles that come with the program, by name: some are programmed, the others are the files of
-// models/vehicles, compiled in. load_model (model_config.h) makes parameters of either.
+// Library of built-in vehicle models, by name: some are programmed, the others are the files of
+// models/vehicles, compiled in. load_model (model_config.h) loads either.
 #pragma once
 
 #include <optional>
@@ -12,25 +12,25 @@
 
 namespace halocline::vehicle_sim {
 
-// The names, the default of scenarios first.
+// Returns the names; the default of scenarios is the first.
 const std::vector<std::string>& built_in_models();
 bool is_built_in(std::string_view name);
 
-// The parameters of a programmed one of that name; empty when there is none. `remus100-pvs` handles a current
-// exactly here (CurrentTreatment::kGalilean); set kUpstream for the published treatment.
+// Returns the parameters of a programmed model; empty when there is none of that name. `remus100-pvs` treats
+// currents exactly here (CurrentTreatment::kGalilean); set kUpstream for the published treatment.
 std::optional<ModelParameters> programmed_model(std::string_view name);
 
 struct ModelText {
-  const char* name;  // of the file, without .toml
+  const char* name;  // name of the file, without .toml
   const char* toml;
 };
 
-// All files, in alphabetical order.
+// Returns all compiled-in files, in alphabetical order.
 const std::vector<ModelText>& built_in_model_texts();
-// That of a built-in model.
+// Returns the file of a built-in model. Throws InvalidArgument when there is none.
 std::string built_in_model_text(std::string_view name);
 
-// One line about it.
+// Returns a one-line description of the model; empty for an unknown name.
 std::string purpose_of_model(std::string_view name);
 
 }  // namespace halocline::vehicle_sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ocean's field of a scenario whose currents move vehicles.
+// Ocean field of a scenario as far as its currents move vehicles.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace halocline::vehicle_sim {
 
-// Null where the scenario has no file, or none with currents, or they do not count. Throws
-// InvalidArgument where its file cannot be read (ocean/ocean_field_reader.h).
+// Returns the field; null when the scenario has no file, its file has no currents, or the scenario has them
+// not move vehicles. Throws InvalidArgument when the file cannot be read (ocean/ocean_field_reader.h).
 std::shared_ptr<const ocean::OceanField> moving_ocean(const bus::Scenario& scenario);
 
 }  // namespace halocline::vehicle_sim

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Queue of measurements that wait for their echoes, in order of time, until answered or timed out.
 //
-// One entry a sensor tick. An entry is complete when its echoes are known (at once when
-// it has no beams) or its deadline has passed; entries leave in the order in which they came, so
-// messages go out in order of time.
+// There is one entry for each sensor tick. An entry is complete when its echoes are known (at once when it
+// has no beams) or its deadline has passed. Entries leave in the order in which they entered, so that
+// messages are published in order of time.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,18 @@ namespace halocline::vehicle_sim {
 
 class PendingEchoes {
  public:
-  // `deadline`: steady time at which the tick goes out without echoes.
+  // `deadline`: steady time at which the tick is released without echoes.
   void wait(std::int64_t request_id, SensorTick tick, SimTime deadline);
 
-  // The tick that waits for this answer, to write its echoes into; null when none does (any more). It then
-  // counts as answered.
+  // Returns the tick that waits for this answer, for the caller to write the echoes into, and marks it as
+  // answered. Null when no tick waits for it.
   [[nodiscard]] SensorTick* answer(std::int64_t request_id);
 
-  // The oldest tick if it is complete at `steady`, taken out.
+  // Removes and returns the oldest tick if it is complete at `steady`.
   [[nodiscard]] std::optional<SensorTick> take(SimTime steady);
 
   bool has_complete() const { return !waiting_.empty() && waiting_.front().answered; }
-  // When the oldest tick is given up; never() when none waits.
+  // Deadline of the oldest tick; never() when none waits.
   SimTime next_deadline() const { return waiting_.empty() ? SimTime::never() : waiting_.front().deadline; }
   std::int64_t given_up() const { return given_up_; }
   void clear() { waiting_.clear(); }
@@ -41,7 +41,7 @@ class PendingEchoes {
     bool answered = false;
   };
   std::deque<PendingQuery> waiting_;
-  std::int64_t given_up_ = 0;  // ticks that went out unanswered
+  std::int64_t given_up_ = 0;  // ticks released unanswered
 };
 
 }  // namespace halocline::vehicle_sim

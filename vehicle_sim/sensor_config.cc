@@ -14,10 +14,10 @@ namespace {
 using bus::ConfigVisitor;
 using bus::NumberRule;
 
-// A sensor's unit in the file, and how many of the struct's it is.
+// Unit of a sensor's keys, and its size in the unit of the struct.
 struct Unit {
-  std::string key;      // at the end of keys
-  std::string meaning;  // in words
+  std::string key;      // suffix of the keys
+  std::string meaning;  // unit in words
   double si = 1;
   double greatest = 1e4;
 };
@@ -47,7 +47,7 @@ void visit_errors(ConfigVisitor& v, SensorErrors& e, const Unit& unit) {
             {0, unit.greatest, meaning, "random walk of the bias: after t seconds this times sqrt(t)"});
 }
 
-// 0 Hz in the file is a period of 0.
+// Visits the rate of a sensor. A rate of 0 Hz in the file is a period of 0.
 void visit_rate(ConfigVisitor& v, SimDuration& period, double max_hz, std::string_view meaning) {
   double rate_hz = period > SimDuration() ? 1 / period.seconds() : 0;
   v.number("rate_hz", rate_hz, {0, max_hz, "Hz", meaning});
@@ -110,7 +110,7 @@ void visit_usbl(ConfigVisitor& v, UsblSettings& usbl) {
 const std::vector<std::string> kFaultKinds{"stuck-rudder", "stuck-stern-planes", "lost-propeller",
                                            "leak",         "dead-sensor",        "empty-battery"};
 
-// What a fault does, by its kind.
+// Visits the keys of one kind of fault.
 void visit_damage(ConfigVisitor& v, Fault& f) {
   const auto with = [&](std::initializer_list<FaultKind> kinds, const std::function<void()>& body) {
     bus::when_one_of(v, "kind", f.kind, kFaultKinds, kinds, body);

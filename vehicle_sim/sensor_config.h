@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tables of a scenario: the sensors that vehicles carry, and faults.
+// Sensors and faults in a scenario file.
 //
 //   [sensors.dvl]                # of every vehicle
 //   rate_hz = 5
@@ -26,17 +26,17 @@
 
 namespace halocline::vehicle_sim {
 
-// The keys of a [sensors].
+// Visits the keys of a table [sensors].
 void visit(bus::ConfigVisitor& v, SensorSettings& sensors);
 
-// A fault of the scenario, its vehicle by name.
+// Fault in a scenario, with its vehicle by name.
 struct FaultEntry {
   std::string vehicle;
   Fault fault;
-  SimTime until;  // mended from then on; not after fault.from: never
+  SimTime until;  // time of the repair; not after fault.from: never repaired
 };
 
-// The list [[fault]].
+// Visits the list [[fault]].
 void visit_faults(bus::ConfigVisitor& v, std::vector<FaultEntry>& faults);
 
 }  // namespace halocline::vehicle_sim

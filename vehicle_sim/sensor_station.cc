@@ -15,7 +15,7 @@ SimTime first_at_or_after(SimTime start, SimDuration period) {
   return next_on_grid(start - SimDuration::from_nanoseconds(1), period);
 }
 
-// True when the sensor is due at `when`; it is then due again a period later.
+// Returns true when the sensor is due at `when`, and sets `next` to a period later.
 bool is_due(SimTime& next, SimTime when, SimDuration period) {
   if (next > when) return false;
   next = next_on_grid(when, period);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All sensors of all vehicles: sampling times, rays to the seabed, and readings once their echoes are known.
+// Sensor station: samples all sensors of all vehicles, and computes their readings once the echoes are known.
 //
-// Each sensor measures at multiples of its period since time 0. take() notes what holds at the next of these
-// instants and lists the beams to be traced; finish() makes readings of what came back. What was noted is
-// not touched by anything that happens between the two. Threads: one at a time.
+// Each sensor measures at multiples of its period since time 0. take() records the vehicles' states at the
+// next of these instants and lists the beams to be traced; finish() computes readings from the echoes.
+// Nothing that happens between the two changes what was recorded. Threads: one at a time.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace halocline::vehicle_sim {
 struct GpsFix {
   Eigen::Vector2d north_east_m = Eigen::Vector2d::Zero();
 };
-// Pings that wait for their echoes: the state when they went out.
+// Pings that wait for their echoes, with the vehicle's state at transmission.
 struct DvlPing {
   VehicleState state;
 };
@@ -34,7 +34,8 @@ struct SonarPing {
   VehicleState state;
 };
 
-// One measurement of one vehicle; its beams lie at first_beam of its tick's list, as many as it has.
+// One measurement of one vehicle. Its beams are the `beams` elements from `first_beam` on in the list of its
+// tick.
 struct SensorJob {
   std::size_t vehicle = 0;  // index
   std::variant<SensorReading, GpsFix, DvlPing, SonarPing> sample;
@@ -46,7 +47,7 @@ struct SensorTick {
   SimTime when;
   std::vector<SensorJob> jobs;
   std::vector<EchoBeam> beams;  // to be traced
-  std::vector<Echo> echoes;     // of the beams, unavailable until answered
+  std::vector<Echo> echoes;     // one for each beam; unavailable until answered
 
   std::span<const Echo> echoes_of(const SensorJob& job) const {
     return std::span(echoes).subspan(job.first_beam, job.beams);
@@ -60,25 +61,25 @@ class SensorStation {
     SensorSettings settings;
   };
 
-  // `period`: between SENSORS, above 0. `altimeter_range_m` above 0.
+  // `period`: interval between SENSORS messages, above 0. `altimeter_range_m`: above 0.
   SensorStation(std::vector<Vehicle> vehicles, std::uint64_t seed, SimDuration period,
                 double altimeter_range_m);
 
-  // Forgets what was measured; measures from `start` on (an instant of its grid included).
+  // Discards all measurements and starts at `start`, which is included when it is an instant of the grid.
   void begin(SimTime start);
-  // When the next measurement is due.
+  // Instant of the next measurement.
   SimTime next() const { return next_; }
 
-  // The measurements of next(), which the fleet must have reached; moves on. In ticks of `max_beams` beams at
-  // most. The first is of the vehicles that wait for no echo, if there are any: nobody waits for the echoes
-  // of others alone.
+  // Takes the measurements of next(), which the fleet must have reached, and proceeds to the next instant.
+  // They are divided into ticks of at most `max_beams` beams. Vehicles that wait for no echo are in the first
+  // tick, so that they need not wait for the echoes of others.
   std::vector<SensorTick> take(const Fleet& fleet, std::size_t max_beams);
 
   void archive(Archive& a);
 
   const SensorSettings& settings(std::size_t vehicle) const { return vehicles_[vehicle].settings; }
 
-  // Readings from what a tick noted and the echoes that came.
+  // Compute readings from a tick's record and its echoes.
   SensorReading finish(const SensorTick& tick, const SensorJob& job, const SensorReading& noted);
   DvlReading finish(const SensorTick& tick, const SensorJob& job, const DvlPing& ping);
   std::vector<Echo> finish(const SensorTick& tick, const SensorJob& job, const SonarPing& ping) const;
@@ -101,7 +102,7 @@ class SensorStation {
   double altimeter_range_m_;
   std::vector<SensorSuite> suites_;
   std::vector<BiasWalk> dvl_walks_;
-  std::vector<Times> times_;  // of each vehicle, the next
+  std::vector<Times> times_;  // next instants, by vehicle
   SimTime next_all_, next_;
 };
 

@@ -11,10 +11,10 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-// Centimetres are enough for a person, and rounded up a depth would lie under ground.
+// Rounded down to centimetres, which suffice for a reader; rounded up a depth would lie below the seabed.
 std::string rounded_down(double z_m) { return format_number(std::floor(100 * z_m) / 100); }
 
-// What is allowed instead of this start; empty when it lies in the water.
+// Returns the text that describes the allowed positions; empty when the start lies in the water.
 std::string allowed_instead(const Vec3& start_ned_m, double sea_surface_z_m, const Seabed& seabed,
                             const std::string& extent) {
   const std::optional<SeabedPlane> ground = seabed.plane_at(start_ned_m.x(), start_ned_m.y());

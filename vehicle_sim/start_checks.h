@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the vehicles of a scenario start in the water: a check that needs the terrain.
+// Check that the vehicles of a scenario start in the water, which needs the terrain.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace halocline::vehicle_sim {
 
-// Refuses in `file` each vehicle that starts above the sea surface, under ground, or where the terrain is not
-// known; those of other processes ("external") are theirs. `extent`: where the terrain lies, for a person.
-// The errors are thrown by file.check_findings().
+// Refuses in `file` each vehicle that starts above the sea surface, below the seabed, or where the terrain is
+// not known. Vehicles of other processes ("external") are not checked. `extent`: description of the terrain's
+// extent for the error text. The errors are thrown by file.check_findings().
 void check_starts(const bus::Scenario& scenario, const Seabed& seabed, const std::string& extent,
                   bus::ConfigFile& file);
 

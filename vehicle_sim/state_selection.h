@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which states of a vehicle are published where its receivers reckon between them (core/dead_reckoning.h):
-// the states from which the reckoning has strayed, and one now and then (thresholds and heartbeat of IEEE
-// 1278.1).
+// Selection of the vehicle states to publish when receivers extrapolate between them (core/dead_reckoning.h):
+// by deviation thresholds and a heartbeat, as in IEEE 1278.1.
 //
-// A state is published at a tick of the state grid when the reckoning from the last one published is off by
-// more than a bound, in place or in attitude, or when otherwise the next tick would lie more than
-// `longest_silence` after that one.
+// At a tick of the state grid, a state is published when the extrapolation of the last published one differs
+// from it by more than a bound, in position or in attitude, or when the next tick would otherwise be more
+// than `longest_silence` after the last published one.
 //
-// Guarantee. At each tick whoever has the states published so far is off by no more than the bounds. In
-// between, and until a state published at a tick arrives d later, the error of the place grows by at most |v
-// - u| (T + d): v the velocity, u that of the state reckoned from, T the period of the ticks. The velocity
-// itself has no bound of its own.
+// Guarantee: at each tick the error of a receiver that has all states published so far is within the bounds.
+// Between ticks, and until a state that is published at a tick arrives d later, the position error grows by
+// at most
+//
+//   |v - u| (T + d)
+//
+// with v the velocity, u that of the last published state and T the period of the ticks. The velocity has no
+// bound of its own.
 #pragma once
 
 #include <optional>
@@ -23,16 +26,16 @@
 namespace halocline::vehicle_sim {
 
 struct StateRule {
-  double deviation_m = 0;                                             // 0 and up; 0: each state is published
+  double deviation_m = 0;                                             // 0 or above; 0: publish every state
   double deviation_rad = to_radians(1);                               // above 0
   SimDuration longest_silence = SimDuration::from_milliseconds(500);  // above 0
 };
 
-// Of one vehicle: its last published state.
+// Selection for one vehicle, with its last published state.
 class StateSelection {
  public:
-  // Whether its state at `when`, a tick, is published; then it is the one to reckon from. `period`: to the
-  // next tick.
+  // Returns true when `state` at `when`, a tick, is to be published, and then extrapolates from it. `period`:
+  // time to the next tick.
   [[nodiscard]] bool take(const StateRule& rule, SimDuration period, SimTime when,
                           const KinematicState& state);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scenario as one of several vehicle simulators has it, which share its vehicles in blocks.
+// Part of a scenario for one of several vehicle simulators, which divide its vehicles into blocks.
 #pragma once
 
 #include <string>
@@ -11,15 +11,14 @@ namespace halocline::vehicle_sim {
 
 struct ScenarioPart {
   bus::Scenario scenario;
-  VehicleSimConfig config;  // of one simulator that is alone
+  VehicleSimConfig config;  // settings of a simulator that runs alone
 };
 
-// The vehicles of config.block with their tethers and faults, and nothing of the others. Throws
-// InvalidArgument where a tether or a fault of the scenario names no vehicle of ours, or a tether leads from
-// block to block.
+// Returns the vehicles of config.block with their tethers and faults. Throws InvalidArgument when a tether or
+// a fault names a vehicle that no simulator moves or holds, or when a tether connects two blocks.
 ScenarioPart part_of_block(const bus::Scenario& scenario, const VehicleSimConfig& config);
 
-// "vehicle-sim", or of several "vehicle-sim-0", "vehicle-sim-1", ...
+// Returns the node's name: "vehicle-sim", or "vehicle-sim-0", "vehicle-sim-1", ... when there are several.
 std::string node_name_of(const VehicleBlock& block);
 
 }  // namespace halocline::vehicle_sim

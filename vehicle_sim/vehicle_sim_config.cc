@@ -31,7 +31,7 @@ using bus::NumberRule;
 const std::string kFixed = "fixed", kExternal = "external";
 const double kFastestCurrent = 10;  // m/s
 
-// A rate in the file, a period in the struct.
+// Visits a period of the struct, which is a rate in the file.
 void visit_rate(ConfigVisitor& v, std::string_view key, SimDuration& period, const NumberRule& rule) {
   double rate_hz = 1 / period.seconds();
   v.number(key, rate_hz, rule);
@@ -92,9 +92,9 @@ void visit_waves(ConfigVisitor& v, WaveSettings& w) {
   });
 }
 
-// The longest time between two states by which all receivers know every vehicle. The keys belong to the
-// receivers; here they are only looked at. The age of the latest state grows to that time and a message's
-// way.
+// Returns the longest interval between two STATE messages at which no receiver loses a vehicle. The keys
+// belong to the receivers; here they are only read. The age of the latest state grows to that interval plus
+// the time that a message takes.
 SimDuration longest_gap(ConfigVisitor& v) {
   SimDuration lag = SimDuration::from_milliseconds(50);
   SimDuration channel = SimDuration::from_milliseconds(5000), pilot = SimDuration::from_milliseconds(1000);
@@ -186,7 +186,7 @@ void visit_common_sensors(ConfigVisitor& v, SensorSettings& sensors) {
             [&](ConfigVisitor& section) { visit(section, sensors); });
 }
 
-// The sensors of the file of the vehicle's model.
+// Returns the sensors in the file of the vehicle's model; empty when it has none.
 std::optional<SensorSettings> sensors_of_model(ConfigVisitor& v) {
   if (v.writing()) return std::nullopt;
   FilePath model = built_in_models().front();
@@ -197,8 +197,8 @@ std::optional<SensorSettings> sensors_of_model(ConfigVisitor& v) {
   return sensors;
 }
 
-// Precedence of a key that is set twice: the [[vehicle]] before the scenario's [sensors], and that before the
-// model's file.
+// Precedence of a key that is set more than once: [[vehicle]] overrides the scenario's [sensors], which
+// override the model's file.
 void visit_vehicle_sensors(ConfigVisitor& root, ConfigVisitor& v, VehicleSensors& vehicle,
                            const SensorSettings& common) {
   v.shared_with_others();
@@ -212,7 +212,7 @@ void visit_vehicle_sensors(ConfigVisitor& root, ConfigVisitor& v, VehicleSensors
   if (!vehicle.own) return;
   v.section("sensors", "Where they differ from [sensors] and from the model's",
             [&](ConfigVisitor& section) { visit(section, vehicle.sensors); });
-  // Keys of [sensors] count, too, where this vehicle alone has the sensor at work.
+  // A key of [sensors] is used, too, when only this vehicle has the sensor that it belongs to.
   SensorSettings with_common = vehicle.sensors;
   if (!v.writing()) visit_common_sensors(root, with_common);
 }
@@ -226,7 +226,8 @@ void visit_sensors(ConfigVisitor& v, VehicleSimConfig& config) {
       });
 }
 
-// The member of that name; throws where there is none. `what` names it.
+// Returns the index of the member of that name; throws InvalidArgument when there is none. `what` begins the
+// message.
 std::size_t member_named(const std::vector<FleetMember>& members, const std::string& name,
                          const std::string& what = "tether") {
   const auto found =
@@ -253,7 +254,8 @@ FleetTether tether_of(const TetherEntry& entry, const std::vector<FleetMember>& 
   return t;
 }
 
-// The key itself belongs to the scenario, which also writes it; here it is only looked at.
+// Checks the models of the vehicles. The key belongs to the scenario, which also writes it; here it is only
+// read.
 void check_models(ConfigVisitor& v) {
   std::vector<FilePath> models;
   std::string known = kFixed + ", " + kExternal;
@@ -302,7 +304,7 @@ void visit(ConfigVisitor& v, VehicleSimConfig& config) {
 }
 
 std::vector<FleetMember> members_of(const bus::Scenario& scenario, const VehicleSimConfig& config) {
-  std::map<std::string, std::shared_ptr<const Model>> models;  // vehicles of one kind share it
+  std::map<std::string, std::shared_ptr<const Model>> models;  // shared by vehicles of one model
   OceanCurrent current(config.current, scenario.seed);
   const auto ocean = moving_ocean(scenario);
   std::vector<FleetMember> members;

@@ -34,35 +34,35 @@
 
 namespace halocline::vehicle_sim {
 
-// The model's own treatment of the current, or one for all.
+// Treatment of the current: each model's own, or one for all models.
 enum class TreatmentChoice { kModel, kUpstream, kGalilean };
 
-// A rope of the scenario, its ends by name.
+// Tether in a scenario, with its ends by name.
 struct TetherEntry {
-  std::string vehicle;                   // one that we move
+  std::string vehicle;                   // must be one that the simulator moves
   Vec3 attached_at_m = Vec3::Zero();     // from the hull's middle: forward, starboard, down
-  std::string to_vehicle;                // another, also a fixed one; empty: a fixed point
-  Vec3 to_attached_at_m = Vec3::Zero();  // of the other hull; of a fixed point, in the world frame
+  std::string to_vehicle;                // another vehicle, which may be fixed; empty: a fixed point
+  Vec3 to_attached_at_m = Vec3::Zero();  // from the other hull's middle; a fixed point in the world frame
   double length_m = 10;
 };
 
-// The sensors of one vehicle of the scenario.
+// Sensors of one vehicle of the scenario.
 struct VehicleSensors {
   std::string vehicle;
-  bool own = false;  // has a [vehicle.sensors], or a model whose file has [sensors]
+  bool own = false;  // true with a [vehicle.sensors], or a model whose file has [sensors]
   SensorSettings sensors;
 };
 
-// Which vehicles one of several simulators moves. Those that are not "external" are cut into `count` blocks
-// in the order of the scenario, of equal size but for one vehicle. Each moves and measures as beside all
-// others, to the last bit, except that hulls of different blocks pass through each other. A tether joins
-// vehicles of one block.
+// Vehicles that one of several simulators moves. The vehicles that are not "external" are divided into
+// `count` blocks in the order of the scenario, equal in size to within one vehicle. Each vehicle moves and
+// measures as in one simulator of all vehicles, to the last bit, except that hulls of different blocks pass
+// through each other. A tether must connect vehicles of one block.
 struct VehicleBlock {
   int index = 0;  // 0 to count - 1
   int count = 1;  // 1 to kMaxBlocks
 
   bool is_alone() const { return count == 1; }
-  // The block of the `member`-th of so many vehicles, from 0.
+  // Returns the block of the vehicle with index `member` among `members`.
   std::size_t of(std::size_t member, std::size_t members) const {
     return member * static_cast<std::size_t>(count) / members;
   }
@@ -70,28 +70,28 @@ struct VehicleBlock {
 inline constexpr int kMaxBlocks = 64;
 
 struct VehicleSimConfig {
-  SimDuration step = SimDuration::from_milliseconds(10);               // of the physics
-  SimDuration state_period = SimDuration::from_milliseconds(100);      // between STATEs, or their ticks
-  StateRule states;                                                    // which ticks have one
-  SimDuration sensor_period = SimDuration::from_milliseconds(200);     // between SENSORS
-  SimDuration command_timeout = SimDuration::from_milliseconds(2000);  // age at which a command is void
+  SimDuration step = SimDuration::from_milliseconds(10);               // physics step
+  SimDuration state_period = SimDuration::from_milliseconds(100);      // interval of STATE, or of its ticks
+  StateRule states;                                                    // selection of the ticks with a STATE
+  SimDuration sensor_period = SimDuration::from_milliseconds(200);     // interval of SENSORS messages
+  SimDuration command_timeout = SimDuration::from_milliseconds(2000);  // age at which a command ends
   double altimeter_range_m = 100;
-  SimDuration echo_timeout = SimDuration::from_milliseconds(250);  // wait for the bathymetry service
+  SimDuration echo_timeout = SimDuration::from_milliseconds(250);  // maximum wait for the bathymetry service
   CurrentSettings current;
   WaveSettings waves;
   TreatmentChoice current_treatment = TreatmentChoice::kModel;
   double buoyancy_over_weight = 1;
   double seabed_friction = VehicleWorld::kDefaultFriction;
-  int threads = 1;  // that move vehicles; the motion is the same for any number
+  int threads = 1;  // number of threads; the motion does not depend on it
   VehicleBlock block;
   std::vector<TetherEntry> tethers;
-  SensorSettings sensors;                // of every vehicle without its own
-  std::vector<VehicleSensors> vehicles;  // of the scenario
+  SensorSettings sensors;                // sensors of vehicles without their own
+  std::vector<VehicleSensors> vehicles;  // one entry for each vehicle of the scenario
   std::vector<FaultEntry> faults;
 };
 
-// Sections [vehicle_sim], [vehicle_sim.current], [vehicle_sim.waves], [sensors], [vehicle.sensors],
-// [[tether]] and [[fault]]; also reports each [[vehicle]] whose model is none.
+// Visits the sections [vehicle_sim], [vehicle_sim.current], [vehicle_sim.waves], [sensors],
+// [vehicle.sensors], [[tether]] and [[fault]], and reports each [[vehicle]] whose model is unknown.
 void visit(bus::ConfigVisitor& v, VehicleSimConfig& config);
 
 inline std::optional<BatterySettings> to_settings(const std::optional<bus::VehicleBattery>& b) {
@@ -99,21 +99,22 @@ inline std::optional<BatterySettings> to_settings(const std::optional<bus::Vehic
   return BatterySettings{b->capacity_j, b->hotel_w + b->listening_w, b->shaft_efficiency};
 }
 
-// The vehicles of the scenario that the simulator moves or holds ("external" ones are not its own). A vehicle
-// starts level, with its speed through the water (waves left aside). Throws InvalidArgument where the model
-// is unknown, bus::ConfigErrors where its file is wrong.
+// Returns the vehicles of the scenario that the simulator moves or holds, which excludes "external" ones. A
+// vehicle starts level, at its set speed through the water (without the motion of waves). Throws
+// InvalidArgument when a model is unknown, and bus::ConfigErrors when a model file has errors.
 std::vector<FleetMember> members_of(const bus::Scenario& scenario, const VehicleSimConfig& config);
 
-// Throws InvalidArgument where a tether names no vehicle of ours, or leads from block to block.
+// Throws InvalidArgument when a tether names a vehicle that the simulator does not have, or connects two
+// blocks.
 FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig& config);
 
-// Their sensors, in the order of `members`.
+// Returns the sensors of `members`, in their order.
 std::vector<SensorStation::Vehicle> stations_of(const bus::Scenario& scenario,
                                                 const std::vector<FleetMember>& members,
                                                 const VehicleSimConfig& config);
 
-// Faults of the scenario, each by the index of its member, and their ends. Throws InvalidArgument where one
-// names no vehicle of ours.
+// Returns the faults of the scenario and their ends, each with the index of its member. Throws
+// InvalidArgument when a fault names a vehicle that the simulator does not have.
 std::vector<std::pair<std::size_t, Fault>> faults_of(const std::vector<FleetMember>& members,
                                                      const VehicleSimConfig& config);
 

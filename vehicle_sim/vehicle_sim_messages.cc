@@ -32,8 +32,7 @@ DropWeightState weight_of(std::int8_t released) {
   return released != 0 ? DropWeightState::kReleased : DropWeightState::kHeld;
 }
 
-// The same meanings in the same order: see the constants of vehicle_sensors_t, vehicle_dvl_t,
-// vehicle_sonar_t.
+// The constants of vehicle_sensors_t, vehicle_dvl_t and vehicle_sonar_t have the values of AltitudeStatus.
 std::int8_t to_wire(AltitudeStatus status) { return static_cast<std::int8_t>(status); }
 static_assert(static_cast<int>(AltitudeStatus::kMeasured) == 0 &&
               static_cast<int>(AltitudeStatus::kNoBottom) == 1 &&
@@ -290,7 +289,7 @@ std::vector<Echo> echoes_from(const ray_reply_t& reply, std::size_t beams) {
     if (status == ray_reply_t::HIT) {
       echoes[i] = {AltitudeStatus::kMeasured, reply.result_m[i]};
     } else if (status == ray_reply_t::BELOW_BOTTOM) {
-      echoes[i] = {AltitudeStatus::kMeasured, 0};  // the sensor lies in the ground it stands on
+      echoes[i] = {AltitudeStatus::kMeasured, 0};  // the sensor is below the seabed that the hull rests on
     } else if (status != ray_reply_t::BAD_INPUT) {
       echoes[i] = {AltitudeStatus::kNoBottom, 0};
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicle simulator's values as messages, and back.
+// Conversions between the values of the vehicle simulator and bus messages.
 //
-// Session and sequence numbers are the publisher's: left at 0 here, set where a message is published.
+// Session and sequence number are left at 0 here; the publisher sets them.
 #pragma once
 
 #include <cstdint>
@@ -48,18 +48,18 @@ vehicle_battery_t to_battery_message(SimTime when, std::int32_t vehicle_id, cons
 vehicle_fault_t to_fault_message(const Fault& fault, bool from_scenario);
 Fault from_message(const vehicle_fault_t& message);
 
-// For an array: OUTCOME of a packet received, and RECEIVE.
+// Identity and arrival of a received packet, from its OUTCOME and RECEIVE, for a USBL array.
 PacketKey key_of(const packet_outcome_t& outcome);
 PacketKey key_of(const modem_receive_t& packet);
 SoundArrival arrival_of(const packet_outcome_t& outcome);
-// One way, where it is known on board.
+// Returns the one-way travel time; empty where it is not known on board.
 std::optional<double> travel_time_of(const modem_receive_t& packet);
 
-// Query of the first hit of each beam; 1 to 4096 beams, their ranges above 0.
+// Returns a query of the first hit of each beam; 1 to 4096 beams with ranges above 0.
 ray_query_t to_ray_query(SimTime when, const std::string& client, std::int64_t request_id,
                          const std::vector<EchoBeam>& beams);
 
-// One echo a beam, in order; all unavailable when the service refused or the counts differ.
+// Returns one echo for each beam, in order; all unavailable when the service refused or the counts differ.
 std::vector<Echo> echoes_from(const ray_reply_t& reply, std::size_t beams);
 
 }  // namespace halocline::vehicle_sim

@@ -18,12 +18,13 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-// A process that was halted for this long (steady time) counts what lies further back than this (simulation
-// time) as late, and does not publish it: it is out of date, and the bus would lose the burst.
+// Limits of late publication. When the process was halted for longer than kLongestHalt (steady time),
+// messages for instants more than kLongestArrear back (simulation time) count as late and are not published:
+// they are out of date, and the bus would lose the burst.
 constexpr SimDuration kLongestHalt = SimDuration::from_milliseconds(2000);
 constexpr SimDuration kLongestArrear = SimDuration::from_milliseconds(2000);
 constexpr SimDuration kBatteryPeriod = SimDuration::from_milliseconds(1000);
-constexpr std::size_t kMaxBeams = 4096;  // a message, by the service's contract
+constexpr std::size_t kMaxBeams = 4096;  // maximum of one message, by the service's interface
 
 SimTime first_on_grid(SimTime from, SimDuration period) {
   return next_on_grid(from - SimDuration::from_nanoseconds(1), period);
@@ -31,7 +32,7 @@ SimTime first_on_grid(SimTime from, SimDuration period) {
 
 SimTime last_on_grid(SimTime until, SimDuration period) { return next_on_grid(until, period) - period; }
 
-// With the session, so that recorded answers to another run are not taken for its own.
+// The name contains the session, so that recorded replies to another run are not mistaken for its own.
 std::string client_name(const bus::NodeIdentity& identity) {
   char session[17];
   std::snprintf(session, sizeof session, "%016llx", static_cast<unsigned long long>(identity.session));
@@ -129,14 +130,14 @@ void VehicleSimNode::begin(SimTime now) {
   std::fill(reported_diverged_.begin(), reported_diverged_.end(), false);
 }
 
-// Measurements that wait for their echoes are lost.
+// Measurements that wait for their echoes are not archived.
 void VehicleSimNode::on_archive(Archive& a) {
   bool has_begun = fleet_.has_value();
   a(has_begun, publisher_, ray_request_);
   if (!has_begun) return;
   if (a.is_loading()) {
     make_fleet(SimTime());
-    last_step_ = SimTime() - kLongestHalt * 2;  // the step to come is the first after a halt
+    last_step_ = SimTime() - kLongestHalt * 2;  // makes the next step the first after a halt
   }
   a(*fleet_, station_, next_state_, next_battery_, published_, faults_published_);
   for (auto& [vehicle, array] : arrays_) a(array);
@@ -174,7 +175,7 @@ void VehicleSimNode::on_step(const bus::Now& now) {
 
 void VehicleSimNode::publish_states(SimTime when) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (fleet_->has_diverged(i)) continue;  // its state is not known
+    if (fleet_->has_diverged(i)) continue;  // there is no valid state
     const KinematicState state = fleet_->published_at(i, when);
     if (!published_[i].take(config_.states, config_.state_period, when, state)) continue;
     publish(bus::channels::kState, i, to_state_message(when, ids_[i], state));
@@ -185,11 +186,11 @@ SimTime VehicleSimNode::next_sample() const {
   return std::min({next_state_, station_.next(), next_battery_});
 }
 
-// When the power of one changes, and once a second.
+// Publishes batteries when the power of a vehicle changes, and once a second.
 void VehicleSimNode::publish_batteries(SimTime when) {
   for (const PowerChange& change : fleet_->take_power_changes()) {
     publish_battery(change.at, change.member);
-    if (change.has_power || !fleet_->battery(change.member)->is_empty()) continue;  // a fault of others
+    if (change.has_power || !fleet_->battery(change.member)->is_empty()) continue;  // a published fault
     const Fault fault{.from = change.at, .kind = FaultKind::kEmptyBattery};
     publish(bus::channels::kFault, change.member, to_fault_message(fault, /*from_scenario=*/true));
   }
@@ -210,7 +211,7 @@ SimTime VehicleSimNode::next_fault() const {
   return has_more ? scenario_faults_[faults_published_].second.from : SimTime::never();
 }
 
-// The fleet has had all faults of the scenario since its beginning.
+// Publishes the scenario's faults as they become due; the fleet has them all from the start.
 void VehicleSimNode::publish_faults(SimTime until) {
   for (; next_fault() <= until; ++faults_published_) {
     const auto& [vehicle, fault] = scenario_faults_[faults_published_];
@@ -218,7 +219,7 @@ void VehicleSimNode::publish_faults(SimTime until) {
   }
 }
 
-// Takes the readings and queries their echoes, in messages of as many beams as the service takes.
+// Takes the measurements that are due and requests their echoes, in messages of at most kMaxBeams beams.
 void VehicleSimNode::measure_all(SimTime steady) {
   for (SensorTick& tick : station_.take(*fleet_, kMaxBeams)) {
     const std::int64_t request = ray_request_++;
@@ -267,7 +268,7 @@ void VehicleSimNode::publish(const SensorTick& tick, const SensorJob& job) {
 }
 
 void VehicleSimNode::on_command(std::size_t vehicle, const vehicle_command_t& message) {
-  if (!fleet_) return;  // no time, no vehicle yet; a pilot repeats itself
+  if (!fleet_) return;  // the simulation time is not known yet; a pilot repeats its commands
   switch (fleet_->command(vehicle, from_message(message))) {
     case CommandVerdict::kTaken:
       return;

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicle simulator on the bus: moves the vehicles of a scenario and publishes their states and sensors.
+// Node of the vehicle simulator: moves the vehicles of a scenario and publishes their states and sensor
+// readings.
 //
-// Receives COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<its own client name>, and for vehicles
-// with a USBL array OUTCOME and RECEIVE.<vehicle>. Publishes STATE.<vehicle>, SENSORS.<vehicle> and DVL, GPS,
-// SONAR.<vehicle> at multiples of their periods since time 0, stamped with that instant, STATE only at those
-// that need one (state_selection.h); USBL.<vehicle> when a packet was received;
-// FAULT.<vehicle> when a fault of the scenario begins or ends, or a battery is empty; BATTERY.<vehicle> once
-// a second of vehicles with a battery, from which packets take what MODEM_ENERGY.<vehicle> states; and
-// RAY_QUERY for the seabed below. A measurement waits for its echoes until the service answers or the
-// time-out (echo_timeout, steady time) ends; then they are unavailable.
+// Bus channels:
+//   in   COMMAND, FAULT, SET_CURRENT
+//   in   RAY_REPLY.<own client name>   echoes
+//   in   OUTCOME, RECEIVE              for vehicles with a USBL array
+//   in   MODEM_ENERGY                  energy of packets, for vehicles with a battery
+//   out  STATE                         at multiples of its period since time 0 when needed
+//   (state_selection.h) out  SENSORS, DVL, GPS, SONAR      at multiples of their periods since time 0 out
+//   USBL                          when a packet was received out  FAULT                         when a fault
+//   of the scenario begins or ends, or a battery is empty out  BATTERY                       once a second,
+//   for vehicles with a battery out  RAY_QUERY                     beams to the seabed
 //
-// A node that is started into a running simulation puts its vehicles where they start, at that time. One that
-// was killed and has a journal (Node::keep_state_in) goes on from the state it published last: it integrates
-// the time of its absence, with the last commands until they time out, and publishes what lies at most two
-// seconds back.
+// Messages are stamped with the instant to which they apply. A measurement waits for its echoes until the
+// service answers or the time-out (echo_timeout, steady time) passes; the echoes are then unavailable.
+//
+// A node that is started into a running simulation puts its vehicles at their starts at that time. A node
+// that was killed and has a journal (Node::keep_state_in) continues from the state that it published last: it
+// integrates over the time of its absence, with the last commands until they time out, and publishes only
+// what is at most two seconds old.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +49,7 @@ namespace halocline::vehicle_sim {
 
 class VehicleSimNode : public bus::Node {
  public:
-  // `seabed`: what the vehicles touch; null is no ground. `scenario` is copied.
+  // `seabed`: surface that the hulls touch; null: no seabed. `scenario` is copied.
   VehicleSimNode(lcm::LCM& lcm, bus::NodeIdentity identity, const bus::Scenario& scenario,
                  const VehicleSimConfig& config, std::shared_ptr<const Seabed> seabed);
 
@@ -83,7 +89,7 @@ class VehicleSimNode : public bus::Node {
   VehicleSimConfig config_;
   FleetSettings settings_;
   std::vector<FleetMember> members_;
-  std::vector<std::pair<std::size_t, Fault>> scenario_faults_;  // by time
+  std::vector<std::pair<std::size_t, Fault>> scenario_faults_;  // in order of time
   std::size_t faults_published_ = 0;
   std::vector<std::int32_t> ids_;
   std::shared_ptr<const Seabed> seabed_;
@@ -92,11 +98,11 @@ class VehicleSimNode : public bus::Node {
   bus::ThreadPool pool_;
   std::optional<Fleet> fleet_;  // empty until the simulation time is known
   SensorStation station_;
-  std::map<std::size_t, UsblFixAssembler> arrays_;  // of the vehicles that have one
+  std::map<std::size_t, UsblFixAssembler> arrays_;  // key: vehicle, if it has an array
   SimTime next_state_;
-  SimTime next_battery_ = SimTime::never();  // of those that have one
+  SimTime next_battery_ = SimTime::never();  // never() without batteries
   std::vector<StateSelection> published_;
-  SimTime last_step_;  // steady
+  SimTime last_step_;  // steady time
   PendingEchoes echoes_;
   std::int64_t ray_request_ = 0;
   bus::NumberedPublisher publisher_{bus()};

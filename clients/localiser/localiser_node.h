@@ -18,7 +18,6 @@
 // Estimates are published on the time grid and use data stamped at least 0.1 s earlier. That is longer than a
 // message takes, so that a run of separate processes gives the same results as one in lockstep. The range of
 // a ping holds at the instants when its packets left and arrived, so it loses nothing by being used later.
-// the instants that the water gave it, so its lateness costs nothing.
 #pragma once
 
 #include <cstdint>

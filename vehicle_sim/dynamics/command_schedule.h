@@ -6,7 +6,6 @@
 // buoyancy_over_weight above 1) or has a buoyancy engine rises to the surface. A vehicle that has had no
 // command is in the safe state, too. The command at an instant does not depend on the order in which commands
 // with different times were received.
-// different times came.
 #pragma once
 
 #include <cstddef>

@@ -7,9 +7,9 @@
 // - by depth: a table of horizontal velocities, linear between its depths, constant beyond;
 // - tide: amplitude cos(2 pi t / period + phase) toward an azimuth (one constituent, rectilinear);
 // - random: a Gauss-Markov process in north and in east (core/gauss_markov.h), the same everywhere; its value
-// at an instant depends neither on the step nor on the order of evaluation;
+//   at an instant depends neither on the step nor on the order of evaluation;
 // - field: a function of position, depth and time (ocean/ocean_field.h), the same for every vehicle simulator
-// that reads its file.
+//   that reads its file.
 //
 // Within a step a vehicle meets the velocity at its position at the start of the step, changing at a constant
 // acceleration. The uniform, tidal and random components carry a neutrally buoyant vehicle along exactly: its

@@ -30,9 +30,9 @@ BodyForce roll_only_coriolis_force(const Mat6& mass, const BodyVelocity& nu) {
 BodyForce lift_drag_force(const LiftDrag& l, double density, const BodyVelocity& nu_r,
                           double relative_speed_mps) {
   if (l.law == LiftLaw::kBounded) return bounded_lift_force(l, density, nu_r);
-  const double u = nu_r.u, w = nu_r.w + 0.0;  // -0 + 0 = +0: one branch of atan2 for both zeros
+  const double u = nu_r.u, w = nu_r.w + 0.0;  // turns -0 into +0: one branch of atan2 for both
   const double alpha = elementary::atan2(w, u);
-  const double in_plane = std::sqrt(u * u + w * w);  // adding +0 turns -0 into +0, for atan2
+  const double in_plane = std::sqrt(u * u + w * w);
   const double cos_alpha = in_plane > 0 ? u / in_plane : 1, sin_alpha = in_plane > 0 ? w / in_plane : 0;
   const double cl = l.lift_slope_per_rad * alpha;
   const double cd = l.zero_lift_drag + cl * cl / (std::numbers::pi * l.oswald_efficiency * l.aspect_ratio);

@@ -9,15 +9,12 @@
 // kept:
 //
 // - the lift grows with atan2(w_r, u_r): astern it is that of an angle of pi, and w_r = 0 lies on a branch
-// cut,
-//   where a zero of either sign counts as +0 here and takes the branch +pi;
+//   cut, where a zero of either sign counts as +0 here and takes the branch +pi;
 // - Munk moments are absent, heave and pitch have no cross-flow drag, and heave damping does not decrease
-// with
-//   speed;
+//   with speed;
 // - the fins see the velocity of CO, not their own, and no slipstream of the propeller;
 // - with CurrentTreatment::kUpstream the current ignores roll and pitch, and the propeller sees the speed
-// over
-//   ground;
+//   over ground;
 // - the cross-flow strips cover 21/20 of the hull.
 #pragma once
 

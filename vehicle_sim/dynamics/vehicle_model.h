@@ -12,7 +12,6 @@
 // built from them. Left out: the change of added mass near the surface, the fins' own added mass, lateral
 // forces of the propeller, its slipstream over the fins, the effect of a moving mass on the mass matrix.
 // Threads: a Model never changes, so any number of threads may read it.
-// any number of threads may read one.
 #pragma once
 
 #include <array>

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The battery of a vehicle: what is left in it, and what it was spent on.
+// Battery of a vehicle: the energy left, and its consumption by cause.
 //
-// Model: energy_left = capacity - (hotel + shaft + transmit + receive), joules, since the start. All that is
-// always on takes constant power; the shafts take theirs over each physics step, that at its beginning (first
-// order in the step); what a packet takes counts as a whole, at the instant the channel server states and
-// kEnergyLag later here: longer than a message takes, so that the sum does not depend on when it came.
-// Packets are added in the order of their instants, causes and amounts. When nothing is left, nothing more is
-// spent on hotel and shaft; what is left then lies below 0 by what was under way at most. Left out: voltage,
-// temperature, self-discharge, losses that grow with the current.
+// Model, in joules since the start:
+//
+//   energy left = capacity - (hotel + shaft + transmit + receive)
+//
+// The hotel load, of all that is always on, has constant power. The shafts take over each physics step the
+// power at its beginning (first order in the step). The energy of a packet counts as a whole at the instant
+// that the channel server states plus kEnergyLag: longer than a message takes, so that the sum does not
+// depend on when the message arrived. Packets are added in the order of instant, cause and amount. When no
+// energy is left, hotel and shaft take no more; the energy left is then below 0 by at most the packets under
+// way. Left out: voltage, temperature, self-discharge, losses that grow with the current.
 #pragma once
 
 #include <compare>
@@ -20,24 +23,25 @@
 namespace halocline::vehicle_sim {
 
 struct BatterySettings {
-  double capacity_j = 0;        // 0 and up
-  double hotel_w = 0;           // of all that is always on, 0 and up
-  double shaft_efficiency = 1;  // power of the shafts over electric power, above 0, at most 1
+  double capacity_j = 0;        // 0 or above
+  double hotel_w = 0;           // hotel load, 0 or above
+  double shaft_efficiency = 1;  // shaft power / electric power, above 0, at most 1
 };
 
-// In the order of modem_energy_t.
+// The order is that of the constants in modem_energy_t.
 enum class PacketEnergy : std::uint8_t { kTransmit, kReceive };
 
 class Battery {
  public:
   static constexpr SimDuration kEnergyLag = SimDuration::from_milliseconds(100);
 
-  // Throws InvalidArgument where a setting is impossible.
+  // Throws InvalidArgument when a setting is out of its range.
   explicit Battery(const BatterySettings& settings);
 
-  // What a packet takes at `at`, 0 and up.
+  // Adds the energy that a packet takes at `at`, 0 or above.
   void add_packet(SimTime at, PacketEnergy cause, double energy_j);
-  // A step of `seconds` that ends at `end`, with `shaft_w` mechanical at its beginning, 0 and up.
+  // Advances by a step of `seconds` that ends at `end`. `shaft_w`: mechanical power at its beginning, 0 or
+  // above.
   void spend(SimTime end, double seconds, double shaft_w);
 
   double capacity_j() const { return settings_.capacity_j; }
@@ -60,7 +64,7 @@ class Battery {
   };
   BatterySettings settings_;
   double hotel_j_ = 0, shaft_j_ = 0, transmit_j_ = 0, receive_j_ = 0;
-  std::vector<Packet> waiting_;  // ascending
+  std::vector<Packet> waiting_;  // in ascending order
 };
 
 }  // namespace halocline::vehicle_sim

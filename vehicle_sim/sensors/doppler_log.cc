@@ -12,7 +12,7 @@ namespace halocline::vehicle_sim {
 namespace {
 
 using std::numbers::pi;
-constexpr int kFirstRangeDraw = 4;  // axes 0 to 3 are the beams' speeds, 4 to 7 their ranges
+constexpr int kFirstRangeDraw = 4;  // draws 0 to 3 are for the beams' speeds, 4 to 7 for their ranges
 
 std::array<Vec3, 4> beams_at(double angle, double yaw) {
   std::array<Vec3, 4> beams;
@@ -24,7 +24,9 @@ std::array<Vec3, 4> beams_at(double angle, double yaw) {
   return beams;
 }
 
-// What it believes of its beams decides; least squares of b_k . v = s_k.
+// Velocity by least squares of b_k . v = s_k over the locked beams, with the assumed beam directions:
+//
+//   (sum b_k b_k^T) v = sum s_k b_k
 void solve_velocity(const DvlSettings& dvl, DvlReading& reading) {
   const std::array<Vec3, 4> beams = believed_dvl_beams(dvl);
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();

@@ -9,7 +9,7 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-// Sample (48 bits), sensor (6) and axis (10) fill the 64 bits of `which`, unmixed.
+// The fields of `which`: sample (48 bits), sensor (6) and axis (10), without hashing.
 DrawAddress address_of(const SensorIdentity& sensor, std::uint32_t purpose, std::int64_t sample, int part) {
   const auto which = static_cast<std::uint64_t>(sample) << 16 |
                      static_cast<std::uint64_t>(sensor.kind) << 10 | static_cast<std::uint64_t>(part);
@@ -41,8 +41,10 @@ bool drops_out(const SensorIdentity& sensor, std::int64_t sample, double probabi
          uniform_at(address_of(sensor, purpose_of("sensor-dropout"), sample, part)) < probability;
 }
 
-// W(t) = sum of z_i for i < floor(t), and (t - floor(t)) z_floor(t): a Wiener process sampled once a second,
-// linear between.
+// Wiener process W sampled once a second, linear between samples, with n = floor(t) and z_i the standard
+// normal steps:
+//
+//   W(t) = sum over i < n of z_i + (t - n) z_n
 double BiasWalk::at(SimTime when) {
   const double seconds = (when - SimTime()).seconds(), whole = std::floor(seconds);
   const auto second = static_cast<std::int64_t>(whole);

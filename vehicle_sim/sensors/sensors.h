@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a vehicle measures of itself: the readings of its sensors, without errors (measure) and with them
-// (SensorSuite).
+// Readings of a vehicle's sensors, without errors (measure) and with them (SensorSuite).
 //
-// The errors are those of sensor_errors.h. Left out: the places of depth sensor, compass and altimeter on the
-// hull (all measure at CO), the altimeter's beam width.
+// The error model is that of sensor_errors.h. Left out: the positions of depth sensor, compass and altimeter
+// on the hull (all measure at CO), the altimeter's beam width.
 #pragma once
 
 #include <array>
@@ -21,17 +20,17 @@ namespace halocline::vehicle_sim {
 
 enum class AltitudeStatus {
   kMeasured,
-  kNoBottom,     // none within range, or beyond the known terrain
+  kNoBottom,     // the seabed is beyond the range or the known terrain
   kUnavailable,  // not measured at this instant, or the bathymetry service did not answer
 };
 
-// A ray's way to the seabed.
+// Echo of a ray from the seabed.
 struct Echo {
   AltitudeStatus status = AltitudeStatus::kUnavailable;
   double range_m = 0;  // 0 unless measured
 };
 
-// A reading that is not fresh is the last one measured.
+// Readings for SENSORS. A reading that is not fresh is the last one measured.
 struct SensorReading {
   bool depth_fresh = true;
   double depth_m = 0;  // below the sea surface, positive down
@@ -42,9 +41,9 @@ struct SensorReading {
   EulerAngles attitude;  // rad; yaw is the heading, clockwise from north, -pi to pi
   bool angular_rate_fresh = true;
   Vec3 angular_velocity_body_radps = Vec3::Zero();
-  ActuatorValues actuators;  // actual
+  ActuatorValues actuators;  // actual positions and speeds
   bool safe_state = false;   // commands have timed out
-  bool on_seabed = false;    // the hull touches the ground
+  bool on_seabed = false;    // the hull touches the seabed
 
   void archive(Archive& a) {
     a(depth_fresh, depth_m, altitude, water_speed_fresh, water_speed_mps, attitude_fresh, attitude);
@@ -52,44 +51,45 @@ struct SensorReading {
   }
 };
 
-// Everything but altitude, safe state and contact, which are not the vehicle's own to know. `water` as the
-// vehicle has it; its sea surface finite.
+// Returns all readings except altitude, safe state and contact, which do not follow from the vehicle's state.
+// `water`: the water at the vehicle, with a finite sea surface.
 SensorReading measure(const Model& model, const VehicleState& state, const Water& water);
 
-// The same for a node that is moored: a pose that never changes in a current, without actuators.
+// Returns the same readings for a moored node: its pose is fixed in a current, and it has no actuators.
 SensorReading measure_fixed(const VehicleState& state, const Water& water);
 
-// The altimeter's beam: the body's down axis in the world frame, unit.
+// Direction of the altimeter's beam: the body's down axis in the world frame, unit.
 Vec3 altimeter_direction(const VehicleState& state);
 
-// The sensors of SENSORS with their errors. Holds what was measured last and the wandering biases; what it
-// returns depends on the instants of read(), in ascending order, and on nothing else.
+// The sensors of SENSORS with their errors. It keeps the latest measurements and the bias walks. Its results
+// depend on the instants of read(), in ascending order, and on nothing else.
 class SensorSuite {
  public:
-  using Dead = std::array<bool, kSensorKinds.size()>;  // by SensorKind: true measures nothing
+  using Dead = std::array<bool, kSensorKinds.size()>;  // index: SensorKind; true: measures nothing
 
-  // `period`: between SENSORS, above 0.
+  // `period`: interval between SENSORS messages, above 0.
   SensorSuite(const SensorSettings& settings, std::uint64_t seed, std::int32_t vehicle_id,
               SimDuration period);
 
-  // Readings with errors of the `truth` at `when`; the altitude is left unavailable.
+  // Returns the readings with errors at `when`, given those without; the altitude is left unavailable.
   SensorReading read(const SensorReading& truth, SimTime when, const Dead& dead);
 
-  // True when the altimeter measures at the instant of the last read(); and its echo then, with its errors.
+  // True when the altimeter measures at the instant of the last read(); read_altitude then returns its echo
+  // with errors.
   bool altimeter_fires() const { return fires_[static_cast<std::size_t>(SensorKind::kAltimeter)]; }
   Echo read_altitude(const Echo& echo, SimTime when);
 
-  // The walks are functions of time, and not part of it.
+  // The bias walks are functions of time alone and need not be archived.
   void archive(Archive& a) { a(last_sample_, fires_, held_); }
 
  private:
-  static constexpr std::size_t kBasic = 5, kWalks = 7;  // the gyro's three axes have one each
+  static constexpr std::size_t kBasic = 5, kWalks = 7;  // the gyro's three axes have one walk each
 
   const BasicSensor& sensor(SensorKind kind) const;
   SensorIdentity identity(SensorKind kind) const { return {seed_, vehicle_id_, kind}; }
   std::int64_t sample(SensorKind kind, SimTime when) const;
   [[nodiscard]] bool fires(SensorKind kind, SimTime when, bool dead);
-  // Of one axis at `when`.
+  // Returns the error of one axis at `when`.
   double error(SensorKind kind, SimTime when, int axis = 0);
 
   SensorSettings settings_;
@@ -102,19 +102,20 @@ class SensorSuite {
   SensorReading held_;
 };
 
-// A fix of the antenna's place, north and east, with errors; the antenna at a depth of `max_depth_m` at most.
+// Returns true when the antenna's depth is at most `max_depth_m`, so that GPS has a fix.
 bool gps_sees_sky(const GpsSettings& gps, const VehicleState& state, double sea_surface_z_m);
 Eigen::Vector2d read_gps(const GpsSettings& gps, const SensorIdentity& sensor, std::int64_t sample,
                          const VehicleState& state);
 
-// Towards where a sound came from, seen by the vehicle.
+// Direction from the vehicle toward a source of sound.
 struct SoundDirection {
-  double bearing_rad = 0;    // from the bow by starboard about the down axis, -pi to pi
-  double elevation_rad = 0;  // above the plane of forward and starboard
+  double bearing_rad = 0;    // from the bow towards starboard about the down axis, -pi to pi
+  double elevation_rad = 0;  // above the plane of the forward and starboard axes
 };
 
-// `azimuth_rad` from north by east, `elevation_rad` above the horizontal; `orientation` body to world. `draw`
-// names the measurement: noise is a function of it.
+// Returns the measured direction. `azimuth_rad`: true one, clockwise from north; `elevation_rad`: above the
+// horizontal; `orientation`: rotation from body to world; `draw`: identity of the measurement, which
+// addresses its noise.
 SoundDirection read_usbl(const UsblSettings& usbl, const SensorIdentity& sensor, std::uint64_t draw,
                          double azimuth_rad, double elevation_rad, const Quaternion& orientation);
 

@@ -51,7 +51,7 @@ std::optional<Quaternion> UsblFixAssembler::orientation_at(SimTime when) const {
   const auto after = std::lower_bound(poses_.begin(), poses_.end(), when,
                                       [](const Pose& pose, SimTime t) { return pose.when < t; });
   if (after == poses_.end()) return std::nullopt;
-  if (after == poses_.begin()) return after->orientation;  // before the first pose noted
+  if (after == poses_.begin()) return after->orientation;  // before the first recorded pose
   const Pose& before = *(after - 1);
   const double share = (when - before.when).seconds() / (after->when - before.when).seconds();
   return between(before.orientation, after->orientation, share);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle's USBL array: fixes from the true directions of arrival and the packets received.
+// USBL array of a vehicle: fixes from the true directions of arrival and the packets received.
 //
 // Model: the true direction of an arrival is in OUTCOME (elevation of the ray, azimuth of the straight line),
-// which the vehicle itself does not receive; RECEIVE shows that the packet is for it, and its travel time
-// where that is known on board. A fix is made when both have come and the attitude at the instant of the
-// first bit is known: between two noted poses it is interpolated along the shortest turn. Fixes leave in the
-// order in which their second half came. What waits for longer than kTimeout is forgotten.
+// which the vehicle itself does not receive. RECEIVE shows that the packet is for the vehicle, and holds the
+// travel time where it is known on board. A fix is computed when both messages have arrived and the attitude
+// at the instant of the first bit is known: it is interpolated between two recorded poses by the shortest
+// rotation. Fixes leave when they are complete, several at once in the order of their first messages. An
+// entry that waits for longer than kTimeout is dropped.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,7 @@
 
 namespace halocline::vehicle_sim {
 
-// What names a packet: sender, kind, session, number.
+// Identity of a packet: sender, kind, session, number.
 struct PacketKey {
   std::int32_t source_id = 0;
   std::int8_t kind = 0;
@@ -31,10 +32,10 @@ struct PacketKey {
   auto operator<=>(const PacketKey&) const = default;
 };
 
-// Where a packet's sound came from, world frame.
+// Direction of arrival of a packet in the world frame.
 struct SoundArrival {
-  SimTime when;              // of the first bit
-  double azimuth_rad = 0;    // from north by east
+  SimTime when;              // instant of the first bit
+  double azimuth_rad = 0;    // clockwise from north
   double elevation_rad = 0;  // above the horizontal
 };
 
@@ -53,15 +54,15 @@ class UsblFixAssembler {
       : settings_(settings), identity_(identity) {}
 
   void on_arrival(const PacketKey& packet, const SoundArrival& arrival);
-  // Of a packet for this vehicle; the travel time where it is known on board.
+  // A packet for this vehicle has been received; `travel_time_s`: empty where it is not known on board.
   void on_packet(const PacketKey& packet, std::optional<double> travel_time_s);
-  // Poses come in ascending order.
+  // Records the attitude at `when`. An instant that is not after the last one is ignored.
   void note_pose(SimTime when, const Quaternion& orientation);
 
   void clear();
   void archive(Archive& a) { a(poses_, waiting_); }
 
-  // All fixes that are complete now, taken out; none while the array is dead (they are then lost).
+  // Removes and returns all fixes that are complete; while the array is dead they are lost.
   std::vector<UsblFix> take(bool is_dead);
 
  private:

@@ -7,7 +7,7 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-constexpr double kMargin = 4;  // m: a second of two fast vehicles that meet
+constexpr double kMargin = 4;  // m: relative movement of two fast vehicles in about a second
 
 struct Placed {
   double column_x, column_y;  // whole numbers

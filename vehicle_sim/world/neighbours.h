@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of many vehicles may be near each other: the cheap first look before contacts are searched.
+// Search for pairs of vehicles that may be near each other, before contacts are computed.
 //
-// Model: a list of pairs with a margin of their movement (Verlet 1967), made anew from columns of cells when
-// any vehicle has moved by half the margin. A list holds every pair that is within reach and few others,
-// ordered by their indices, so what is found does not depend on when it was made. Cost: N a step, N log N
-// each few hundred steps; many vehicles above one another in one column cost their number squared then.
+// Model: a list of pairs with a margin for their movement (Verlet 1967), rebuilt from columns of cells when
+// any vehicle has moved by half the margin. The list holds every pair within reach and few others, in the
+// order of their indices, so the contacts found do not depend on when it was rebuilt. Cost: N for each step,
+// N log N every few hundred steps; many vehicles above one another in one column cost the square of their
+// number then.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +21,8 @@ class Neighbours {
  public:
   using Pair = std::pair<std::size_t, std::size_t>;  // first < second
 
-  // All pairs whose distance is at most `reach_m` (above 0), and some beyond; in ascending order. Positions
-  // finite.
+  // Returns all pairs whose distance is at most `reach_m` (above 0), and some beyond, in ascending order.
+  // Positions must be finite.
   const std::vector<Pair>& within(double reach_m, const std::vector<Vec3>& positions);
 
  private:
@@ -29,7 +30,7 @@ class Neighbours {
   void rebuild(double reach_m, const std::vector<Vec3>& positions);
 
   double reach_m_ = 0;
-  std::vector<Vec3> made_at_;  // positions when the list was made
+  std::vector<Vec3> made_at_;  // positions at the last rebuild
   std::vector<Pair> pairs_;
 };
 

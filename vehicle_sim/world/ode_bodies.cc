@@ -10,8 +10,10 @@ Mat3 ode_inertia(const ModelParameters& p) {
   return p.inertia_kg_m2 + Mat3(p.added_mass.diagonal().tail<3>().asDiagonal());
 }
 
-// 1 / m + (r x n) . I^-1 (r x n): how fast the body moves along the unit n for each unit of impulse along it
-// at r from the centre of gravity, body frame.
+// Inverse effective mass of the body: the change of velocity along the unit vector n by a unit impulse along
+// it at r from the centre of gravity, body frame.
+//
+//   1 / m_eff = 1 / m + (r x n) . I^-1 (r x n)
 double ode_inverse_mass_at(const ModelParameters& p, const Vec3& arm_m, const Vec3& direction) {
   const Vec3 moment = arm_m.cross(direction);
   return 1 / ode_kilograms(p) + moment.dot(ode_inertia(p).inverse() * moment);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ODE side of a VehicleWorld, for vehicle_world.cc alone: bodies and contacts.
+// Bodies and contacts of the Open Dynamics Engine (ODE), for vehicle_world.cc alone.
 #pragma once
 
 #include "core/frames.h"
@@ -10,9 +10,9 @@
 
 namespace halocline::vehicle_sim {
 
-// Contacts this far off are watched, should others push towards them, metres.
+// Contacts with a gap up to this, m, are included, since other contacts may push the hull towards them.
 inline constexpr double kContactMargin = 0.05;
-// A hull found in the ground, or two in each other, are moved apart no faster, m/s.
+// Limit of the speed at which a hull is pushed out of the seabed or another hull, m/s.
 inline constexpr double kFastestPushOut = 0.2;
 
 inline Vec3 vector_from(const dReal* v) { return {v[0], v[1], v[2]}; }
@@ -20,22 +20,24 @@ inline Vec3 vector_from(const dReal* v) { return {v[0], v[1], v[2]}; }
 dBodyID make_body(dWorldID world, const Model& model, const VehicleState& state);
 void write_body(dBodyID body, const Model& model, const VehicleState& state);
 
-// Gives the body `scale` times ODE's mass: dry mass and inertia with the added mass of heave and of rotation.
+// Sets the body's mass to `scale` times its mass in ODE: dry mass and inertia with the added mass of heave
+// and rotation.
 void scale_mass(dBodyID body, const ModelParameters& parameters, double scale);
 
-// Gives the body, which has `scale` times ODE's mass, the force and torque that take it from the velocity of
-// `now` to that of `next` in a step: M_ode (v - v_0) / h and I_ode (omega - omega_0) / h, with the inertia
-// turned as `orientation`.
+// Applies the force and torque that take the body, with `scale` times its mass in ODE, from the velocity of
+// `now` to that of `next` in a step. The inertia is rotated by `orientation`.
+//
+//   F = M_ode (v - v_0) / h,  T = I_ode (omega - omega_0) / h
 void push_to_velocity(dBodyID body, const Model& model, const VehicleState& now, const VehicleState& next,
                       const Quaternion& orientation, double scale, double step_s);
 
-// The scale at which ODE's body gives way at `point_ned_m` along `normal_ned` (unit) as the vehicle at `pose`
-// does with its added mass: the ratio of both inverse masses there.
+// Returns the scale at which ODE's body responds to an impulse at `point_ned_m` along `normal_ned` (unit) as
+// the vehicle at `pose` does with its added mass: the ratio of the two inverse effective masses there.
 double scale_of_mass_at(const Model& model, const VehicleState& pose, const Vec3& point_ned_m,
                         const Vec3& normal_ned);
 
-// A contact that lets the first body's point approach against `normal` by `closing_speed` at most (negative:
-// it must part).
+// Returns a contact at which the first body's point may approach against `normal` at `closing_speed` at most;
+// when it is negative, the point must move away.
 dContact ode_contact(const Vec3& normal, const Vec3& point, double closing_speed, double friction);
 
 }  // namespace halocline::vehicle_sim

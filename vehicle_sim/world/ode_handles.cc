@@ -7,7 +7,7 @@ namespace halocline::vehicle_sim {
 namespace {
 
 bool initialise_ode() {
-  static const bool done = dInitODE2(0) != 0;  // once in the process, whichever thread comes first
+  static const bool done = dInitODE2(0) != 0;  // once in the process, in whichever thread is first
   return done;
 }
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Owners of the Open Dynamics Engine's handles, for vehicle_world.cc alone.
+// Owners of the handles of the Open Dynamics Engine (ODE), for vehicle_world.cc alone.
 //
-// ODE keeps global tables, set up once in the process before the first world. Each world steps by an
-// implementation of its own, in the thread that calls: worlds that share ODE's default crash when stepped in
-// several threads.
+// ODE keeps global tables, which are set up once in the process before the first world. Each world steps by a
+// threading implementation of its own, in the calling thread: worlds that share ODE's default one crash when
+// several threads step them.
 #pragma once
 
 #include <ode/ode.h>
 
 namespace halocline::vehicle_sim {
 
-// A world without gravity (weight is in our equations) with a group for the contacts of one step.
+// World without gravity (the weight is in the equations of motion), with a group for the contacts of one
+// step.
 class OdeWorld {
  public:
   OdeWorld();
@@ -27,7 +28,8 @@ class OdeWorld {
   dJointGroupID contacts_;
 };
 
-// Sets up ODE's tables for the calling thread; cheap after the first call. To be called before a world steps.
+// Sets up ODE's tables for the calling thread; must be called before a world steps. Cheap after the first
+// call.
 void prepare_ode_in_this_thread();
 
 }  // namespace halocline::vehicle_sim

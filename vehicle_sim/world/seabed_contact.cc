@@ -10,10 +10,10 @@ namespace {
 
 constexpr int kSpheres = 41;
 constexpr int kThirds = 3;
-constexpr double kSteepestSeen = 5.7;        // tan 80 degrees
-constexpr double kSamePlaneCosine = 0.9986;  // cos 3 degrees: planes closer than this count as one
-constexpr double kHangingTolerance =
-    0.005;  // m, a plane's nearest point this far above the ground is not ground
+constexpr double kSteepestSeen = 5.7;        // tan(80 degrees)
+constexpr double kSamePlaneCosine = 0.9986;  // cos(3 degrees): planes at a smaller angle count as one
+// m, height above the seabed from which a plane's nearest point is not part of it.
+constexpr double kHangingTolerance = 0.005;
 
 struct Sphere {
   Vec3 center = Vec3::Zero();
@@ -25,14 +25,14 @@ struct Candidate {
   bool found = false;
 };
 
-// Least gap of each third of the hull, for one of the planes (below, left, right).
+// Least gap of each third of the hull to one of the planes (below, left, right).
 using BestOfThirds = std::array<Candidate, kThirds>;
 
 double gap_to(const Sphere& sphere, const SeabedPlane& plane, const Vec3& on_plane) {
   return plane.normal_ned.dot(sphere.center - on_plane) - sphere.radius;
 }
 
-// True when the plane's point nearest to the sphere lies in the water, not on the ground.
+// True when the plane's point nearest to the sphere lies in the water, not on the seabed.
 bool hangs(const Seabed& seabed, const Vec3& nearest) {
   const auto ground = seabed.plane_at(nearest.x(), nearest.y());
   return ground && nearest.z() < ground->z_m - kHangingTolerance;
@@ -43,7 +43,7 @@ void keep_least(Candidate& best, const Sphere& sphere, const SeabedPlane& plane,
   best = {{sphere.center - sphere.radius * plane.normal_ned, plane.normal_ned, gap}, true};
 }
 
-// True when the ground under bow, centre and stern is so deep that no slope up to the steepest reaches the
+// True when the seabed below bow, centre and stern is so deep that no slope up to the steepest reaches the
 // hull.
 bool far_from_ground(const HullShape& hull, const Vec3& center, const Vec3& axis, const Seabed& seabed,
                      double margin) {
@@ -57,8 +57,8 @@ bool far_from_ground(const HullShape& hull, const Vec3& center, const Vec3& axis
   return true;
 }
 
-// Candidates of one sphere: the plane below into best[0], those beside it into best[1] and best[2] where they
-// differ.
+// Finds the candidates of one sphere: for the plane below in best[0], for those on the sides, where they
+// differ from it, in best[1] and best[2].
 void look_round(const Sphere& sphere, const Vec3& sideways, int third, const Seabed& seabed, double margin,
                 std::array<BestOfThirds, 3>& best) {
   const auto below = seabed.plane_at(sphere.center.x(), sphere.center.y());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A terrain as the ground that vehicles touch.
+// Seabed of a bathymetry::Terrain.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace halocline::vehicle_sim {
 
-// Beyond the terrain, and where it has no data, there is no ground.
+// There is no seabed beyond the terrain and where it has no data.
 class TerrainSeabed : public Seabed {
  public:
   explicit TerrainSeabed(std::shared_ptr<const bathymetry::Terrain> terrain);

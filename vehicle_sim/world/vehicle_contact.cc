@@ -9,14 +9,14 @@ namespace halocline::vehicle_sim {
 namespace {
 
 constexpr int kThirds = 3;
-constexpr double kCoarsest = 0.5, kFinest = 1e-5;  // steps of the search, in distances of the focus
-constexpr double kSameAxis = 1e-6;                 // m, axes this close have no direction between them
+constexpr double kCoarsest = 0.5, kFinest = 1e-5;  // steps of the search, in units of the focal distance
+constexpr double kSameAxis = 1e-6;                 // m, axes closer than this have no direction between them
 
 struct AxisSegment {
   double low, high;
 };
 
-// Places along the two axes, -1 at the focus astern, 1 at the focus ahead.
+// Positions along the two axes, -1 at the aft focus, 1 at the forward focus.
 struct Places {
   double first, second;
 };
@@ -35,8 +35,8 @@ double gap_at(const HullPose& a, const HullPose& b, const Places& p) {
          radius_at(b, p.second);
 }
 
-// Least gap with the first place held to `third`: the best of eight neighbours as long as one is better, then
-// half the step.
+// Returns the positions of the least gap, the first within `third`: moves to the best of eight neighbours as
+// long as one is better, then halves the step.
 Places closest_places(const HullPose& a, const HullPose& b, const AxisSegment& third) {
   Places best{(third.low + third.high) / 2, 0};
   double min_gap = gap_at(a, b, best);
@@ -68,7 +68,7 @@ bool overlap(const std::vector<VehicleContact>& contacts) {
 VehicleContact contact_at(const HullPose& a, const HullPose& b, const Places& p) {
   const Vec3 between = center_at(a, p.first) - center_at(b, p.second);
   const double distance = between.norm();
-  // Axes that cross have no direction between them: apart, the shorter way, is across both.
+  // Axes that intersect have no direction between them; the shorter way to separate them is normal to both.
   Vec3 normal = distance > kSameAxis ? Vec3(between / distance) : a.axis_ned.cross(b.axis_ned);
   if (normal.norm() < kSameAxis) normal = a.axis_ned.unitOrthogonal();
   normal.normalize();

@@ -15,26 +15,26 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-constexpr double kUnitTolerance = 1e-6;  // of a quaternion's length
-constexpr double kMinForce = 1e-9;       // N: below is no contact
-constexpr double kMinDistance = 1e-6;    // m: a rope whose ends meet has no direction
+constexpr double kUnitTolerance = 1e-6;  // tolerance of a quaternion's length
+constexpr double kMinForce = 1e-9;       // N: a smaller force is no contact
+constexpr double kMinDistance = 1e-6;    // m: a tether whose ends coincide has no direction
 
 }  // namespace
 
-// A contact of a vehicle with the ground.
+// Contact of a vehicle with the seabed.
 struct VehicleWorld::Contact {
   std::size_t vehicle;
   dJointID joint;
   dJointFeedback feedback = {};
 };
 
-// A push along a line between two vehicles, or a vehicle and a fixed point, that keeps a gap open.
+// Link: a push along a line between two vehicles, or a vehicle and a fixed point, which keeps a gap open.
 struct VehicleWorld::Link {
-  std::size_t vehicle;               // is pushed along `normal`
-  std::optional<std::size_t> other;  // is pushed against it
-  Vec3 point, normal;                // where the free velocities lead
+  std::size_t vehicle;               // pushed along `normal`
+  std::optional<std::size_t> other;  // pushed against `normal`
+  Vec3 point, normal;                // at the poses to which the free velocities lead
   double gap_m;
-  double time_left_s;  // in the step after the instant at which the gap was measured
+  double time_left_s;  // from the instant of `gap_m` to the end of the step
   std::optional<std::size_t> tether;
   dJointID joint = nullptr;
   dJointFeedback feedback = {};
@@ -107,9 +107,10 @@ void VehicleWorld::step(double step_s) {
   dJointGroupEmpty(ode_->contacts());
 }
 
-// Each vehicle by itself: its motion without contacts, and the ground where that leads.
+// Solves each vehicle's motion without contacts, and finds its contacts with the seabed where that motion
+// leads.
 void VehicleWorld::solve_free_motions(double step_s) {
-  constexpr std::size_t kAtOnce = 64;  // vehicles for each turn of a thread
+  constexpr std::size_t kAtOnce = 64;  // vehicles for each task of a thread
   const std::size_t count = vehicles_.size();
   for_each_((count + kAtOnce - 1) / kAtOnce, [&](std::size_t chunk) {
     const std::size_t end = std::min(count, (chunk + 1) * kAtOnce);
@@ -121,7 +122,7 @@ void VehicleWorld::solve_free_motions(double step_s) {
   });
 }
 
-// Nothing that is not finite reaches ODE, which would abort.
+// Marks a vehicle whose solution is not finite as diverged: such numbers would make ODE abort.
 void VehicleWorld::solve_free_motion(Vehicle& v, double step_s) {
   v.next = rk4_step(*v.model, v.state, v.command, v.water, step_s);
   v.linked = false;
@@ -140,7 +141,7 @@ void VehicleWorld::look_for_ground(Vehicle& v, double step_s) {
                 kContactMargin, v.ground);
 }
 
-// Only what has a contact takes part; the others' free motion holds as it is.
+// Only vehicles with a contact are enabled; the others keep their free motion.
 void VehicleWorld::solve_contacts(double step_s) {
   prepare_ode_in_this_thread();
   for (Vehicle& v : vehicles_) {
@@ -161,7 +162,7 @@ void VehicleWorld::attach_contacts(std::size_t index, double step_s) {
   const Motion now = motion_of_cg(*v.model, v.state), free = motion_of_cg(*v.model, v.next);
   const Vec3 cg_reached = now.position + step_s * free.velocity;
   for (const HullContact& c : v.ground) {
-    // After the step the gap is gap + h n . (v - v_rk4) at the point; it is to be 0 or more.
+    // The gap after the step is to be 0 or more: gap + h n . (v - v_rk4), at the point of contact.
     const Vec3 arm = c.point_ned_m - cg_reached;
     const double free_speed = c.normal_ned.dot(free.velocity + free.angular_velocity.cross(arm));
     const double min_speed = std::min(free_speed - c.gap_m / step_s, kFastestPushOut);
@@ -202,7 +203,9 @@ void VehicleWorld::take_grounded(Vehicle& v, double step_s) {
   VehicleState touching =
       moved(*v.model, v.state, {motion_of_cg(*v.model, v.state).position, velocity, spin}, step_s);
   touching.actuators = v.next.actuators;
-  // What the ground did, as our own equations see it: M (nu - nu_rk4) / h.
+  // Force of the seabed by the vehicle's own equations:
+  //
+  //   M (nu - nu_rk4) / h
   const Vec6 impulse = v.model->mass() * (touching.velocity_body - v.next.velocity_body);
   v.seabed_force = v.next.orientation * Vec3(impulse.head<3>() / step_s) - v.link_force;
   v.next = touching;
@@ -225,7 +228,8 @@ double VehicleWorld::tether_distance_m(std::size_t index) const {
   return (end_of(t.vehicle, t.attached_at_m, false) - end_of(t.to_vehicle, t.to_attached_at_m, false)).norm();
 }
 
-// An end of a tether, where its vehicle is or where its free velocity leads.
+// Returns a tether's end in the world frame, at the vehicle's present pose or at the one to which its free
+// velocity leads.
 Vec3 VehicleWorld::end_of(const std::optional<std::size_t>& vehicle, const Vec3& attached_at_m,
                           bool when_reached) const {
   if (!vehicle) return attached_at_m;
@@ -234,8 +238,8 @@ Vec3 VehicleWorld::end_of(const std::optional<std::size_t>& vehicle, const Vec3&
   return state.position_ned_m + state.orientation * attached_at_m;
 }
 
-// Pairs in ascending order, then tethers: the order of ODE's joints, and with it the result, is that of the
-// indices.
+// Pairs come in ascending order, then tethers, so that the order of ODE's joints, and with it the result, is
+// that of the indices.
 void VehicleWorld::find_links(double step_s) {
   if (vehicles_.size() > 1) find_meetings(step_s);
   find_taut_tethers(step_s);
@@ -259,7 +263,8 @@ void VehicleWorld::find_meetings(double step_s) {
   positions_.clear();
   for (const Vehicle& v : vehicles_)
     positions_.push_back(v.diverged ? v.state.position_ned_m : v.next.position_ned_m);
-  // next and reached differ by less than the margin: half an acceleration times the step squared.
+  // The difference of `next` and `reached`, half an acceleration times the step squared, is less than the
+  // margin.
   for (const auto& [i, k] : neighbours_.within(longest_hull_m_ + 4 * kContactMargin, positions_)) {
     Vehicle &a = vehicles_[i], &b = vehicles_[k];
     if (a.diverged || b.diverged) continue;
@@ -293,7 +298,8 @@ void VehicleWorld::find_taut_tethers(double step_s) {
   }
 }
 
-// Lets ODE's body give way at its closest link as the vehicle does, with its added mass.
+// Scales the mass of ODE's body so that it responds at its closest link as the vehicle with its added mass
+// does.
 void VehicleWorld::take_scale_of(Vehicle& v, const Link& link) {
   if (v.linked && v.closest_link_m <= link.gap_m) return;
   v.linked = true;

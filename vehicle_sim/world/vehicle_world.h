@@ -1,31 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vehicles as rigid bodies in an ODE world, free in the water and in contact with the seabed, with each other
-// and with tethers.
+// World of vehicles as rigid bodies, free in the water and in contact with the seabed, with each other and
+// with tethers. Contacts are solved by the Open Dynamics Engine (ODE).
 //
-// Formulation: each step solves our own equations of motion (equations_of_motion.h) by Runge-Kutta; the force
-// that takes the ODE body to that velocity, M_ode (v_rk4 - v) / h, is applied at its centre of gravity
-// together with the contacts, and ODE steps (dWorldStep, which is exact and draws no random numbers). A free
-// vehicle takes the Runge-Kutta state whole, so free flight does not depend on ODE, which sees only those in
-// contact. In contact with the ground it takes ODE's velocity, and its pose from the old pose and that
-// velocity, x + h v: then a vehicle that rests, rests (with x_rk4 + h (v - v_rk4) friction let it creep
-// uphill by half a step's acceleration). M_ode is the dry mass plus the heave added mass, the inertia
-// likewise. Contacts are looked for at the pose the free velocity leads to, and limit the velocity so that
-// none is in the ground after the step: no bounce, Coulomb friction (a pyramid, up to 1.4 times stronger
-// along its edges; along the hull, where the true mass is less than M_ode, it holds half as much). Accuracy:
-// a resting vehicle is held by its weight less its buoyancy to 1e-3; it stays less than 1 cm in even ground
-// at steps to 20 ms.
+// Each step solves the equations of motion (equations_of_motion.h) by Runge-Kutta. For vehicles in contact,
+// the force
 //
-// Two vehicles: contacts likewise (vehicle_contact.h), without friction or bounce. There M_ode is scaled so
-// that ODE's body gives way at the point of contact as the vehicle with all its added mass does; ODE then
-// finds the impulse, and each vehicle takes it by its own equations (body_motion.h), so that the momentum of
-// vehicles and water is conserved. With more contacts than one on a vehicle the scale is that of the closest,
-// and the others close or open in the next steps. A tether is the same contact with the distance turned
-// round: it holds its two ends within its length, pulls and never pushes, weighs nothing, has no drag and
-// does not stretch.
+//   F = M_ode (v_rk4 - v) / h
 //
-// Left out: soft sediment, the changed added mass near the ground and near others. Coordinates are local to
-// the scenario: ODE's steps lose 1e-5 m far from the origin (1e6 m). Threads: one world in one thread at a
-// time; any number of worlds in as many threads, with equal results.
+// that takes the ODE body to the velocity of that solution is applied at its centre of gravity together with
+// the contacts, and ODE steps (dWorldStep, which is exact and draws no random numbers). M_ode is the dry mass
+// plus the added mass of heave, and the inertia likewise. A vehicle without contacts takes the Runge-Kutta
+// state as it is, so free motion does not depend on ODE.
+//
+// Seabed: a vehicle takes ODE's velocity, and its pose follows from the old pose and that velocity, x + h v.
+// A vehicle at rest then stays at rest (with x_rk4 + h (v - v_rk4) friction would let it creep uphill by half
+// a step's acceleration). Contacts are found at the pose to which the free velocity leads. They limit the
+// velocity so that no point is below the seabed after the step: no bounce, Coulomb friction. Friction is a
+// pyramid, up to 1.4 times stronger along its edges; along the hull, where the true mass is less than M_ode,
+// it holds half as much. Accuracy: the contact force on a vehicle at rest is its weight less its buoyancy to
+// 1e-3; it penetrates even seabed by less than 1 cm at steps up to 20 ms.
+//
+// Other vehicles: contacts likewise (vehicle_contact.h), without friction or bounce. M_ode is scaled so that
+// ODE's body responds at the point of contact as the vehicle with all its added mass does. ODE then finds the
+// impulse, and each vehicle takes it by its own equations (body_motion.h), so that the momentum of vehicles
+// and water is conserved. With several contacts on a vehicle the scale is that of the closest, and the others
+// close or open in the next steps. A tether is the same contact with the distance reversed: it keeps its two
+// ends within its length, pulls and never pushes, and has no weight, no drag and no stretch.
+//
+// Left out: soft sediment, the change of added mass near the seabed and near other hulls. Coordinates are
+// local to the scenario: ODE's steps lose 1e-5 m far from the origin (1e6 m). Threads: one world in one
+// thread at a time; any number of worlds in as many threads, with equal results.
 #pragma once
 
 #include <cstddef>
@@ -42,26 +46,26 @@
 #include "vehicle_sim/world/seabed_contact.h"
 #include "vehicle_sim/world/vehicle_contact.h"
 
-struct dxBody;  // ODE's, as in <ode/common.h>
+struct dxBody;  // declared in <ode/common.h>
 
 namespace halocline::vehicle_sim {
 
 class OdeWorld;
 
-// A rope between two vehicles of a world, or a vehicle and a point that is fixed.
+// Tether between two vehicles of a world, or between a vehicle and a fixed point.
 struct Tether {
   std::size_t vehicle = 0;                // index
   Vec3 attached_at_m = Vec3::Zero();      // from CO, body frame
-  std::optional<std::size_t> to_vehicle;  // another one; empty: the other end is fixed
-  Vec3 to_attached_at_m = Vec3::Zero();   // its body frame; of a fixed end, the world frame (NED)
+  std::optional<std::size_t> to_vehicle;  // another vehicle; empty: the other end is fixed
+  Vec3 to_attached_at_m = Vec3::Zero();   // in its body frame; for a fixed end, in the world frame (NED)
   double length_m = 1;                    // above 0
 };
 
 class VehicleWorld {
  public:
-  // A `seabed` that is null is water without a bottom. `friction`: Coulomb's coefficient of hull on seabed, 0
-  // or above (0.5: smooth plastic on sand, a middle value).
-  // `for_each` shares what each vehicle does by itself among threads; the result is the same bit by bit.
+  // `seabed`: null is water without a bottom. `friction`: Coulomb's coefficient of hull on seabed, 0 or above
+  // (0.5: smooth plastic on sand, a medium value). `for_each` distributes the work of each vehicle over
+  // threads; the result is the same bit by bit.
   explicit VehicleWorld(std::shared_ptr<const Seabed> seabed, double friction = kDefaultFriction,
                         ForEach for_each = one_after_the_other);
   ~VehicleWorld();
@@ -71,17 +75,18 @@ class VehicleWorld {
   static constexpr double kDefaultFriction = 0.5;
   static constexpr double kLongestStep_s = 0.02;
 
-  // Adds a vehicle and returns its index, counted from 0. `initial` finite, its quaternion of unit length to
-  // 1e-6.
+  // Adds a vehicle and returns its index, counted from 0. `initial` must be finite, with a quaternion of unit
+  // length to 1e-6.
   std::size_t add(std::shared_ptr<const Model> model, const VehicleState& initial);
 
   std::size_t size() const { return vehicles_.size(); }
 
-  // What a vehicle does and meets from the next step on; finite. The command is held to the model's limits.
+  // Sets the command and the water of a vehicle from the next step on; both must be finite. The command is
+  // limited to the model's ranges.
   void set_command(std::size_t index, const ActuatorValues& command);
   void set_water(std::size_t index, const Water& water);
 
-  // Another model in the place of a vehicle's, from the next step on: a leak makes it heavier. The hull must
+  // Replaces a vehicle's model from the next step on, for example when a leak makes it heavier. The hull must
   // be the same.
   void set_model(std::size_t index, std::shared_ptr<const Model> model);
 
@@ -91,29 +96,27 @@ class VehicleWorld {
   const VehicleState& state(std::size_t index) const { return vehicles_[index].state; }
   const Model& model(std::size_t index) const { return *vehicles_[index].model; }
 
-  // Where the vehicles are and what the last step did; not their models, commands and water, which are set
-  // anew.
+  // Archives the vehicles' states and the forces of the last step, without models, commands and water, which
+  // the caller sets again.
   void archive(Archive& a);
 
-  // Adds a tether between vehicles that are there already and returns its index. It may be stretched at
-  // first: its ends then approach at up to 0.2 m/s.
+  // Adds a tether between existing vehicles and returns its index. It may be longer than its length at first:
+  // its ends then approach at up to 0.2 m/s.
   std::size_t add(const Tether& tether);
 
-  // How far apart a tether's ends are, and its pull in the last step, newtons, 0 or above.
+  // Distance of a tether's ends, m, and its pull in the last step, N, 0 or above.
   double tether_distance_m(std::size_t tether) const;
   double tether_pull_n(std::size_t tether) const { return tethers_[tether].pull_n; }
 
-  // Sum of the forces of other hulls and of tethers in the last step, newtons, world frame.
+  // Sum of the forces of other hulls and of tethers in the last step, N, world frame.
   const Vec3& link_force_ned_n(std::size_t index) const { return vehicles_[index].link_force; }
-  // True when it touched another vehicle in the last step.
+  // True when the vehicle touched another one in the last step.
   bool touches_vehicle(std::size_t index) const { return vehicles_[index].touches_vehicle; }
 
-  // Sum of the ground's forces on the vehicle in the last step, newtons, world frame; zero when it touched
-  // nothing.
+  // Sum of the seabed's forces on the vehicle in the last step, N, world frame; zero without contact.
   const Vec3& seabed_force_ned_n(std::size_t index) const { return vehicles_[index].seabed_force; }
 
-  // True once a vehicle's equations gave a number that is not finite: it stays where it was last and moves no
-  // more.
+  // True once the solution of a vehicle's equations was not finite: it then stays at its last position.
   bool has_diverged(std::size_t index) const { return vehicles_[index].diverged; }
 
  private:
@@ -122,22 +125,22 @@ class VehicleWorld {
   struct Vehicle {
     std::shared_ptr<const Model> model;
     VehicleState state;
-    VehicleState next = {};  // the free solution of this step
+    VehicleState next = {};  // free solution of this step
     ActuatorValues command = {};
     Water water = {};
     dxBody* body = nullptr;  // owned by the ODE world
     Vec3 seabed_force = Vec3::Zero();
     Vec3 link_force = Vec3::Zero();
-    VehicleState reached = {};     // where the free velocity leads; of those that have a link
-    double closest_link_m = 0;     // gap
-    double mass_scale = 1;         // of M_ode in this step
+    VehicleState reached = {};     // pose to which the free velocity leads; valid with a link
+    double closest_link_m = 0;     // gap of its closest link
+    double mass_scale = 1;         // scale of M_ode in this step
     bool linked = false;           // has a link in this step
-    bool touches = false;          // the ground, in the last step
-    bool touches_vehicle = false;  // in the last step
+    bool touches = false;          // touched the seabed in the last step
+    bool touches_vehicle = false;  // touched another vehicle in the last step
     bool diverged = false;
-    std::vector<HullContact> ground = {};  // where the hull would touch it in this step
+    std::vector<HullContact> ground = {};  // contacts with the seabed in this step
 
-    bool takes_part() const { return linked || !ground.empty(); }  // in ODE's step
+    bool takes_part() const { return linked || !ground.empty(); }  // true in ODE's step
   };
   struct TiedTether {
     Tether tether;
@@ -169,10 +172,10 @@ class VehicleWorld {
   std::vector<TiedTether> tethers_;
   double longest_hull_m_ = 0;
   Neighbours neighbours_;
-  std::vector<VehicleContact> meeting_;  // of find_meetings
-  std::vector<Vec3> positions_;          // of find_meetings
-  std::vector<Contact> contacts_;        // of this step, with the ground
-  std::vector<Link> links_;              // of this step, with others and tethers
+  std::vector<VehicleContact> meeting_;  // work space of find_meetings
+  std::vector<Vec3> positions_;          // work space of find_meetings
+  std::vector<Contact> contacts_;        // contacts with the seabed in this step
+  std::vector<Link> links_;              // links to other hulls and by tethers in this step
 };
 
 }  // namespace halocline::vehicle_sim
