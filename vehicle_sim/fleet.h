@@ -159,7 +159,7 @@ class Fleet {
 
   FleetSettings settings_;
   std::vector<FleetMember> members_;
-  std::vector<std::size_t> world_index_;  // index of each member that moves
+  std::vector<std::size_t> world_index_;  // in world_, for members that move
   std::vector<CommandSchedule> commands_;
   std::vector<ActuatorValues> obeyed_;
   VehicleWorld world_;

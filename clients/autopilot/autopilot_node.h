@@ -45,7 +45,7 @@ namespace halocline::clients {
 class AutopilotNode : public bus::Node {
  public:
   // Pilots the vehicles of `config` that have waypoints or behaviours. Throws InvalidArgument when
-  // config.only_vehicle is none of them.
+  // config.only_vehicle names a vehicle without a mission.
   AutopilotNode(lcm::LCM& lcm, bus::NodeIdentity identity, const AutopilotConfig& config);
 
  protected:
@@ -71,13 +71,13 @@ class AutopilotNode : public bus::Node {
     bool looked = false;  // the altitude in `sensors` was given to the pilot
     VehiclePilot pilot;
     std::int64_t sequence = 0;
-    std::optional<Navigator> navigator{};      // positions by vehicle id
+    std::optional<Navigator> navigator{};      // with navigate_by = sensors
     std::optional<AttitudeKeeper> attitude{};  // with navigate_by = sensors
     std::optional<Situation> situation{};      // at the latest command
     std::unique_ptr<FormationLink> link{};
     std::unique_ptr<PlaceFinder> finder{};
-    std::optional<vehicle_dvl_t> ping{};  // latest ping that measured a velocity over ground
-    std::map<std::int32_t, Vec3> beacons{};
+    std::optional<vehicle_dvl_t> ping{};     // latest ping that measured a velocity over ground
+    std::map<std::int32_t, Vec3> beacons{};  // positions by vehicle id
     Reported reported{};
 
     std::optional<vehicle_dvl_t> fresh_ping(std::int64_t utime) const;

@@ -12,6 +12,7 @@ double limited_pi(double proportional, double integrand, double lowest, double h
   return std::clamp(proportional + integral, lowest, highest);
 }
 
+// PD law of the heading: rudder = clip(p (course - heading) - d r).
 double rudder(const Gains& g, const SetPoints& points, const Measured& m) {
   const double error = wrapped(points.course_rad - m.heading_rad);
   return std::clamp(g.heading_p * error - g.heading_d_s * m.yaw_rate_radps, -g.max_fin_rad, g.max_fin_rad);
@@ -19,6 +20,10 @@ double rudder(const Gains& g, const SetPoints& points, const Measured& m) {
 
 namespace {
 
+// Cascade of a PI law of the depth and a PD law of the pitch; z is positive down, pitch positive up:
+//
+//   pitch_d = clip(p_z (z - z_d) + climb + integral of i_z (z - z_d))
+//   stern   = clip(-p (pitch_d - pitch) + d q)
 double stern_plane(const Gains& g, const SetPoints& points, const Measured& m, double dt_s,
                    Integrals& integrals) {
   const double too_deep_m = m.z_ned_m - points.z_ned_m;
@@ -29,6 +34,7 @@ double stern_plane(const Gains& g, const SetPoints& points, const Measured& m, d
                     g.max_fin_rad);
 }
 
+// PI law of the speed with feed-forward: rpm = clip(f u_d + p (u_d - u) + integral of i (u_d - u)).
 double propeller_rpm(const Gains& g, const SetPoints& points, const Measured& m, double dt_s,
                      Integrals& integrals) {
   const double too_slow_mps = points.speed_mps - m.speed_mps;

@@ -101,6 +101,11 @@ FollowPhase Follower::phase_at(double time_s) const {
                                                                     : FollowPhase::kSafe;
 }
 
+// Set points for the follower's place, with e_across and e_along the place relative to the follower, resolved
+// to starboard of and along the leader's course:
+//
+//   course = course_leader + atan(e_across / lookahead)
+//   speed  = clip(speed_leader + gain e_along)
 SetPoints Follower::beside_leader(double time_s, const Vec3& position_ned_m) const {
   const Vec3 ahead = along(report_->course_rad), starboard(-ahead.y(), ahead.x(), 0);
   const Vec3 place = report_->position_ned_m + (time_s - report_->time_s) * report_->speed_mps * ahead +

@@ -19,6 +19,7 @@ double azimuth(const Eigen::Vector2d& north_east) {
   return elementary::atan2(north_east.y(), north_east.x());
 }
 
+// A waypoint is reached within the acceptance radius, or beyond the plane through it normal to the leg.
 bool is_reached(const Mission& mission, const Progress& progress, const Vec3& position) {
   const Vec3& waypoint = mission.waypoints[progress.target];
   if (horizontal(position, waypoint).norm() <= mission.acceptance_radius_m) return true;
@@ -27,6 +28,12 @@ bool is_reached(const Mission& mission, const Progress& progress, const Vec3& po
   return has_direction && horizontal(waypoint, position).dot(leg) >= 0;
 }
 
+// Line-of-sight guidance (Fossen 2021, section 12.3), with e the cross-track error, positive to starboard:
+//
+//   course = azimuth of the leg - atan(e / lookahead)
+//
+// A leg shorter than the acceptance radius has no reliable direction; the course is then straight to the
+// waypoint.
 double course_on_leg(const Mission& mission, const Progress& progress, const Vec3& position) {
   const Vec3& waypoint = mission.waypoints[progress.target];
   const Eigen::Vector2d leg = horizontal(progress.leg_start_ned_m, waypoint);
@@ -79,6 +86,9 @@ SetPoints stopped(AtEnd at_end, double z_ned_m) {
   return {.propel = false, .surface = at_end == AtEnd::kSurface, .z_ned_m = z_ned_m};
 }
 
+// Orbit by a vector field (Beard and McLain 2012, eq. 10.13), with d the distance from the centre:
+//
+//   course = azimuth from the centre +- (pi/2 + atan(gain (d - radius) / radius)),  + clockwise
 double course_on_circle(const Vec3& center_ned_m, double radius_m, bool clockwise,
                         const Vec3& position_ned_m) {
   const Eigen::Vector2d from_center = horizontal(center_ned_m, position_ned_m);

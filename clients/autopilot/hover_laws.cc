@@ -14,6 +14,7 @@ using Vec2 = Eigen::Vector2d;
 
 constexpr double kSlowMps = 0.3;  // forward speed below which the set pitch goes to 0
 
+// Thrust is proportional to the square of the speed: n = n_full sqrt(T / T_full), with the sign of T.
 double rpm_for(const HoverGains& g, double thrust_n) {
   const double full = thrust_n < 0 ? g.astern_ratio * g.full_thrust_n : g.full_thrust_n;
   const double rpm = g.full_rpm * std::sqrt(std::min(std::abs(thrust_n) / full, 1.0));
@@ -41,6 +42,12 @@ Vec2 horizontal_force(const HoverGains& g, const StationPoint& point, const Hove
          integral;
 }
 
+// Returns the wanted force along z, N, a PID law of the depth error e, which is limited so that the vertical
+// speed stays below half the set speed V:
+//
+//   F = P e - D v_z + integral,  |e| <= e_max = 0.5 V D / P
+//
+// The integral changes only within e_max of the depth and is limited to the full thrust of a thruster.
 double down_force(const HoverGains& g, const StationPoint& point, const HoverMeasured& m, double dt_s,
                   HoverIntegrals& integrals) {
   const double farthest = 0.5 * point.speed_mps * g.depth_d_n_s_per_m / g.depth_p_n_per_m;
@@ -65,6 +72,7 @@ double wanted_pitch(const HoverGains& g, const StationPoint& point, const HoverM
   return -elementary::atan(slope * std::min(forward_mps / kSlowMps, 1.0));
 }
 
+// Returns the direction of the wanted force, or the latest one while the force is below the minimum.
 double wanted_heading(const HoverGains& g, const Vec2& force, double heading_rad, HoverIntegrals& integrals) {
   if (!integrals.has_heading) integrals.heading_rad = heading_rad;
   integrals.has_heading = true;

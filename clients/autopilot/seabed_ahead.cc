@@ -15,6 +15,10 @@ constexpr double kPullUpRadPerM = 0.3;  // a metre below the minimum height dema
 
 }  // namespace
 
+// Adds the point of the seabed at the altitude a along the body's down axis:
+//
+//   path = path of the vehicle + a sin(pitch) cos(roll)
+//   z    = z of the vehicle + a cos(pitch) cos(roll)
 void SeabedAhead::add(const AltimeterLook& look) {
   if (last_) way_m_ += (look.position_ned_m - last_->position_ned_m).head<2>().norm();
   last_ = look;
@@ -30,6 +34,7 @@ void SeabedAhead::add(const AltimeterLook& look) {
   while (points_.size() > 1 && is_old(points_.front())) points_.pop_front();
 }
 
+// Least-squares line through the points (s, z): slope = cov(s, z) / var(s).
 std::optional<GroundLine> SeabedAhead::ground(double time_s) const {
   if (points_.empty() || time_s - points_.back().time_s > kOldestS) return std::nullopt;
   double mean_way = 0, mean_z = 0;

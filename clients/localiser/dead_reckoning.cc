@@ -9,6 +9,9 @@
 
 namespace halocline::clients {
 
+// Trapezium rule over the interval dt since the last measurement:
+//
+//   path <- path + dt (v_before + v) / 2,  v = speed cos(pitch) (cos(heading), sin(heading))
 void DeadReckoning::take(const OwnMotion& motion) {
   const double horizontal_mps = motion.water_speed_mps * elementary::cos(motion.pitch_rad);
   Point point{motion.at,

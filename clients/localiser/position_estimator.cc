@@ -74,6 +74,15 @@ void PositionEstimator::set_clock() {
   }
 }
 
+// Prediction of a hypothesis over the interval dt (Bar-Shalom, Li and Kirubarajan 2001, ch. 10), with
+// position p, current c, and the clock's offset b and drift d:
+//
+//   p <- p + path through the water + c dt
+//   b <- b + d dt
+//   P <- F P F^T + Q,  F = [I, dt I; 0, I]
+//   Q = diag(drift^2 dt + slip^2 |turn| for p, walk^2 dt for c)
+//
+// The clock's covariance and its cross covariance with the state are predicted likewise.
 PositionEstimator::Hypothesis PositionEstimator::carried_on(const Hypothesis& from, SimTime at) const {
   if (at <= now_ || !track_.covers(now_)) return from;
   const double seconds = (at - now_).seconds();
@@ -97,6 +106,12 @@ PositionEstimator::Hypothesis PositionEstimator::carried_on(const Hypothesis& fr
   return to;
 }
 
+// Expected length and its derivatives: the sum over the ways, each at its own instant t, of |p(t) - beacon| +
+// k b(t) with
+//
+//   p(t) = p - path since t - c (now - t),  b(t) = b - d (now - t)
+//
+// and k the lengthening per second of clock offset.
 PositionEstimator::Expected PositionEstimator::expected(const Hypothesis& hypothesis,
                                                         const RangeMeasurement& range) const {
   const State& state = hypothesis.mean;
@@ -118,6 +133,10 @@ PositionEstimator::Expected PositionEstimator::expected(const Hypothesis& hypoth
   return sum;
 }
 
+// Innovation variance of the range, with H the gradient by the state, k that by the clock, C their cross
+// covariance and P_clock the clock's covariance:
+//
+//   v = H^T P H + sigma_range^2 + (dl/dz sigma_depth)^2 + 2 H^T C k + k^T P_clock k
 double PositionEstimator::variance(const Hypothesis& hypothesis, const Expected& there,
                                    const RangeMeasurement& range) const {
   const double depth = there.per_depth * rules_.depth_sigma_m;
@@ -157,7 +176,10 @@ void PositionEstimator::update(Hypothesis& hypothesis, const RangeMeasurement& r
 }
 
 // Updates weight and state of a hypothesis by a range. Returns true when the range moved the state: an
-// outlier only lowers the weight.
+// outlier only lowers the weight. With p_o the share of outliers, f_o their density and N the normal density
+// of the innovation:
+//
+//   weight <- weight (p_o f_o + (1 - p_o) N(innovation; v)),  the second term only within the gate
 bool PositionEstimator::weigh(Hypothesis& hypothesis, const RangeMeasurement& range) const {
   const Expected there = expected(hypothesis, range);
   const double v = variance(hypothesis, there, range);

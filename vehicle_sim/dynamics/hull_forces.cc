@@ -41,6 +41,12 @@ BodyForce lift_drag_force(const LiftDrag& l, double density, const BodyVelocity&
   return {-cos_alpha * drag + sin_alpha * lift, 0, -sin_alpha * drag - cos_alpha * lift, 0, 0, 0};
 }
 
+// Lift and drag bounded at every angle of attack, with w the velocity across the axis at x and V^2 = u^2 +
+// w^2:
+//
+//   X = -1/2 rho S (C_D V u - a u w^2 / V)
+//   Z = -1/2 rho S (C_D V w + a u^2 w / V),  M = -x Z
+//   C_D = C_D0 + k s / (1 + b s),  s = w^2 / V^2,  k = a^2 / (pi e AR),  b = k / broadside_drag - 1
 BodyForce bounded_lift_force(const LiftDrag& l, double density, const BodyVelocity& nu_r) {
   const double u = nu_r.u, w = nu_r.w - l.x_m * nu_r.q;
   const double speed_squared = u * u + w * w;

@@ -77,7 +77,6 @@ struct Damping {
 enum class LiftLaw {
   kAngle,    // linear in alpha, as published with `remus100-pvs`: discontinuous in reverse flow
   kBounded,  // sin(alpha) cos(alpha) and sin(alpha)^2 at x_m: equal at small angles, always smooth
-             // at all
 };
 
 // Lift and drag of the hull and its wings in the x-z plane, by the angle of attack alpha = atan2(w_r, u_r):

@@ -97,6 +97,7 @@ WaterMotion WaveField::at(const Vec3& position_ned_m, double depth_m, SimTime no
           {forward_rate * north_, forward_rate * east_, down_rate}};
 }
 
+// Elevation, or at a depth d the pressure head of the waves: sum of a exp(-k d) cos(theta).
 double WaveField::elevation_m(const Vec3& position_ned_m, double depth_m, SimTime now) const {
   const double along = north_ * position_ned_m.x() + east_ * position_ned_m.y(), t = now.seconds();
   const double depth = std::max(depth_m, 0.0);

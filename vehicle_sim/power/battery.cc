@@ -20,6 +20,8 @@ void Battery::add_packet(SimTime at, PacketEnergy cause, double energy_j) {
   waiting_.insert(std::upper_bound(waiting_.begin(), waiting_.end(), packet), packet);
 }
 
+// Adds the energy of a step of duration dt: P_hotel dt and P_shaft / efficiency dt, and that of the packets
+// that are due.
 void Battery::spend(SimTime end, double seconds, double shaft_w) {
   const auto is_later = [&](const Packet& packet) { return packet.at + kEnergyLag > end; };
   const auto later = std::find_if(waiting_.begin(), waiting_.end(), is_later);

@@ -14,6 +14,7 @@ namespace {
 using std::numbers::pi;
 constexpr int kFirstRangeDraw = 4;  // draws 0 to 3 are for the beams' speeds, 4 to 7 for their ranges
 
+// Unit vectors at `angle` from the down axis, at azimuths of 45, 135, 225 and 315 degrees from `yaw`.
 std::array<Vec3, 4> beams_at(double angle, double yaw) {
   std::array<Vec3, 4> beams;
   for (std::size_t k = 0; k < beams.size(); ++k) {
@@ -87,6 +88,9 @@ std::vector<EchoBeam> sonar_beams(const SonarSettings& sonar, const VehicleState
   return beams;
 }
 
+// Speed along each beam, by the velocity v of CO, the angular rate omega and the instrument's position r:
+//
+//   s_k = (1 + scale) b_k . (v + omega x r) + bias + walk + noise
 DvlReading read_dvl(const DvlSettings& dvl, const SensorIdentity& sensor, std::int64_t sample,
                     const VehicleState& state, std::span<const Echo> echoes, double bias_walk_mps) {
   DvlReading reading;

@@ -49,6 +49,7 @@ dBodyID make_body(dWorldID world, const Model& model, const VehicleState& state)
   return body;
 }
 
+// F = M_ode (v - v_0) / h and T = I_ode (omega - omega_0) / h, in the world frame.
 void push_to_velocity(dBodyID body, const Model& model, const VehicleState& now, const VehicleState& next,
                       const Quaternion& orientation, double scale, double step_s) {
   const ModelParameters& p = model.parameters();

@@ -21,11 +21,13 @@ struct Places {
   double first, second;
 };
 
+// Centre of the sphere at s = `along`: p + s c axis, with c = sqrt(a^2 - b^2) the focal distance.
 Vec3 center_at(const HullPose& h, double along) {
   const double a = h.hull.length_m / 2, b = h.hull.diameter_m / 2;
   return h.position_ned_m + along * std::sqrt(a * a - b * b) * h.axis_ned;
 }
 
+// Radius of the sphere at s = `along`: b sqrt(1 - s^2).
 double radius_at(const HullPose& h, double along) {
   return h.hull.diameter_m / 2 * std::sqrt(std::max(0.0, 1 - along * along));
 }

@@ -307,6 +307,9 @@ void VehicleWorld::take_scale_of(Vehicle& v, const Link& link) {
   v.mass_scale = scale_of_mass_at(*v.model, v.reached, link.point, link.normal);
 }
 
+// Joins the bodies of a link by a contact that limits their approach. With the gap g at the end of the step
+// when the bodies move at their free velocities and u their free speed of separation along the normal, the
+// speed must be at least u - g / h, so that the gap does not become negative.
 void VehicleWorld::attach_link(Link& link, double step_s) {
   const auto free_velocity = [&](std::size_t index) {
     const Vehicle& v = vehicles_[index];

@@ -40,6 +40,7 @@ void AttitudeKeeper::add(const AttitudeReading& reading) {
   last_s_ = reading.time_s;
 }
 
+// Integrates the mean of the latest two rates over the interval: q <- q exp(dt omega / 2).
 void AttitudeKeeper::carry_on(const AttitudeReading& reading) {
   const double dt_s = reading.time_s - *last_s_;
   if (!reading.rates_radps && (!rates_s_ || reading.time_s - *rates_s_ > kRatesHold_s)) {

@@ -58,6 +58,7 @@ std::optional<Navigator::Past> Navigator::at(double time_s) const {
               before.position_ned_m + share * (after->position_ned_m - before.position_ned_m)};
 }
 
+// A fix of the past is moved to the present by the path since then, as estimated by dead reckoning.
 void Navigator::fix(double north_m, double east_m, double deviation_m, double time_s) {
   const auto then = at(time_s);
   if (!then) return;
@@ -65,6 +66,9 @@ void Navigator::fix(double north_m, double east_m, double deviation_m, double ti
   fix(north_m + way.x(), east_m + way.y(), deviation_m);
 }
 
+// Kalman update with one variance P for both axes and the variance R of the fix:
+//
+//   gain = P / (P + R),  p <- p + gain (fix - p),  P <- P (1 - gain)
 void Navigator::fix(double north_m, double east_m, double deviation_m) {
   require(deviation_m > 0, "the deviation of a fix is above 0");
   const double p = deviation_m_ * deviation_m_, r = deviation_m * deviation_m;
