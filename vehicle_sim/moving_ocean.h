@@ -10,8 +10,9 @@
 
 namespace halocline::vehicle_sim {
 
-// Returns the field; null when the scenario has no file, its file has no currents, or the scenario has them
-// not move vehicles. Throws InvalidArgument when the file cannot be read (ocean/ocean_field_reader.h).
+// Returns the field; null when the scenario has no file, its file has no currents, or the currents do not
+// move vehicles in this scenario. Throws InvalidArgument when the file cannot be read
+// (ocean/ocean_field_reader.h).
 std::shared_ptr<const ocean::OceanField> moving_ocean(const bus::Scenario& scenario);
 
 }  // namespace halocline::vehicle_sim

@@ -79,7 +79,7 @@ class SensorStation {
 
   const SensorSettings& settings(std::size_t vehicle) const { return vehicles_[vehicle].settings; }
 
-  // Compute readings from a tick's record and its echoes.
+  // Returns the readings computed from a tick's record and its echoes.
   SensorReading finish(const SensorTick& tick, const SensorJob& job, const SensorReading& noted);
   DvlReading finish(const SensorTick& tick, const SensorJob& job, const DvlPing& ping);
   std::vector<Echo> finish(const SensorTick& tick, const SensorJob& job, const SonarPing& ping) const;

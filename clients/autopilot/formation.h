@@ -78,7 +78,7 @@ class Follower {
       : formation_(std::move(formation)), radius_m_(safe_radius_m) {}
 
   const Formation& formation() const { return formation_; }
-  // Takes in a report; one that is not newer than the latest is ignored.
+  // Adds a report; one that is not newer than the latest is ignored.
   void on_report(const LeaderReport& report);
 
   // Returns the set points at `time_s`; their speed is over ground. Calls must come in order of time.

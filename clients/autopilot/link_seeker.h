@@ -2,10 +2,10 @@
 // Choice of the place where a vehicle is best heard by others.
 //
 // Rule: the vehicle goes to the place with the greatest mean delivery probability, and among equals to the
-// one with the greatest mean SINR, each time that the channel server has been asked. It stays
-// where it is when the move would gain less than `least_gain` of mean delivery, so that it does not oscillate
-// between places that are alike. When its present place delivers nothing at all, any gain counts. Before the
-// first answer the chosen place is the first. Pure.
+// one with the greatest mean SINR, each time that the channel server has been asked. It stays where it is
+// when the move would gain less than `least_gain` of mean delivery, so that it does not oscillate between
+// places that are alike. When its present place delivers nothing at all, any gain counts. Before the first
+// answer the chosen place is the first. Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ class LinkSeeker {
   const LinkSearch& search() const { return search_; }
   const Vec3& chosen() const { return places_[chosen_]; }
 
-  // Takes in the mean delivery probability of each place and the index of the best place. An index or a
+  // Chooses by the mean delivery probability of each place and the index of the best place. An index or a
   // number of places that does not fit changes nothing.
   void take(const std::vector<double>& mean_delivery, int best);
 

@@ -63,7 +63,7 @@ class VehiclePilot {
 
   void look_at_ground(const AltimeterLook& look) { seabed_.add(look); }
 
-  // Takes in a report received from the vehicle `leader`.
+  // Adds a report received from the vehicle `leader`.
   void on_leader_report(const std::string& leader, const LeaderReport& report);
 
   // Returns the set points in this situation. Situations must come in order of time.

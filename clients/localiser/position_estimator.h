@@ -108,9 +108,9 @@ class PositionEstimator {
   // Throws InvalidArgument when a rule or the start's deviation is out of its range.
   explicit PositionEstimator(EstimatorRules rules, std::optional<StatedStart> start = {});
 
-  // Takes in the vehicle's own motion. Measurements must come in order of time.
+  // Adds a measurement of the vehicle's own motion. Measurements must come in order of time.
   void move(const OwnMotion& motion);
-  // Takes in a range; ranges may come in any order, within the history of dead reckoning.
+  // Adds a range; ranges may come in any order, within the history of dead reckoning.
   [[nodiscard]] RangeVerdict take(const RangeMeasurement& range);
   // Sets the clock's offset to 0, with the deviation clock_gps_sigma_s: GPS has just set the vehicle's clock.
   void set_clock();

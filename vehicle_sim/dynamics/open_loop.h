@@ -39,7 +39,8 @@ struct OpenLoopSample {
   ActuatorValues command;        // command that holds from this instant on, before limits
 };
 
-// The state is no longer finite: the step is too long for the model, or a coefficient is impossible.
+// Thrown when the state is no longer finite: the step is too long for the model, or a coefficient is
+// impossible.
 class Diverged : public std::runtime_error {
  public:
   explicit Diverged(SimTime at);

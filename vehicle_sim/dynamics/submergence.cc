@@ -25,6 +25,8 @@ constexpr double kCircle[kColumns][2] = {{1, 0},  {kHalf, kHalf},   {0, 1},  {-k
 constexpr double kRamp = 0.02;  // fraction of the height: a bottom that is this deep is wet
 // Cosine of the tilt, about 87 degrees, beyond which the hull lies on its side.
 constexpr double kMinUpright = 0.05;
+
+// Returns the wet length of a column from its bottom up, 0 to its height. The depth below the surface of a
 // point r of the body frame is
 //
 //   f(r) = (down - slope) . r - surface_below_co

@@ -141,7 +141,7 @@ void VehicleWorld::look_for_ground(Vehicle& v, double step_s) {
                 kContactMargin, v.ground);
 }
 
-// Only vehicles with a contact are enabled; the others keep their free motion.
+// Steps ODE with the bodies that have a contact; the others keep their free motion.
 void VehicleWorld::solve_contacts(double step_s) {
   prepare_ode_in_this_thread();
   for (Vehicle& v : vehicles_) {

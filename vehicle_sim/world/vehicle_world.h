@@ -100,8 +100,8 @@ class VehicleWorld {
   // the caller sets again.
   void archive(Archive& a);
 
-  // Adds a tether between existing vehicles and returns its index. It may be longer than its length at first:
-  // its ends then approach at up to 0.2 m/s.
+  // Adds a tether between existing vehicles and returns its index. Its ends may be farther
+  // apart than its length at first; they then approach at up to 0.2 m/s.
   std::size_t add(const Tether& tether);
 
   // Distance of a tether's ends, m, and its pull in the last step, N, 0 or above.

@@ -33,7 +33,7 @@ class AttitudeKeeper {
   // `gyro_bias_radps`: largest bias of the gyro, 0 or above.
   explicit AttitudeKeeper(double gyro_bias_radps);
 
-  // Takes in a reading. Readings must come in order of time; one that is not later than the last is ignored.
+  // Adds a reading. Readings must come in order of time; one that is not later than the last is ignored.
   void add(const AttitudeReading& reading);
 
   // Level and pointing north before the first reading of the compass.

@@ -57,9 +57,9 @@ class Navigator {
   // `start_ned_m`: starting position of the vehicle.
   Navigator(const Vec3& start_ned_m, NavigatorRules rules);
 
-  // Takes in a sample. Samples must come in order of time; one that is not later than the last is ignored.
+  // Adds a sample. Samples must come in order of time; one that is not later than the last is ignored.
   void add(const NavigationSample& sample);
-  // Takes in a position measured at the latest sample, or at `time_s`. `deviation_m`: standard deviation of
+  // Adds a position measured at the latest sample, or at `time_s`. `deviation_m`: standard deviation of
   // each axis, above 0. A fix from before the history is ignored.
   void fix(double north_m, double east_m, double deviation_m);
   void fix(double north_m, double east_m, double deviation_m, double time_s);
