@@ -170,12 +170,6 @@ class Terrain {
   RayHit follow_beyond(const Departure& departure) const;
   RayHit finish(const Departure& departure, const TraceResult& result, const Patch& owner) const;
 
-  // Filled depths for held_depth_at(), computed at the first use.
-  struct Gaps {
-    std::once_flag once;
-    std::optional<NearestDepths> filled;
-  };
-
   std::vector<Patch> patches_;
   std::optional<EndlessBottom> beyond_;
   std::optional<NearestDepths> filled_;  // of a base grid with gaps

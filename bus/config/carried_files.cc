@@ -142,7 +142,8 @@ std::string joined(const toml::array& lines, std::string_view between) {
   return text;
 }
 
-// Unpacks one table [[file]].
+}  // namespace
+
 void unpack(const toml::table& table, UnpackedFiles& files) {
   const std::string name = text_in(table, "name"), xxh3_text = text_in(table, "xxh3");
   if (const toml::array* lines = table["lines"].as_array()) {

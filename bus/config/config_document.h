@@ -65,6 +65,9 @@ struct ConfigDocument {
 std::string to_text(const ConfigDocument& document, const std::vector<std::string>& left_out,
                     CarriedFiles& files);
 
+// Adds the content of one table [[file]]. Throws InvalidArgument for an invalid one.
+void unpack(const toml::table& table, UnpackedFiles& files);
+
 // Returns a number and a text in TOML notation.
 std::string exact(double value);
 std::string toml_quoted(const std::string& value);

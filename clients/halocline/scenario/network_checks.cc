@@ -63,6 +63,13 @@ class NetworkChecks {
            rules_.slot.seconds() < packet_s ? "a packet of data" : "a packet and the greatest travel time");
   }
 
+  // True when packets of `one` go to `other` directly.
+  bool sends_to(const networks::NetworkMember& one, const networks::NetworkMember& other) const {
+    const std::string& hop = one.via.empty() ? one.destination : one.via;
+    if (hop == "all" || rules_.router == networks::RouterKind::kFlooding) return !hop.empty();
+    return hop == other.vehicle;
+  }
+
   // Returns the size of a data packet as the MAC sends it, with all headers.
   std::size_t data_bytes() const {
     const bool is_marked =
