@@ -67,8 +67,8 @@ Vec3 DepthSample::normal_ned() const { return upward_normal(slope_north, slope_e
 
 Terrain::Terrain(HeightGrid base, std::vector<NestedGrid> nested, const BottomFormula& beyond) {
   if (beyond) beyond_.emplace(base.geometry(), beyond);
-  if (std::any_of(base.posts().begin(), base.posts().end(), [](float z_m) { return std::isnan(z_m); }))
-    filled_.emplace(base);
+  const auto is_gap = [](float z_m) { return std::isnan(z_m); };
+  if (std::any_of(base.posts().begin(), base.posts().end(), is_gap)) filled_.emplace(base);
   patches_.reserve(nested.size() + 1);
   ShallowestPyramid pyramid(base);
   patches_.push_back({.grid = std::move(base), .pyramid = std::move(pyramid)});
@@ -141,6 +141,8 @@ std::optional<HeldDepth> Terrain::held_depth_at(double x_m, double y_m) const {
                y_inside_m = std::clamp(y_m, base.first_y_m, base.last_y_m());
   const DepthSample edge = depth_at(x_inside_m, y_inside_m);
   if (edge.status == DepthStatus::kOk) return HeldDepth{edge.z_m, true};
+  const DepthSample below_nested = sample(patches_.front(), x_inside_m, y_inside_m);
+  if (below_nested.status == DepthStatus::kOk) return HeldDepth{below_nested.z_m, true};
   return HeldDepth{filled_->at(x_inside_m, y_inside_m), true};
 }
 

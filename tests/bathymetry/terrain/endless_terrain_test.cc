@@ -113,5 +113,16 @@ TEST(HeldDepth, IsThatOfTheEdgeBeyondAndThatOfTheNearestPostInAGap) {
   EXPECT_EQ(with_gap.held_depth_at(500, 500)->z_m, 4) << "beyond a corner without data";
 }
 
+TEST(HeldDepth, IsThatOfTheBaseWhereANestedGridHasAHole) {
+  HeightGrid fine =
+      make_grid({.first_x_m = -50, .first_y_m = -50, .spacing_m = 5, .posts_x = 21, .posts_y = 21},
+                FlatShape{.depth_m = 60});
+  fine.posts_for_editing()[fine.index(10, 10)] = kNoData;
+  const Terrain terrain(make_grid(kGrid, FlatShape{.depth_m = 50}), {{.grid = std::move(fine)}});
+  EXPECT_EQ(terrain.depth_at(1, 1).status, DepthStatus::kNoData);
+  EXPECT_EQ(terrain.held_depth_at(1, 1)->z_m, 50);
+  EXPECT_TRUE(terrain.held_depth_at(1, 1)->is_held);
+}
+
 }  // namespace
 }  // namespace halocline::bathymetry
