@@ -12,7 +12,7 @@
 #include "bathymetry/ray_service.h"
 #include "bathymetry/terrain/terrain.h"
 #include "bathymetry/tile_service.h"
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "core/frames.h"
 
 namespace halocline::bathymetry {

@@ -18,9 +18,9 @@
 #include "bathymetry/terrain/terrain.h"
 #include "bathymetry/tile_service.h"
 #include "bus/bus.h"
-#include "bus/node_identity.h"
 #include "bus/numbered_publisher.h"
 #include "bus/runtime/node.h"
+#include "bus/transport/node_identity.h"
 #include "core/sim_time.h"
 
 namespace halocline::bathymetry {

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "bus/channel_pattern.h"
+#include "bus/messages/channel_pattern.h"
 #include "core/check.h"
 #include "core/hash.h"
 #include "core/names.h"

@@ -20,7 +20,7 @@
 #include "acoustics/sea/noise.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/config/config.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "channel_server/links/echo_plan.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/ray_query_client.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "acoustics/modem/modem.h"
-#include "bus/channels.h"
+#include "bus/messages/channels.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/packets/medium_event.h"

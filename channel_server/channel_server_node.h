@@ -16,13 +16,13 @@
 #include <string>
 #include <vector>
 
-#include "bus/messages.h"
-#include "bus/node_identity.h"
+#include "bus/config/scenario.h"
+#include "bus/messages/messages.h"
 #include "bus/numbered_publisher.h"
-#include "bus/runtime/crash_journal.h"
+#include "bus/recovery/crash_journal.h"
 #include "bus/runtime/node.h"
-#include "bus/runtime/scenario.h"
 #include "bus/runtime/thread_pool.h"
+#include "bus/transport/node_identity.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/inbox.h"
 #include "channel_server/input_processor.h"

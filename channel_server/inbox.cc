@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "bus/channels.h"
-#include "bus/subscription.h"
+#include "bus/messages/channels.h"
+#include "bus/transport/subscription.h"
 #include "channel_server/links/best_place_service.h"
 #include "channel_server/links/link_query_service.h"
 #include "channel_server/vehicles/vehicle_noise.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <tuple>
 
-#include "bus/channels.h"
+#include "bus/messages/channels.h"
 #include "channel_server/packet_messages.h"
 #include "channel_server/vehicles/state_history.h"
 #include "channel_server/vehicles/vehicle_equipment.h"

@@ -8,7 +8,7 @@
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/sound_speed_profile.h"
-#include "bus/message_checks.h"
+#include "bus/messages/message_checks.h"
 #include "channel_server/propagation/link_tracks.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "channel_server/links/best_place_service.h"
 #include "channel_server/links/link_query_service.h"
 #include "channel_server/links/link_table.h"

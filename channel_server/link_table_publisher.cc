@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "acoustics/modem/modem.h"
-#include "bus/channels.h"
+#include "bus/messages/channels.h"
 #include "channel_server/link_messages.h"
 
 namespace halocline::channel_server {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "bus/event_log.h"
 #include "bus/numbered_publisher.h"
+#include "bus/transport/event_log.h"
 #include "channel_server/links/kept_rows.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"

@@ -2,9 +2,9 @@
 #include <string>
 
 #include "bus/config/config.h"
+#include "bus/config/scenario.h"
 #include "bus/runtime/node_command_line.h"
 #include "bus/runtime/node_process.h"
-#include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/channel_server_node.h"
 #include "core/check.h"

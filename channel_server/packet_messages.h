@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "core/sim_time.h"
@@ -25,7 +25,7 @@ modem_energy_t to_message(const EnergyUse& use, SimTime at);
 modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at);
 
 // Return what distinguishes an output from all others on its channel, whichever incarnation of the server
-// computes it (bus/runtime/crash_journal.h).
+// computes it (bus/recovery/crash_journal.h).
 std::string identity_of(const modem_receipt_t& message);
 std::string identity_of(const modem_receive_t& message);
 std::string identity_of(const packet_outcome_t& message);

@@ -4,7 +4,7 @@
 #include <string>
 #include <variant>
 
-#include "bus/channels.h"
+#include "bus/messages/channels.h"
 #include "channel_server/packet_messages.h"
 
 namespace halocline::channel_server {

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "bus/bus.h"
-#include "bus/runtime/crash_journal.h"
+#include "bus/recovery/crash_journal.h"
 #include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "core/sim_time.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bus/config/config.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "channel_server/propagation/measured_propagation.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/files/file_path.h"

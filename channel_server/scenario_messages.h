@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "bus/messages.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
+#include "bus/messages/messages.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 
 namespace halocline::channel_server {

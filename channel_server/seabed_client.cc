@@ -4,7 +4,7 @@
 #include <utility>
 #include <variant>
 
-#include "bus/channels.h"
+#include "bus/messages/channels.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/links/echo_survey.h"
 #include "channel_server/propagation/seabed_map.h"

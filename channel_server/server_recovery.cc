@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "bus/channels.h"
+#include "bus/messages/channels.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The recovery of a channel server that was killed: the steps that are redone, and the waits on the way.
 //
-// The journal holds the inputs and outputs of the last minute (bus/runtime/crash_journal.h). The steps of
+// The journal holds the inputs and outputs of the last minute (bus/recovery/crash_journal.h). The steps of
 // that time are redone from their inputs. Decisions depend on contents and instants alone, so they are the
 // same. The last step is the present one: it takes the messages that were published while the server was
 // down, once they have been repaired. Two things take wall time: this repair, and the seabed under the links,
@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "bus/runtime/crash_journal.h"
+#include "bus/recovery/crash_journal.h"
 #include "bus/runtime/node.h"
 #include "channel_server/inbox.h"
 #include "core/sim_time.h"

@@ -19,7 +19,7 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/config/carried_files.h"
 #include "bus/config/config.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"

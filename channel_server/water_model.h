@@ -7,7 +7,7 @@
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/sea/environment.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/measured_propagation.h"

@@ -7,7 +7,7 @@
 
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"

@@ -28,7 +28,7 @@ set_target_properties(PkgConfig::RE2 PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 include(cmake/lcm.cmake)
 find_program(LCM_GEN lcm-gen REQUIRED)
 
-# The Python package (clients/python) is for Debian's interpreter, whichever the build itself uses.
+# The Python package (python) is for Debian's interpreter, whichever the build itself uses.
 set(HALOCLINE_PYTHON /usr/bin/python3 CACHE FILEPATH "Interpreter that the Python package is built for")
 set(Python_EXECUTABLE ${HALOCLINE_PYTHON})
 find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module NumPy)

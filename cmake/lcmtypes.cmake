@@ -16,7 +16,7 @@ function(halocline_generate_cpp out_headers)
     list(APPEND headers ${header})
   endforeach()
   set(made channel_table channels message_fields messages)
-  list(TRANSFORM made PREPEND ${CMAKE_BINARY_DIR}/generated/bus/)
+  list(TRANSFORM made PREPEND ${CMAKE_BINARY_DIR}/generated/bus/messages/)
   list(TRANSFORM made APPEND .h)
   set(generate ${CMAKE_SOURCE_DIR}/lcmtypes/generate.py)
   add_custom_command(

@@ -10,7 +10,7 @@
 #include <unordered_map>
 
 #include "bus/bus.h"
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 
 namespace halocline::conductor {
 

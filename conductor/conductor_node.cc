@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "bus/subscription.h"
+#include "bus/transport/subscription.h"
 #include "core/check.h"
 
 namespace halocline::conductor {

@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
-#include "bus/node_identity.h"
 #include "bus/runtime/node.h"
+#include "bus/transport/node_identity.h"
 #include "core/sim_time.h"
 
 namespace halocline::conductor {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "bus/logs/log_recorder.h"
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "core/sim_time.h"
 
 namespace halocline::conductor {

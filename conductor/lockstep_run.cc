@@ -7,16 +7,16 @@
 #include <optional>
 #include <utility>
 
-#include "bus/channels.h"
-#include "bus/event_log.h"
 #include "bus/lockstep/journal.h"
 #include "bus/lockstep/lockstep_conductor.h"
 #include "bus/lockstep/sequencer.h"
+#include "bus/messages/channels.h"
 #include "bus/runtime/lockstep_process.h"
 #include "bus/runtime/lockstep_turns.h"
 #include "bus/runtime/node_process.h"
-#include "bus/runtime/receive_filter.h"
-#include "bus/transport.h"
+#include "bus/transport/event_log.h"
+#include "bus/transport/receive_filter.h"
+#include "bus/transport/transport.h"
 #include "conductor/bus_bridge.h"
 #include "conductor/conductor_node.h"
 #include "conductor/lockstep_log.h"

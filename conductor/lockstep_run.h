@@ -8,8 +8,8 @@
 #include <string>
 
 #include "bus/bus.h"
-#include "bus/node_identity.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
+#include "bus/transport/node_identity.h"
 #include "core/sim_time.h"
 
 namespace halocline::conductor {

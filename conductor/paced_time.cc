@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "bus/node_identity.h"
-#include "bus/transport.h"
+#include "bus/transport/node_identity.h"
+#include "bus/transport/transport.h"
 #include "core/check.h"
 
 namespace halocline::conductor {

@@ -13,7 +13,7 @@
 
 #include "bus/bus.h"
 #include "bus/runtime/time_source.h"
-#include "bus/subscription.h"
+#include "bus/transport/subscription.h"
 #include "core/sim_time.h"
 
 namespace halocline::conductor {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Archive: converts values to bytes and back, for the state that a node keeps on disk
-// (bus/runtime/state_journal.h).
+// (bus/recovery/state_journal.h).
 //
 // A type states its members once, for both directions:
 //

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes everything that repeats the description of a message, from lcmtypes/*.lcm and lcmtypes/channels.toml.
 
-The comment behind a field may limit its values; what decodes is checked against it (bus/message_checks.h):
+The comment behind a field may limit its values; what decodes is checked against it (bus/messages/message_checks.h):
 
   double depth_m;       // below the surface, metres, 0..12000     inclusive; pi, 2pi and pi/2 are numbers; 1.. is open
   double layer_m[n];    // ascending                               each element above the one before
@@ -152,7 +152,7 @@ def fields_header(messages):
         body += "".join(f"  visit(MessageField{cpp_field(message, field)}, m.{field.name});\n" for field in message.fields)
         body += "}\n"
     return header("visit_fields(visitor, message) calls visitor(MessageField, value) for each field, in order.",
-                  ["<array>", '"bus/message_field.h"', '"bus/messages.h"'], body + "\n}  // namespace halocline\n")
+                  ["<array>", '"bus/messages/message_field.h"', '"bus/messages/messages.h"'], body + "\n}  // namespace halocline\n")
 
 
 def is_family(channel):
@@ -169,14 +169,14 @@ def channels_header(channels):
         value = f'Family {constant_of(channel)}{{"{channel.partition(".")[0]}."}}' if is_family(channel) else (
             f'std::string_view {constant_of(channel)} = "{channel}"')
         body += f"// From {row['from']}: {row['meaning']}.\ninline constexpr {value};\n"
-    return header("The names of all channels, from lcmtypes/channels.toml.", ["<string_view>", '"bus/channel_family.h"'],
+    return header("The names of all channels, from lcmtypes/channels.toml.", ["<string_view>", '"bus/messages/channel_family.h"'],
                   body + "}  // namespace halocline::bus::channels\n")
 
 
 def table_header(channels):
     calls = " ||\n         ".join(f"visit.template operator()<{row['type']}>(channels::{constant_of(channel)})"
                                   for channel, row in channels.items() if row["type"] != "any" and "plane" not in row)
-    return header("Which type travels on which channel.", ['"bus/channels.h"', '"bus/messages.h"'],
+    return header("Which type travels on which channel.", ['"bus/messages/channels.h"', '"bus/messages/messages.h"'],
                   "namespace halocline::bus {\n\n// Calls visit.operator()<Message>(channel or family) for each channel until one "
                   "returns true.\ntemplate <class Visitor>\nbool any_channel(Visitor&& visit) {\n  return " + calls
                   + ";\n}\n\n}  // namespace halocline::bus\n")
@@ -246,7 +246,7 @@ def main():
         made = {"messages": messages_header(messages), "message_fields": fields_header(messages),
                 "channels": channels_header(channels), "channel_table": table_header(channels)}
         for name, text in made.items():
-            write(arguments.cpp / "bus" / f"{name}.h", text)
+            write(arguments.cpp / "bus/messages" / f"{name}.h", text)
     if arguments.doc and not arguments.check:
         write(arguments.doc, page(messages, channels))
     if arguments.doc and arguments.check and arguments.doc.read_text() != page(messages, channels):

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "ocean/ocean_field.h"
 
 namespace halocline::vehicle_sim {

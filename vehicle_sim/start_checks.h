@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bus/config/config.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "vehicle_sim/world/seabed.h"
 
 namespace halocline::vehicle_sim {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "vehicle_sim/vehicle_sim_config.h"
 
 namespace halocline::vehicle_sim {

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "bus/config/config.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 #include "vehicle_sim/dynamics/currents.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 #include "vehicle_sim/dynamics/command_schedule.h"

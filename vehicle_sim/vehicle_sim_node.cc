@@ -6,7 +6,7 @@
 #include <functional>
 #include <variant>
 
-#include "bus/subscription.h"
+#include "bus/transport/subscription.h"
 #include "core/check.h"
 #include "core/frames.h"
 #include "vehicle_sim/dynamics/command_schedule.h"

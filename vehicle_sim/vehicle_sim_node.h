@@ -29,11 +29,11 @@
 #include <string>
 #include <vector>
 
-#include "bus/node_identity.h"
+#include "bus/config/scenario.h"
 #include "bus/numbered_publisher.h"
 #include "bus/runtime/node.h"
-#include "bus/runtime/scenario.h"
 #include "bus/runtime/thread_pool.h"
+#include "bus/transport/node_identity.h"
 #include "core/archive.h"
 #include "core/sim_time.h"
 #include "vehicle_sim/faults.h"

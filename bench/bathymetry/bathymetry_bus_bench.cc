@@ -21,10 +21,10 @@
 
 #include "bathymetry/bathymetry_node.h"
 #include "bathymetry/ray_service.h"
-#include "bus/channels.h"
+#include "bus/messages/channels.h"
 #include "bus/runtime/node_process.h"
 #include "bus/runtime/time_source.h"
-#include "bus/transport.h"
+#include "bus/transport/transport.h"
 #include "core/random.h"
 #include "core/sim_time.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"

@@ -12,7 +12,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bus/bus.h"
-#include "bus/transport.h"
+#include "bus/transport/transport.h"
 
 namespace halocline::bus {
 namespace {

@@ -11,7 +11,7 @@
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/modem/packet_format.h"
-#include "acoustics/reception/link_prediction.h"
+#include "acoustics/prediction/link_prediction.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
 #include "channel_server/modems/modem_config.h"

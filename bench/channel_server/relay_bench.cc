@@ -20,9 +20,9 @@
 #include <unistd.h>
 
 #include "bus/runtime/node_process.h"
-#include "bus/transport.h"
-#include "clients/halocline/sweep/child_program.h"
+#include "bus/transport/transport.h"
 #include "core/sim_time.h"
+#include "halocline/sweep/child_program.h"
 
 namespace halocline {
 namespace {

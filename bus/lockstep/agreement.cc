@@ -5,8 +5,8 @@
 #include <map>
 #include <sstream>
 
-#include "bus/channel_table.h"
 #include "bus/lockstep/arithmetic_digest.h"
+#include "bus/messages/channel_table.h"
 #include "bus/version.h"
 #include "core/random.h"
 

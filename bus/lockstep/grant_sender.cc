@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "bus/channels.h"
+#include "bus/messages/channels.h"
 namespace halocline::conductor {
 namespace {
 

@@ -2,7 +2,7 @@
 // Write-ahead journal of the conductor: the inputs of its sequencer in order, from which a new incarnation
 // continues the run.
 //
-// The file consists of records (bus/files/journal_file.h) that hold LCM-encoded messages. Each entry is
+// The file consists of records (bus/recovery/journal_file.h) that hold LCM-encoded messages. Each entry is
 // handed to the kernel before anything that depends on it is sent, so a killed process loses nothing that
 // anybody acted upon; a machine that loses power may (no fsync). An entry that a kill cut off is removed.
 #pragma once
@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "bus/files/journal_file.h"
 #include "bus/lockstep/lockstep_wire.h"
+#include "bus/recovery/journal_file.h"
 
 namespace halocline::conductor {
 

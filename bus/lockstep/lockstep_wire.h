@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/message_codec.h"
+#include "bus/messages/message_codec.h"
 
 namespace halocline::bus {
 

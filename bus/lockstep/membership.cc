@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "bus/channel_pattern.h"
 #include "bus/lockstep/agreement.h"
-#include "bus/node_identity.h"
+#include "bus/messages/channel_pattern.h"
+#include "bus/transport/node_identity.h"
 #include "core/check.h"
 
 namespace halocline::conductor {

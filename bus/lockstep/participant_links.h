@@ -10,7 +10,7 @@
 
 #include "bus/lockstep/lockstep_wire.h"
 #include "bus/lockstep/retransmission_timer.h"
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "core/sim_time.h"
 
 namespace halocline::conductor {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "bus/node_identity.h"
+#include "bus/transport/node_identity.h"
 #include "core/check.h"
 
 namespace halocline::conductor {

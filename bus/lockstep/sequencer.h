@@ -32,9 +32,9 @@
 #include <utility>
 #include <vector>
 
-#include "bus/channel_pattern.h"
 #include "bus/lockstep/lockstep_schedule.h"
-#include "bus/messages.h"
+#include "bus/messages/channel_pattern.h"
+#include "bus/messages/messages.h"
 #include "core/sim_time.h"
 
 namespace halocline::conductor {

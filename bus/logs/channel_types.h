@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "bus/channel_table.h"
-#include "bus/message_codec.h"
+#include "bus/messages/channel_table.h"
+#include "bus/messages/message_codec.h"
 #include "core/names.h"
 
 namespace halocline::clients {

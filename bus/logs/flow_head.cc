@@ -2,7 +2,7 @@
 #include "bus/logs/flow_head.h"
 
 #include "bus/logs/channel_types.h"
-#include "bus/message_codec.h"
+#include "bus/messages/message_codec.h"
 
 namespace halocline::bus {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "bus/sequence_number.h"
+#include "bus/messages/sequence_number.h"
 
 namespace halocline::bus {
 

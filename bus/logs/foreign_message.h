@@ -8,7 +8,7 @@
 #include <string>
 #include <type_traits>
 
-#include "bus/message_codec.h"
+#include "bus/messages/message_codec.h"
 
 namespace halocline::clients {
 

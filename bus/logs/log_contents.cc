@@ -10,8 +10,8 @@
 
 #include "bus/logs/channel_types.h"
 #include "bus/logs/foreign_message.h"
-#include "bus/message_codec.h"
-#include "bus/sequence_number.h"
+#include "bus/messages/message_codec.h"
+#include "bus/messages/sequence_number.h"
 #include "core/names.h"
 
 namespace halocline::clients {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <ostream>
 
-#include "bus/channels.h"
-#include "bus/flow_watch.h"
-#include "bus/sequence_number.h"
-#include "bus/session_watch.h"
+#include "bus/messages/channels.h"
+#include "bus/messages/sequence_number.h"
+#include "bus/repair/flow_watch.h"
+#include "bus/repair/session_watch.h"
 
 namespace halocline::clients {
 namespace {

@@ -19,7 +19,7 @@
 #include <thread>
 
 #include "bus/logs/log_parts.h"
-#include "bus/message_batch.h"
+#include "bus/messages/message_batch.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {

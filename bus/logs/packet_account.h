@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 
 namespace halocline::clients {
 

@@ -8,15 +8,15 @@
 
 #include <unistd.h>
 
-#include "bus/channels.h"
 #include "bus/config/config.h"
-#include "bus/event_log.h"
 #include "bus/lockstep/agreement.h"
 #include "bus/lockstep/lockstep_participant.h"
+#include "bus/messages/channels.h"
 #include "bus/runtime/lockstep_turns.h"
 #include "bus/runtime/node_process.h"
-#include "bus/runtime/receive_filter.h"
-#include "bus/transport.h"
+#include "bus/transport/event_log.h"
+#include "bus/transport/receive_filter.h"
+#include "bus/transport/transport.h"
 #include "core/hash.h"
 #include "core/sim_time.h"
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
+#include "bus/config/scenario.h"
 #include "bus/runtime/node.h"
-#include "bus/runtime/scenario.h"
 
 namespace halocline::bus {
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "bus/lockstep/lockstep_schedule.h"
-#include "bus/message_batch.h"
+#include "bus/messages/message_batch.h"
 #include "bus/runtime/node.h"
 #include "core/for_each.h"
 #include "core/sim_time.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "bus/lockstep/lockstep_wire.h"
-#include "bus/subscription.h"
+#include "bus/transport/subscription.h"
 
 namespace halocline::bus {
 namespace {

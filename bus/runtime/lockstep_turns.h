@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "bus/channel_pattern.h"
-#include "bus/messages.h"
+#include "bus/messages/channel_pattern.h"
+#include "bus/messages/messages.h"
 #include "bus/runtime/node.h"
 #include "core/sim_time.h"
 

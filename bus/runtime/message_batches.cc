@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/runtime/message_batches.h"
 
-#include "bus/runtime/crash_journal.h"
+#include "bus/recovery/crash_journal.h"
 
 namespace halocline::bus {
 

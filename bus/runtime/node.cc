@@ -6,9 +6,9 @@
 #include <tuple>
 #include <utility>
 
-#include "bus/flow_history.h"
-#include "bus/flow_repair.h"
-#include "bus/runtime/crash_journal.h"
+#include "bus/recovery/crash_journal.h"
+#include "bus/repair/flow_history.h"
+#include "bus/repair/flow_repair.h"
 #include "bus/version.h"
 #include "core/check.h"
 

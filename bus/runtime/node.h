@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "bus/bus.h"
-#include "bus/node_identity.h"
-#include "bus/runtime/state_journal.h"
-#include "bus/sending/lateness_watch.h"
-#include "bus/subscription.h"
+#include "bus/recovery/state_journal.h"
+#include "bus/transport/lateness_watch.h"
+#include "bus/transport/node_identity.h"
+#include "bus/transport/subscription.h"
 #include "core/archive.h"
 #include "core/sim_time.h"
 

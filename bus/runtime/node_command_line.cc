@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "bus/config/config.h"
-#include "bus/files/version_text.h"
-#include "bus/transport.h"
+#include "bus/runtime/version_text.h"
+#include "bus/transport/transport.h"
 #include "bus/version.h"
 #include "core/check.h"
 #include "core/hash.h"

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "bus/config/config.h"
-#include "bus/event_log.h"
-#include "bus/node_identity.h"
+#include "bus/config/scenario.h"
 #include "bus/runtime/node_process.h"
-#include "bus/runtime/scenario.h"
 #include "bus/runtime/time_source.h"
+#include "bus/transport/event_log.h"
+#include "bus/transport/node_identity.h"
 
 namespace halocline::bus {
 

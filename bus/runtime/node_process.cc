@@ -17,14 +17,14 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
-#include "bus/event_log.h"
-#include "bus/files/output_check.h"
+#include "bus/recovery/state_journal.h"
 #include "bus/runtime/lockstep_process.h"
 #include "bus/runtime/message_batches.h"
 #include "bus/runtime/node_command_line.h"
-#include "bus/runtime/state_journal.h"
+#include "bus/runtime/output_check.h"
 #include "bus/runtime/tile_groups.h"
-#include "bus/transport.h"
+#include "bus/transport/event_log.h"
+#include "bus/transport/transport.h"
 #include "core/check.h"
 
 namespace halocline::bus {

@@ -19,11 +19,11 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "bus/config/config.h"
-#include "bus/node_identity.h"
+#include "bus/config/scenario.h"
 #include "bus/runtime/node.h"
-#include "bus/runtime/receive_filter.h"
-#include "bus/runtime/scenario.h"
 #include "bus/runtime/time_source.h"
+#include "bus/transport/node_identity.h"
+#include "bus/transport/receive_filter.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {

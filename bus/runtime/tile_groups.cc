@@ -14,10 +14,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "bus/channel_pattern.h"
-#include "bus/channels.h"
-#include "bus/runtime/receive_filter.h"
-#include "bus/transport.h"
+#include "bus/messages/channel_pattern.h"
+#include "bus/messages/channels.h"
+#include "bus/transport/receive_filter.h"
+#include "bus/transport/transport.h"
 #include "core/check.h"
 #include "core/frames.h"
 

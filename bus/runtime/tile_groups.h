@@ -30,8 +30,8 @@
 
 #include <lcm/lcm-cpp.hpp>
 
-#include "bus/runtime/scenario.h"
-#include "bus/subscription.h"
+#include "bus/config/scenario.h"
+#include "bus/transport/subscription.h"
 
 namespace halocline::bus {
 

@@ -17,8 +17,8 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "bus/bus.h"
-#include "bus/event_log.h"
-#include "bus/subscription.h"
+#include "bus/transport/event_log.h"
+#include "bus/transport/subscription.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {

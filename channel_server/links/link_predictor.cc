@@ -9,8 +9,8 @@
 
 #include "acoustics/fading/fading_bounds.h"
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/prediction/link_prediction.h"
 #include "acoustics/reception/guard_window.h"
-#include "acoustics/reception/link_prediction.h"
 #include "acoustics/reception/signal_history.h"
 #include "core/elementary.h"
 

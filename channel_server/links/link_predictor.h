@@ -2,7 +2,7 @@
 // Forecasts for the rows of link tables: what a link delivers on average over its fading, in addition to its
 // budget.
 //
-// Predictions are those of acoustics/reception/link_prediction.h for packets of one payload, without other
+// Predictions are those of acoustics/prediction/link_prediction.h for packets of one payload, without other
 // packets. Links that the medium rejects before it examines a preamble deliver nothing here, too: those
 // between different waveform families, with a level below the cut-off and, without fading, with a Doppler
 // shift beyond the tolerance.
@@ -20,8 +20,8 @@
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/prediction/one_path_forecast.h"
 #include "acoustics/reception/reception_curves.h"
-#include "channel_server/links/one_path_forecast.h"
 #include "channel_server/propagation/propagation.h"
 #include "core/units.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "acoustics/rays/arrivals.h"
-#include "bus/message_checks.h"
+#include "bus/messages/message_checks.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "channel_server/propagation/path_search.h"
 
 namespace halocline::channel_server {

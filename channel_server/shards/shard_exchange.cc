@@ -7,7 +7,7 @@
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ray_water.h"
-#include "bus/channels.h"
+#include "bus/messages/channels.h"
 #include "channel_server/shards/path_messages.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/hash.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "bus/message_checks.h"
+#include "bus/messages/message_checks.h"
 #include "core/check.h"
 #include "core/names.h"
 

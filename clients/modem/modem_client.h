@@ -32,7 +32,7 @@
 #include <vector>
 
 #include "bus/bus.h"
-#include "bus/subscription.h"
+#include "bus/transport/subscription.h"
 #include "core/archive.h"
 #include "core/sim_time.h"
 
@@ -98,7 +98,8 @@ class ModemClient {
   // Most packets kept until they are taken, most receipts, and most packet identities to detect duplicates.
   static constexpr std::size_t kMaxWaiting = 1000, kMaxReceipts = 100, kMaxRemembered = 200;
 
-  // `wakeup`: the effect of the handlers of receipts and packets on the node's due time (bus/subscription.h).
+  // `wakeup`: the effect of the handlers of receipts and packets on the node's due time
+  // (bus/transport/subscription.h).
   ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy = {},
               bus::Wakeup wakeup = bus::Wakeup::kMayAdvanceDue);
   ModemClient(const ModemClient&) = delete;

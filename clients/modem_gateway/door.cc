@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "bus/channels.h"
-#include "bus/runtime/scenario.h"
-#include "bus/subscription.h"
+#include "bus/config/scenario.h"
+#include "bus/messages/channels.h"
+#include "bus/transport/subscription.h"
 #include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "clients/modem_gateway/protocols/sound_field.h"

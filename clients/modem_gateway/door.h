@@ -21,13 +21,13 @@
 
 #include "bus/bus.h"
 #include "bus/runtime/node.h"
-#include "clients/clocks/vehicle_time.h"
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/gateway_config.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
 #include "clients/modem_gateway/send_queue.h"
+#include "clients/onboard/clocks/vehicle_time.h"
 #include "core/archive.h"
 #include "core/sim_time.h"
 

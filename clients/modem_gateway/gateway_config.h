@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bus/config/config.h"
-#include "clients/clocks/clock_set_config.h"
 #include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/onboard/clocks/clock_set_config.h"
 
 namespace halocline::modem_gateway {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "bus/channels.h"
-#include "bus/subscription.h"
+#include "bus/messages/channels.h"
+#include "bus/transport/subscription.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "core/check.h"

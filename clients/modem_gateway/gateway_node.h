@@ -14,9 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "bus/node_identity.h"
 #include "bus/runtime/node.h"
-#include "clients/clocks/vehicle_time.h"
+#include "bus/transport/node_identity.h"
 #include "clients/modem_gateway/connections.h"
 #include "clients/modem_gateway/door.h"
 #include "clients/modem_gateway/gateway_config.h"
@@ -24,6 +23,7 @@
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
 #include "clients/modem_gateway/trace_log.h"
+#include "clients/onboard/clocks/vehicle_time.h"
 #include "core/archive.h"
 #include "core/sim_time.h"
 

@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "bus/runtime/node.h"
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/protocol.h"

@@ -2,10 +2,11 @@
 // Node that records every message of the bus in the order of reception, each with its wall time of reception:
 // the log that lcm-logger writes, but complete as far as the publishers still keep their messages.
 //
-// Missing messages of a flow are requested, as by every node (bus/flow_repair.h), and are written under their
-// own channel when they arrive. Each message of a flow is written once, except for SENDs, which their senders
-// repeat on purpose. HEARTBEAT and REPAIR_REQUEST are written unchanged. Messages of a publisher without
-// sequence numbers are written as often as they arrive, and losses among them cannot be detected.
+// Missing messages of a flow are requested, as by every node (bus/repair/flow_repair.h), and are written
+// under their own channel when they arrive. Each message of a flow is written once, except for SENDs, which
+// their senders repeat on purpose. HEARTBEAT and REPAIR_REQUEST are written unchanged. Messages of a
+// publisher without sequence numbers are written as often as they arrive, and losses among them cannot be
+// detected.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +19,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "bus/flow_watch.h"
 #include "bus/logs/flow_head.h"
-#include "bus/node_identity.h"
+#include "bus/messages/sequence_number.h"
+#include "bus/repair/flow_watch.h"
 #include "bus/runtime/node.h"
-#include "bus/sequence_number.h"
+#include "bus/transport/node_identity.h"
 #include "clients/recorder/recorded_file.h"
 #include "core/hash.h"
 #include "core/sim_time.h"

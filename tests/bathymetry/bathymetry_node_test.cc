@@ -10,8 +10,8 @@
 
 #include "bathymetry/rasters/terrain_recipe.h"
 #include "bathymetry/ray_service.h"
-#include "bus/channels.h"
-#include "bus/event_log.h"
+#include "bus/messages/channels.h"
+#include "bus/transport/event_log.h"
 #include "core/sim_time.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 #include "tests/support/tolerance.h"

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/flow_repair.h"
-#include "bus/flow_watch.h"
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
+#include "bus/repair/flow_repair.h"
+#include "bus/repair/flow_watch.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {

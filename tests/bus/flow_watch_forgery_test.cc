@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/flow_watch.h"
+#include "bus/repair/flow_watch.h"
 #include "tests/support/at_ms.h"
 
 namespace halocline::bus {

@@ -17,7 +17,7 @@
 #include "bus/config/config.h"
 #include "bus/lockstep/sequencer.h"
 #include "bus/numbered_publisher.h"
-#include "bus/runtime/crash_journal.h"
+#include "bus/recovery/crash_journal.h"
 #include "bus/runtime/node.h"
 #include "bus/runtime/thread_pool.h"
 #include "core/files/file_path.h"

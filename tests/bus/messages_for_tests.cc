@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "bus/message_field.h"
-#include "bus/message_fields.h"
+#include "bus/messages/message_field.h"
+#include "bus/messages/message_fields.h"
 
 namespace halocline::bus::testing {
 namespace {

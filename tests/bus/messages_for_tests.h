@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "tests/bus/lockstep/simulated_lockstep.h"
 
 namespace halocline::bus::testing {

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/messages.h"
-#include "bus/subscription.h"
+#include "bus/messages/messages.h"
+#include "bus/transport/subscription.h"
 
 namespace halocline::bus {
 namespace {

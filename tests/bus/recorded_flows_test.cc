@@ -13,9 +13,9 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "bus/bus.h"
-#include "bus/flow_watch.h"
-#include "bus/message_codec.h"
-#include "bus/sequence_number.h"
+#include "bus/messages/message_codec.h"
+#include "bus/messages/sequence_number.h"
+#include "bus/repair/flow_watch.h"
 #include "core/sim_time.h"
 #include "tests/bus/messages_for_tests.h"
 #include "tests/support/at_ms.h"

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/flow_repair.h"
-#include "bus/flow_watch.h"
+#include "bus/repair/flow_repair.h"
+#include "bus/repair/flow_watch.h"
 #include "tests/support/at_ms.h"
 
 namespace halocline::bus {

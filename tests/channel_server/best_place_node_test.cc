@@ -14,7 +14,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/noise/noise_spectrum.h"
 #include "acoustics/sea/noise.h"
-#include "bus/event_log.h"
+#include "bus/transport/event_log.h"
 #include "channel_server/links/best_place_service.h"
 #include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_id.h"

@@ -17,7 +17,7 @@
 
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
-#include "bus/event_log.h"
+#include "bus/transport/event_log.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"

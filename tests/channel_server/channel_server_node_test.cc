@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/event_log.h"
+#include "bus/transport/event_log.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/names.h"

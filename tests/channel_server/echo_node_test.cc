@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/event_log.h"
+#include "bus/transport/event_log.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/seabed_client.h"
 #include "channel_server/vehicles/vehicle_id.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/sea/boundary_reflection.h"
-#include "bus/event_log.h"
+#include "bus/transport/event_log.h"
 #include "tests/channel_server/link_queries.h"
 #include "tests/channel_server/node_bench.h"
 

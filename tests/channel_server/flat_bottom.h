@@ -11,7 +11,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "bus/bus.h"
-#include "bus/channels.h"
+#include "bus/messages/channels.h"
 #include "bus/runtime/node.h"
 
 namespace halocline::channel_server::testing {

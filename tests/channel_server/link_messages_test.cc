@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/link/link_budget.h"
-#include "bus/message_checks.h"
+#include "bus/messages/message_checks.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "tests/channel_server/channel_fixtures.h"

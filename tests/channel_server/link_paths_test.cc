@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/modem/beam_pattern.h"
-#include "bus/event_log.h"
-#include "bus/message_checks.h"
+#include "bus/messages/message_checks.h"
+#include "bus/transport/event_log.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 
 namespace halocline::channel_server::testing {
 

@@ -12,7 +12,7 @@
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/noise/noise_spectrum.h"
-#include "bus/event_log.h"
+#include "bus/transport/event_log.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_noise.h"

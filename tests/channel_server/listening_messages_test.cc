@@ -2,7 +2,7 @@
 // MODEM_EVENT and LISTEN, from the medium to the bus and back.
 #include <gtest/gtest.h>
 
-#include "bus/message_checks.h"
+#include "bus/messages/message_checks.h"
 #include "channel_server/packet_messages.h"
 #include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/event_log.h"
+#include "bus/transport/event_log.h"
 #include "tests/channel_server/node_bench.h"
 
 namespace halocline::channel_server {

@@ -11,7 +11,7 @@
 #include "acoustics/modem/error_model.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed_profile.h"
-#include "bus/message_checks.h"
+#include "bus/messages/message_checks.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/links/link_query_service.h"
 #include "channel_server/links/link_table.h"

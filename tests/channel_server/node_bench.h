@@ -16,7 +16,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "acoustics/sea/environment.h"
-#include "bus/channels.h"
+#include "bus/messages/channels.h"
 #include "bus/runtime/node.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/channel_server_node.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/event_log.h"
+#include "bus/transport/event_log.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/random.h"
 #include "tests/channel_server/node_bench.h"

@@ -8,7 +8,7 @@
 
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed_profile.h"
-#include "bus/event_log.h"
+#include "bus/transport/event_log.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/frames.h"
 #include "core/sim_time.h"

@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "bus/event_log.h"
+#include "bus/transport/event_log.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "tests/channel_server/node_bench.h"

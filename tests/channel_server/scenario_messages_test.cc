@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/message_checks.h"
+#include "bus/messages/message_checks.h"
 #include "channel_server/vehicles/shard.h"
 #include "core/names.h"
 #include "tests/channel_server/node_bench.h"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/event_log.h"
+#include "bus/transport/event_log.h"
 #include "core/frames.h"
 #include "tests/channel_server/node_bench.h"
 

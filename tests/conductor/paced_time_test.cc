@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/transport.h"
+#include "bus/transport/transport.h"
 #include "core/check.h"
 
 namespace halocline::conductor {

@@ -8,11 +8,11 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "bus/bus.h"
-#include "bus/event_log.h"
-#include "bus/node_identity.h"
-#include "clients/mission/mission_store.h"
+#include "bus/transport/event_log.h"
+#include "bus/transport/node_identity.h"
 #include "core/check.h"
 #include "core/sim_time.h"
+#include "runs/timeline/mission_store.h"
 #include "tests/fuzz/bus_message.h"
 #include "tests/fuzz/fuzz_input.h"
 

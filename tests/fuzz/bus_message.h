@@ -13,8 +13,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "bus/channel_table.h"
-#include "bus/message_codec.h"
+#include "bus/messages/channel_table.h"
+#include "bus/messages/message_codec.h"
 #include "core/hash.h"
 #include "tests/fuzz/fuzz_input.h"
 

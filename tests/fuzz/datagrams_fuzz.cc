@@ -15,9 +15,9 @@
 #include <unistd.h>
 
 #include "bus/bus.h"
-#include "bus/event_log.h"
-#include "bus/sending/datagram_filter.h"
-#include "bus/transport.h"
+#include "bus/transport/datagram_filter.h"
+#include "bus/transport/event_log.h"
+#include "bus/transport/transport.h"
 #include "core/check.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/message_codec.h"
+#include "bus/messages/message_codec.h"
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/door_options.h"

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "bus/channels.h"
-#include "bus/files/journal_file.h"
 #include "bus/lockstep/journal.h"
 #include "bus/lockstep/journal_replay.h"
 #include "bus/lockstep/sequencer.h"
-#include "bus/runtime/message_journal.h"
-#include "bus/runtime/state_journal.h"
+#include "bus/messages/channels.h"
+#include "bus/recovery/journal_file.h"
+#include "bus/recovery/message_journal.h"
+#include "bus/recovery/state_journal.h"
 #include "core/archive.h"
 #include "core/check.h"
 #include "core/sim_time.h"

@@ -12,7 +12,7 @@
 #include "bus/lockstep/lockstep_conductor.h"
 #include "bus/lockstep/lockstep_participant.h"
 #include "bus/lockstep/lockstep_wire.h"
-#include "bus/message_codec.h"
+#include "bus/messages/message_codec.h"
 #include "core/sim_time.h"
 #include "tests/fuzz/bus_message.h"
 #include "tests/fuzz/fuzz_input.h"

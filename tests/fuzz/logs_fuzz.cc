@@ -6,8 +6,8 @@
 
 #include "bus/logs/channel_types.h"
 #include "bus/logs/log_reader.h"
-#include "clients/mission/mission_store.h"
 #include "core/check.h"
+#include "runs/timeline/mission_store.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/scratch_file.h"
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "bus/message_codec.h"
-#include "bus/messages.h"
+#include "bus/messages/message_codec.h"
+#include "bus/messages/messages.h"
 #include "core/check.h"
 #include "tests/fuzz/bus_message.h"
 #include "tests/fuzz/fuzz_input.h"

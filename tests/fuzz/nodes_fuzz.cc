@@ -5,10 +5,10 @@
 
 #include <lcm/lcm-cpp.hpp>
 
-#include "bus/event_log.h"
 #include "bus/runtime/lockstep_runner.h"
-#include "clients/halocline/scenario/composition.h"
+#include "bus/transport/event_log.h"
 #include "core/sim_time.h"
+#include "simulation/composition.h"
 #include "tests/fuzz/bus_message.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/scratch_file.h"

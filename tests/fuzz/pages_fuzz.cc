@@ -8,18 +8,18 @@
 
 #include <nlohmann/json.hpp>
 
-#include "clients/foxglove/foxglove_session.h"
-#include "clients/monitor/pages/command_desk.h"
-#include "clients/monitor/pages/frames.h"
-#include "clients/monitor/pages/packet_json.h"
-#include "clients/monitor/pages/page_session.h"
-#include "clients/monitor/pages/query_desk.h"
-#include "clients/monitor/pages/request_fields.h"
-#include "clients/monitor/pages/requests.h"
-#include "clients/monitor/pages/terrain_window.h"
 #include "core/check.h"
-#include "tests/clients/monitor/mission_for_pages.h"
+#include "runs/foxglove/foxglove_session.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "tests/viewer/mission_for_pages.h"
+#include "viewer/pages/command_desk.h"
+#include "viewer/pages/frames.h"
+#include "viewer/pages/packet_json.h"
+#include "viewer/pages/page_session.h"
+#include "viewer/pages/query_desk.h"
+#include "viewer/pages/request_fields.h"
+#include "viewer/pages/requests.h"
+#include "viewer/pages/terrain_window.h"
 
 namespace {
 

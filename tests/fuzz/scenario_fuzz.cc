@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bus/config/config.h"
-#include "clients/halocline/scenario/composition.h"
 #include "core/check.h"
+#include "simulation/composition.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/scratch_file.h"
 

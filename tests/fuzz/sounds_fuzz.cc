@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A sound file, of any kind that libsndfile knows, through our reader.
-#include "clients/halocline/waveform/wav_file.h"
 #include "core/check.h"
+#include "simulation/waveform/wav_file.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/scratch_file.h"
 

@@ -7,10 +7,10 @@
 
 #include "acoustics/noise/noise_table_reader.h"
 #include "acoustics/sea/profile_reader.h"
-#include "clients/halocline/arrivals/sea_files.h"
-#include "clients/halocline/calc/calc.h"
-#include "clients/halocline/calc/quantity.h"
 #include "core/check.h"
+#include "halocline/calc/calc.h"
+#include "halocline/calc/quantity.h"
+#include "simulation/arrivals/sea_files.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/scratch_file.h"
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "bus/channel_pattern.h"
 #include "bus/logs/log_rotation.h"
-#include "bus/runtime/receive_filter.h"
+#include "bus/messages/channel_pattern.h"
+#include "bus/transport/receive_filter.h"
 #include "clients/modem_gateway/gateway_config.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/door_options.h"

@@ -3,8 +3,8 @@
 #include <sstream>
 #include <string>
 
-#include "clients/halocline/scenario/vehicle_replay.h"
 #include "core/check.h"
+#include "simulation/vehicle_replay.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "vehicle_sim/model_config.h"
 

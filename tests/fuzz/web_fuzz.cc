@@ -13,9 +13,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "clients/monitor/web/web_server.h"
 #include "core/check.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "viewer/web/web_server.h"
 
 namespace {
 

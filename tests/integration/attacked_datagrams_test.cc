@@ -14,7 +14,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "bus/sending/datagram_filter.h"
+#include "bus/transport/datagram_filter.h"
 #include "tests/bus/filtered_socket.h"
 #include "tests/integration/bus_monitor.h"
 #include "tests/support/process.h"

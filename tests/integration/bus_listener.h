@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "bus/bus.h"
-#include "bus/node_identity.h"
 #include "bus/runtime/node_process.h"
-#include "bus/transport.h"
+#include "bus/transport/node_identity.h"
+#include "bus/transport/transport.h"
 #include "core/sim_time.h"
 #include "tests/support/process.h"
 

@@ -13,7 +13,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "bus/bus.h"
-#include "bus/transport.h"
+#include "bus/transport/transport.h"
 #include "tests/support/process.h"
 
 namespace halocline::testing {

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "clients/halocline/scenario/composition.h"
+#include "simulation/composition.h"
 #include "tests/integration/embedded_fixture.h"
 #include "tests/support/csv.h"
 #include "tests/support/tolerance.h"

@@ -16,14 +16,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "bus/event_log.h"
 #include "bus/logs/channel_types.h"
 #include "bus/logs/log_reader.h"
-#include "clients/halocline/analysis/recording.h"
-#include "clients/halocline/scenario/composition.h"
-#include "clients/halocline/scenario/embedded_run.h"
-#include "clients/halocline/scenario/replay_node.h"
+#include "bus/transport/event_log.h"
 #include "core/sim_time.h"
+#include "runs/analysis/recording.h"
+#include "simulation/composition.h"
+#include "simulation/embedded_run.h"
+#include "simulation/replay_node.h"
 
 namespace halocline::clients::testing {
 

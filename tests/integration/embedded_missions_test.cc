@@ -12,10 +12,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "clients/autopilot/autopilot_config.h"
-#include "clients/autopilot/plan.h"
-#include "clients/halocline/scenario/composition.h"
+#include "clients/onboard/autopilot/autopilot_config.h"
+#include "clients/onboard/autopilot/plan.h"
 #include "core/frames.h"
+#include "simulation/composition.h"
 #include "tests/integration/embedded_fixture.h"
 #include "tests/support/tolerance.h"
 

@@ -14,12 +14,12 @@
 #include <gtest/gtest.h>
 
 #include "bus/logs/log_reader.h"
-#include "bus/node_identity.h"
 #include "bus/runtime/node.h"
-#include "clients/halocline/scenario/composition.h"
-#include "clients/halocline/scenario/log_estimate.h"
-#include "clients/traffic/relay_packet.h"
+#include "bus/transport/node_identity.h"
+#include "clients/onboard/traffic/relay_packet.h"
 #include "core/sim_time.h"
+#include "simulation/composition.h"
+#include "simulation/log_estimate.h"
 #include "tests/integration/embedded_fixture.h"
 
 namespace halocline::clients {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "tests/integration/embedded_fixture.h"
 
 namespace halocline::clients {

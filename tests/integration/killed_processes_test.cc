@@ -20,9 +20,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "bus/channels.h"
 #include "bus/logs/log_reader.h"
-#include "bus/message_codec.h"
+#include "bus/messages/channels.h"
+#include "bus/messages/message_codec.h"
 #include "tests/support/process.h"
 
 namespace halocline {

@@ -22,9 +22,9 @@
 #include <gtest/gtest.h>
 
 #include "bus/bus.h"
-#include "bus/node_identity.h"
 #include "bus/runtime/node_process.h"
-#include "bus/transport.h"
+#include "bus/transport/node_identity.h"
+#include "bus/transport/transport.h"
 #include "clients/modem/blocking_modem.h"
 #include "core/sim_time.h"
 #include "tests/integration/bus_listener.h"

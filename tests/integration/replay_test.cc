@@ -12,9 +12,9 @@
 #include <gtest/gtest.h>
 
 #include "bus/logs/log_reader.h"
-#include "clients/halocline/analysis/comparison.h"
-#include "clients/halocline/scenario/composition.h"
 #include "core/random.h"
+#include "runs/analysis/comparison.h"
+#include "simulation/composition.h"
 #include "tests/integration/embedded_fixture.h"
 
 namespace halocline::clients {

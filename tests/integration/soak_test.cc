@@ -14,8 +14,8 @@
 #include "bus/logs/log_recorder.h"
 #include "bus/logs/log_series.h"
 #include "bus/runtime/lockstep_runner.h"
-#include "clients/halocline/scenario/composition.h"
 #include "core/sim_time.h"
+#include "simulation/composition.h"
 #include "tests/integration/embedded_fixture.h"
 
 namespace halocline::clients {

@@ -18,11 +18,11 @@
 
 #include <fmt/format.h>
 
-#include "bus/channels.h"
-#include "bus/node_identity.h"
+#include "bus/config/scenario.h"
+#include "bus/messages/channels.h"
 #include "bus/runtime/node.h"
 #include "bus/runtime/node_process.h"
-#include "bus/runtime/scenario.h"
+#include "bus/transport/node_identity.h"
 #include "core/names.h"
 #include "core/sim_time.h"
 

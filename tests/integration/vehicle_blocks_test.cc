@@ -11,10 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "bus/logs/log_reader.h"
-#include "clients/halocline/analysis/simulation_output.h"
-#include "clients/halocline/scenario/composition.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
+#include "runs/analysis/simulation_output.h"
+#include "simulation/composition.h"
 #include "tests/integration/embedded_fixture.h"
 #include "tests/support/tolerance.h"
 

@@ -17,8 +17,8 @@
 #include <gtest/gtest.h>
 
 #include "bus/bus.h"
-#include "clients/halocline/analysis/simulation_output.h"
 #include "core/frames.h"
+#include "runs/analysis/simulation_output.h"
 #include "tests/integration/embedded_fixture.h"
 
 namespace halocline::clients {

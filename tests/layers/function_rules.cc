@@ -17,7 +17,7 @@ const std::vector<std::string> kFreeOfRules{"tests/",
                                             "core/elementary.",
                                             "clients/examples/cpp/",
                                             "clients/examples/c/",
-                                            "clients/halocline/analysis/confidence."};
+                                            "runs/analysis/confidence."};
 
 bool is_free(const std::string& path) {
   return std::any_of(kFreeOfRules.begin(), kFreeOfRules.end(),

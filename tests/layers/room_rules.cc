@@ -83,7 +83,9 @@ bool is_standard(std::string_view path) {
   return path.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string_view::npos;
 }
 bool is_lcm(std::string_view path) { return path.starts_with("lcm/"); }
-bool is_message_type(std::string_view path) { return starts_with_any(path, {"halocline/", "lcmtypes/"}); }
+bool is_message_type(std::string_view path) {
+  return path.starts_with("lcmtypes/") || (path.starts_with("halocline/") && path.ends_with(".hpp"));
+}
 bool is_of_the_system(std::string_view path) {  // POSIX and Linux
   return starts_with_any(path, {"sys/", "linux/", "arpa/", "net/", "netinet/"}) ||
          is_one_of(path, {"unistd.h", "fcntl.h", "poll.h", "spawn.h", "signal.h", "dirent.h", "sched.h",
@@ -93,16 +95,19 @@ bool is_of_the_system(std::string_view path) {  // POSIX and Linux
 std::string_view first_element(std::string_view path) { return path.substr(0, path.find('/')); }
 
 bool is_ours(std::string_view path) {
-  if (path.find('/') == std::string_view::npos) return false;
+  if (path.find('/') == std::string_view::npos || is_message_type(path)) return false;
   return std::any_of(rooms().begin(), rooms().end(),
                      [&](const Room& room) { return first_element(room.path) == first_element(path); });
 }
 
 bool stands_on(const Room& room, std::string_view path) {
   const std::string_view folder = folder_of(path);
-  const bool is_in_core = folder.starts_with("core/") && is_one_of("core", room.stands_on);
-  return folder == room.path || is_in_core || is_one_of(folder, room.stands_on) ||
-         is_one_of(path, room.stands_on);
+  const auto is_part_of = [&](std::string_view whole, const Words& parts) {
+    return (room.path == whole || is_one_of(whole, room.stands_on)) && is_one_of(folder, parts);
+  };
+  return folder == room.path || is_part_of("core", {"core/files", "core/memory", "core/text"}) ||
+         is_part_of("bus", {"bus/messages", "bus/transport", "bus/repair"}) ||
+         is_one_of(folder, room.stands_on) || is_one_of(path, room.stands_on);
 }
 
 std::string with_reason(std::string_view objection, const Room& room) {

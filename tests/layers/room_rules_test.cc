@@ -18,6 +18,15 @@ using ::testing::IsEmpty;
 
 bool allowed(std::string_view file, std::string_view path) { return objection(file, path).empty(); }
 
+TEST(Layers, TheTreeIsReadFromGit) { EXPECT_GT(sources_below(HALOCLINE_SOURCE_DIR).size(), 1000U); }
+
+TEST(Layers, NothingIncludesAnExample) {
+  for (const SourceFile& source : sources_below(HALOCLINE_SOURCE_DIR)) {
+    for (const Include& include : includes_of(source.text))
+      EXPECT_FALSE(include.path.starts_with("clients/examples/")) << source.path << ":" << include.line;
+  }
+}
+
 TEST(Layers, TheTreeKeepsItsRules) { EXPECT_THAT(breaches(sources_below(HALOCLINE_SOURCE_DIR)), IsEmpty()); }
 
 TEST(Layers, NoRoomsIncludeEachOtherInACircleAtAnyDepth) {
@@ -26,7 +35,7 @@ TEST(Layers, NoRoomsIncludeEachOtherInACircleAtAnyDepth) {
 }
 
 TEST(RoomRules, OnlyTheBusIncludesLcm) {
-  EXPECT_TRUE(allowed("bus/transport.h", "lcm/lcm-cpp.hpp"));
+  EXPECT_TRUE(allowed("bus/transport/transport.h", "lcm/lcm-cpp.hpp"));
   for (const char* file : {"core/units.h", "acoustics/sea/noise.cc", "bathymetry/terrain/terrain.cc",
                            "channel_server/channel_server_node.h", "vehicle_sim/main.cc",
                            "conductor/paced_time.h", "clients/modem/modem_client.h"}) {
@@ -43,7 +52,7 @@ TEST(RoomRules, TheForeignVehicleKnowsLcmAndMessageTypesAlone) {
 
 TEST(RoomRules, MessageTypesStayOutOfPureFiles) {
   EXPECT_FALSE(allowed("acoustics/sea/noise.h", "halocline/link_t.hpp"));
-  EXPECT_FALSE(allowed("channel_server/links/link_table.h", "bus/messages.h"));
+  EXPECT_FALSE(allowed("channel_server/links/link_table.h", "bus/messages/messages.h"));
   EXPECT_FALSE(allowed("channel_server/links/link_table.h", "lcmtypes/halocline/link_t.hpp"));
   EXPECT_TRUE(allowed("channel_server/link_messages.cc", "halocline/link_t.hpp"));
 }
@@ -101,14 +110,14 @@ TEST(RoomRules, PureFilesKnowNoNodeOfTheirOwnFolder) {
 }
 
 TEST(RoomRules, OnlyTheCommandIncludesOtherProcessesNodes) {
-  EXPECT_TRUE(allowed("clients/halocline/scenario/composition.cc", "bathymetry/bathymetry_node.h"));
+  EXPECT_TRUE(allowed("simulation/composition.cc", "bathymetry/bathymetry_node.h"));
   EXPECT_FALSE(allowed("clients/modem/modem_client.h", "channel_server/channel_server_node.h"));
-  EXPECT_FALSE(allowed("clients/autopilot/autopilot_node.h", "vehicle_sim/vehicle_sim_node.h"));
+  EXPECT_FALSE(allowed("clients/onboard/autopilot/autopilot_node.h", "vehicle_sim/vehicle_sim_node.h"));
 }
 
 TEST(RoomRules, NoFileIncludesAMain) {
-  for (const char* file : {"clients/halocline/scenario/composition.cc", "tests/bus/bus_test.cc",
-                           "bathymetry/bathymetry_node.cc"}) {
+  for (const char* file :
+       {"simulation/composition.cc", "tests/bus/bus_test.cc", "bathymetry/bathymetry_node.cc"}) {
     EXPECT_FALSE(allowed(file, "bathymetry/main.cc")) << file;
     EXPECT_FALSE(allowed(file, "bathymetry/main.h")) << file;
     EXPECT_FALSE(allowed(file, "bathymetry/terrain/terrain.cc")) << file;
@@ -126,7 +135,7 @@ TEST(RoomRules, AMacroInPlaceOfAPathIsRefused) {
 }
 
 TEST(RoomRules, ProgramsKnowNoTests) {
-  EXPECT_FALSE(allowed("clients/halocline/scenario/composition.cc", "tests/support/csv.h"));
+  EXPECT_FALSE(allowed("simulation/composition.cc", "tests/support/csv.h"));
   EXPECT_FALSE(allowed("bus/bus.cc", "gtest/gtest.h"));
 }
 

@@ -2,9 +2,12 @@
 #include "tests/layers/source_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -20,6 +23,21 @@ std::string text_of(const std::filesystem::path& path) {
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
+}
+
+// Paths of the files that git knows or would add, relative to `root`.
+std::vector<std::string> tracked_files(const std::string& root) {
+  const std::string command =
+      "git -c safe.directory='*' -C '" + root + "' ls-files --cached --others --exclude-standard";
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::string listing;
+  std::array<char, 4096> buffer{};
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe.get()))
+    listing.append(buffer.data(), count);
+  std::vector<std::string> paths;
+  std::istringstream lines(listing);
+  for (std::string line; std::getline(lines, line);) paths.push_back(line);
+  return paths;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -96,16 +114,10 @@ std::string_view folder_of(std::string_view path) {
 
 std::vector<SourceFile> sources_below(const std::string& root) {
   std::vector<SourceFile> sources;
-  for (const std::string_view folder : {"core", "acoustics", "bathymetry", "vehicle_sim", "channel_server",
-                                        "conductor", "bus", "clients", "tests", "bench"}) {
-    const std::filesystem::path start = std::filesystem::path(root) / folder;
-    if (!std::filesystem::exists(start)) continue;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(start)) {
-      const std::string extension = entry.path().extension().string();
-      if (!entry.is_regular_file() || !kExtensions.contains(extension)) continue;
-      sources.push_back(
-          {std::filesystem::relative(entry.path(), root).generic_string(), text_of(entry.path())});
-    }
+  for (const std::string& path : tracked_files(root)) {
+    const std::filesystem::path file = std::filesystem::path(root) / path;
+    if (kExtensions.contains(file.extension().string()) && std::filesystem::is_regular_file(file))
+      sources.push_back({path, text_of(file)});
   }
   std::sort(sources.begin(), sources.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
   return sources;

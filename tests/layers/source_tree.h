@@ -14,7 +14,7 @@ struct SourceFile {
   std::string text;
 };
 
-// Every C++ file under the folders of ours below `root`, in order.
+// All C++ files below `root` that git knows or would add, sorted by path. Empty outside a git repository.
 std::vector<SourceFile> sources_below(const std::string& root);
 
 // The folder of a path, "acoustics/sea" of "acoustics/sea/noise.cc"; empty when it has none.

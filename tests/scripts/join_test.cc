@@ -18,9 +18,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "tests/clients/monitor/web_client.h"
 #include "tests/support/process.h"
 #include "tests/support/working_folder.h"
+#include "tests/viewer/web_client.h"
 
 namespace halocline::testing {
 namespace {
@@ -217,9 +217,9 @@ TEST_F(Join, WhatScriptsInstallAndBuildTheyDoOutsideOfTheRun) {
                                    "\nmkdir -p ../../../build/monitor/page node_modules\n"
                                    "echo the page of the test >../../../build/monitor/page/index.html");
   write_script("tree/bin/java", "readlink /proc/self/ns/net >'" + here_ + "/network of the spy'");
-  fs::create_directories("tree/clients/monitor/page/src");
+  fs::create_directories("tree/viewer/page/src");
   for (const char* file : {"package-lock.json", "index.html", "page.ts", "page.js", ".npmrc", "src/page.ts"})
-    std::ofstream(std::string("tree/clients/monitor/page/") + file) << "{}";
+    std::ofstream(std::string("tree/viewer/page/") + file) << "{}";
   fs::create_directories("tree/build/release/bin");
   fs::create_symlink(HALOCLINE_BIN_DIR "/halocline-monitor", "tree/build/release/bin/halocline-monitor");
   const auto in_tree = [&](const std::string& program) {

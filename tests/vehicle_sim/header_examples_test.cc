@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bus/config/config.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"

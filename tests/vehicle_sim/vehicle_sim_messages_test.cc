@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/message_checks.h"
+#include "bus/messages/message_checks.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/sensors/sensor_errors.h"

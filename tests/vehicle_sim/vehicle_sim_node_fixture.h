@@ -14,11 +14,11 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/event_log.h"
-#include "bus/node_identity.h"
+#include "bus/config/scenario.h"
 #include "bus/runtime/lockstep_runner.h"
 #include "bus/runtime/node.h"
-#include "bus/runtime/scenario.h"
+#include "bus/transport/event_log.h"
+#include "bus/transport/node_identity.h"
 #include "core/sim_time.h"
 #include "tests/bus/runtime/journal_files.h"
 #include "tests/support/at_ms.h"

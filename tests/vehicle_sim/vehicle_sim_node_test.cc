@@ -12,9 +12,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/node_identity.h"
+#include "bus/config/scenario.h"
 #include "bus/runtime/lockstep_runner.h"
-#include "bus/runtime/scenario.h"
+#include "bus/transport/node_identity.h"
 #include "core/sim_time.h"
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/vehicle_sim_node_fixture.h"

@@ -9,7 +9,7 @@
 //   3 bow, 4 stern         push down: the sum controls heave, the difference pitch
 //
 // There is no lateral thruster: the vehicle holds station by turning its bow against the drift
-// (clients/autopilot/hover_laws.h). Each thruster has a thrust of 51 N ahead and 40 N astern at 60
+// (clients/onboard/autopilot/hover_laws.h). Each thruster has a thrust of 51 N ahead and 40 N astern at 60
 // revolutions per second, after the published bollard figures of a common 76 mm thruster at 16 V (Blue
 // Robotics T200, 5.25 and 4.1 kilogram-force). Hull form, drag and the decrease of thrust with speed are
 // chosen, not measured. Range: 0 to 2 m/s, any attitude.

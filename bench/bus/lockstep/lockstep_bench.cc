@@ -19,15 +19,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "bus/channels.h"
 #include "bus/lockstep/journal.h"
 #include "bus/lockstep/lockstep_conductor.h"
 #include "bus/lockstep/lockstep_participant.h"
+#include "bus/messages/channels.h"
 #include "bus/runtime/lockstep_process.h"
 #include "bus/runtime/lockstep_turns.h"
 #include "bus/runtime/node.h"
 #include "bus/runtime/node_process.h"
-#include "bus/transport.h"
+#include "bus/transport/transport.h"
 #include "core/sim_time.h"
 
 namespace halocline {

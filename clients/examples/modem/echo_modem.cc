@@ -8,7 +8,7 @@
 #include <exception>
 #include <random>
 
-#include "bus/transport.h"
+#include "bus/transport/transport.h"
 #include "clients/modem/blocking_modem.h"
 #include "core/sim_time.h"
 

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/door_options.h"

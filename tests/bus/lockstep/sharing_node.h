@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bus/runtime/node.h"
-#include "bus/subscription.h"
+#include "bus/transport/subscription.h"
 #include "core/sim_time.h"
 
 namespace halocline::conductor::testing {

@@ -11,12 +11,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/channel_pattern.h"
 #include "bus/lockstep/journal.h"
 #include "bus/lockstep/journal_replay.h"
 #include "bus/lockstep/lockstep_conductor.h"
 #include "bus/lockstep/sequencer.h"
-#include "bus/message_codec.h"
+#include "bus/messages/channel_pattern.h"
+#include "bus/messages/message_codec.h"
 #include "core/sim_time.h"
 
 namespace halocline::conductor {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "bus/logs/log_reader.h"
-#include "bus/message_codec.h"
+#include "bus/messages/message_codec.h"
 #include "core/check.h"
 #include "tests/bus/logs/log_fixture.h"
 #include "tests/bus/messages_for_tests.h"

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #include "bus/logs/log_reader.h"
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 
 namespace halocline::clients::testing {
 

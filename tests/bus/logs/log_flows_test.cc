@@ -8,9 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/message_codec.h"
-#include "bus/messages.h"
-#include "bus/sequence_number.h"
+#include "bus/messages/message_codec.h"
+#include "bus/messages/messages.h"
+#include "bus/messages/sequence_number.h"
 #include "tests/bus/messages_for_tests.h"
 
 namespace halocline::clients {

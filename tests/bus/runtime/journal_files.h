@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "bus/runtime/state_journal.h"
+#include "bus/recovery/state_journal.h"
 
 namespace halocline::bus::testing {
 

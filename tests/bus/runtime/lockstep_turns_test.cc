@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "bus/lockstep/lockstep_wire.h"
-#include "bus/subscription.h"
+#include "bus/transport/subscription.h"
 #include "tests/bus/messages_for_tests.h"
 #include "tests/bus/runtime/test_nodes.h"
 #include "tests/support/at_ms.h"

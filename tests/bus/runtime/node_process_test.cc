@@ -18,7 +18,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "bus/transport.h"
+#include "bus/transport/transport.h"
 #include "tests/bus/messages_for_tests.h"
 #include "tests/support/process.h"
 

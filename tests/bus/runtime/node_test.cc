@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/event_log.h"
+#include "bus/transport/event_log.h"
 #include "bus/version.h"
 #include "core/check.h"
 #include "tests/bus/messages_for_tests.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows state what acoustics/reception/link_prediction.h predicts of their paths.
+// Rows state what acoustics/prediction/link_prediction.h predicts of their paths.
 #include "channel_server/links/link_predictor.h"
 
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/fading/sound_path.h"
-#include "acoustics/reception/link_prediction.h"
+#include "acoustics/prediction/link_prediction.h"
 #include "acoustics/reception/signal_history.h"
 #include "core/sim_time.h"
 

@@ -2,7 +2,7 @@
 // Predicted against realised: the probabilities of 10 000 packets, each decided as the medium decides it,
 // have the mean that the prediction of their link states, within 2 % of probability and what chance may add
 // to 10 000 with 99 % confidence.
-#include "acoustics/reception/link_prediction.h"
+#include "acoustics/prediction/link_prediction.h"
 
 #include <algorithm>
 #include <array>
@@ -22,9 +22,9 @@
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/modem/packet_format.h"
+#include "acoustics/prediction/steady_band.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
-#include "acoustics/reception/steady_band.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/reception_decision.h"
@@ -72,7 +72,7 @@ struct Case {
 
 class PredictedLink : public ::testing::TestWithParam<Case> {};
 
-// The ends sway up and down (acoustics/reception/steady_band.h): phases of the paths as packet `i` meets
+// The ends sway up and down (acoustics/prediction/steady_band.h): phases of the paths as packet `i` meets
 // them.
 std::vector<SoundPath> swayed(std::vector<SoundPath> paths, double frequency_hz, std::uint64_t i) {
   const auto sway_m = [&](std::uint64_t end) {

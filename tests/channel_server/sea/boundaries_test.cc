@@ -13,7 +13,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/sound_speed_profile.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/propagation/environment_timeline.h"

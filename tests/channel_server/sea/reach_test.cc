@@ -18,7 +18,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed_profile.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/ray_propagation.h"

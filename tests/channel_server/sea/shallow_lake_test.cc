@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/modem/modem.h"
-#include "acoustics/reception/link_prediction.h"
+#include "acoustics/prediction/link_prediction.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/propagation/environment_timeline.h"

@@ -16,9 +16,9 @@
 
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/modem/modem.h"
-#include "acoustics/reception/link_prediction.h"
+#include "acoustics/prediction/link_prediction.h"
 #include "acoustics/reception/reception_curves.h"
-#include "bus/runtime/scenario.h"
+#include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/propagation/environment_timeline.h"

@@ -8,7 +8,7 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "bus/runtime/node.h"
-#include "bus/transport.h"
+#include "bus/transport/transport.h"
 #include "clients/modem/blocking_modem.h"
 #include "clients/modem/modem_client.h"
 #include "core/names.h"

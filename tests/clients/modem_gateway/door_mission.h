@@ -18,14 +18,14 @@
 #include <unistd.h>
 
 #include "bus/bus.h"
-#include "bus/channels.h"
-#include "bus/event_log.h"
-#include "bus/message_codec.h"
+#include "bus/messages/channels.h"
+#include "bus/messages/message_codec.h"
 #include "bus/runtime/lockstep_runner.h"
-#include "clients/halocline/scenario/composition.h"
-#include "clients/halocline/waveform/live_sea.h"
+#include "bus/transport/event_log.h"
 #include "clients/modem_gateway/gateway_node.h"
 #include "core/sim_time.h"
+#include "simulation/composition.h"
+#include "simulation/waveform/live_sea.h"
 
 namespace halocline::modem_gateway::testing {
 

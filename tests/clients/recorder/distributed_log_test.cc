@@ -17,10 +17,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/channels.h"
 #include "bus/logs/flow_head.h"
 #include "bus/logs/log_reader.h"
-#include "bus/message_codec.h"
+#include "bus/messages/channels.h"
+#include "bus/messages/message_codec.h"
 #include "tests/support/process.h"
 #include "tests/support/working_folder.h"
 

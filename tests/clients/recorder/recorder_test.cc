@@ -16,11 +16,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/channels.h"
 #include "bus/logs/flow_head.h"
 #include "bus/logs/log_reader.h"
+#include "bus/messages/channels.h"
 #include "bus/runtime/node_process.h"
-#include "bus/transport.h"
+#include "bus/transport/transport.h"
 #include "tests/bus/messages_for_tests.h"
 #include "tests/integration/bus_listener.h"
 #include "tests/support/process.h"

@@ -19,9 +19,9 @@
 #include <gtest/gtest.h>
 #include <lcm/lcm-cpp.hpp>
 
-#include "bus/message_codec.h"
-#include "bus/messages.h"
-#include "bus/transport.h"
+#include "bus/messages/message_codec.h"
+#include "bus/messages/messages.h"
+#include "bus/transport/transport.h"
 #include "tests/integration/bus_monitor.h"
 #include "tests/support/process.h"
 

@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "bus/bus.h"
-#include "bus/message_codec.h"
+#include "bus/messages/message_codec.h"
 #include "tests/integration/attacked/attacked_processes.h"
 
 namespace halocline {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/link/link_budget.h"
-#include "clients/halocline/scenario/link_survey.h"
+#include "simulation/link_survey.h"
 #include "tests/integration/embedded_fixture.h"
 #include "tests/support/channel_file.h"
 #include "tests/support/tolerance.h"

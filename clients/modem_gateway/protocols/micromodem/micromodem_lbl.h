@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_core.h"
 #include "clients/modem_gateway/protocols/micromodem/nmea.h"

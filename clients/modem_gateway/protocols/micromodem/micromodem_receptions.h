@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_reports.h"
 #include "core/sim_time.h"

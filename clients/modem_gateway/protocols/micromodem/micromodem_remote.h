@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_core.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_housekeeping.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_receptions.h"

@@ -26,7 +26,7 @@
 #include <cstdint>
 #include <string>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "clients/modem_gateway/protocols/micromodem/modem_clock.h"
 #include "core/sim_time.h"
 

@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_core.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_receptions.h"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "core/archive.h"

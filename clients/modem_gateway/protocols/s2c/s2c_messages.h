@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <string>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "clients/modem_gateway/protocols/s2c/s2c_core.h"
 #include "core/sim_time.h"
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <utility>
 
-#include "bus/messages.h"
+#include "bus/messages/messages.h"
 #include "clients/modem_gateway/protocols/s2c/s2c_core.h"
 #include "clients/modem_gateway/protocols/s2c/s2c_reader.h"
 #include "core/sim_time.h"

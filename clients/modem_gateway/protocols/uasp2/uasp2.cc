@@ -29,7 +29,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bus/message_codec.h"
+#include "bus/messages/message_codec.h"
 #include "bus/version.h"
 #include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/line_reader.h"

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bus/config/scenario.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <set>
+#include <string>
+
+#include "bus/config/carried_files.h"
+#include "bus/transport/receive_filter.h"
+#include "core/files/file_path.h"
+#include "core/limits.h"
+#include "core/names.h"
+
+namespace halocline::bus {
+namespace {
+
+constexpr double kLongestRunS = 3.2e7;  // a year
+
+void visit_battery(ConfigVisitor& v, VehicleBattery& battery) {
+  double capacity_wh = battery.capacity_j / 3600;
+  v.number("capacity_wh", capacity_wh, {0, 1e8, "Wh", "energy when full"});
+  battery.capacity_j = capacity_wh * 3600;
+  v.number("hotel_w", battery.hotel_w, {0, 1e6, "W", "of all that is always on, but the modem"});
+  v.number("listening_w", battery.listening_w, {0, 1e6, "W", "of the modem, always"});
+  v.number("receiving_w", battery.receiving_w, {0, 1e6, "W", "more, while the modem follows a packet"});
+  v.number("transmit_efficiency", battery.transmit_efficiency,
+           {0.001, 1, "", "of amplifier and transducer: acoustic over electric power"});
+  v.number("shaft_efficiency", battery.shaft_efficiency,
+           {0.001, 1, "", "of motor and gear: power of the shafts over electric power"});
+}
+
+void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
+  v.shared_with_others();
+  v.text("name", vehicle.name, {}, "channel suffix; " + std::string(kNameRule));
+  if (!is_valid_name(vehicle.name)) v.problem("name", "allowed is a name of " + std::string(kNameRule));
+  integer_as(v, "id", vehicle.id, {1, 2147483647, "", "unique number of the vehicle"});
+  if (vehicle.id < 1) v.problem("id", "allowed is a whole number from 1");
+  v.file("model", vehicle.model, FileNames::kShipped,
+         "torpedo, hover, remus100-pvs, a model file .toml, fixed (does not move) or external (moved by "
+         "another process)");
+  v.vector3("start_ned_m", vehicle.start_ned_m, {-1e6, 1e6, "m", "position at the start: north, east, down"});
+  degrees(v, "heading_deg", vehicle.heading_rad,
+          {-360, 360, "deg", "heading at the start, clockwise from north"});
+  const bool is_moved = vehicle.model != "fixed" && vehicle.model != "external";
+  v.when(is_moved, "a model that moves", [&] {
+    v.number("speed_mps", vehicle.speed_mps, {-5, 5, "m/s", "speed at the start, forward through the water"});
+  });
+  if (v.writing() ? !vehicle.battery.has_value() : !v.given("battery")) return;
+  VehicleBattery battery = vehicle.battery.value_or(VehicleBattery());
+  v.section("battery", "What it lives on; without this it has all the energy it needs",
+            [&](ConfigVisitor& section) { visit_battery(section, battery); });
+  vehicle.battery = battery;
+}
+
+// The name is used for folders and files.
+bool is_valid_scenario_name(std::string_view name) {
+  constexpr std::size_t kLongest = 64;
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.' || c == ' ';
+  };
+  return !name.empty() && name.size() <= kLongest && std::all_of(name.begin(), name.end(), allowed) &&
+         name.front() != '.' && name.front() != '-' && name.front() != ' ' && name.back() != ' ';
+}
+
+void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {
+  v.file("file", ocean.file, FileNames::kFiles,
+         "CF netCDF with currents, or temperature and salinity, or both; empty: none");
+  if (!ocean.file.empty() && !v.writing()) require_readable(v, "file", ocean.file);
+  v.when(!ocean.file.empty(), "file = \"FILE\"", [&] {
+    v.text("start_date", ocean.start_date, {},
+           "of simulation time 0, as 2026-05-01T06:00:00Z; empty: the file's first time");
+    v.boolean("moves_vehicles", ocean.moves_vehicles,
+              "its currents are added to those of the vehicle simulator");
+    v.boolean("carries_sound", ocean.carries_sound,
+              "sound goes through its temperature and salinity, in place of the profile");
+    v.when(ocean.carries_sound, "carries_sound = true", [&] {
+      seconds(v, "sound_period_s", ocean.sound_period,
+              {1, 1e7, "s", "spans in each of which sound has the water of the span's middle"});
+    });
+  });
+}
+
+// The keys belong to the bathymetry service. They are visited here so that a program that records the
+// configuration knows the files that they name.
+void look_at_rasters(ConfigVisitor& v) {
+  FilePath path;
+  const auto look = [&](ConfigVisitor& raster) {
+    raster.shared_with_others();
+    raster.file("path", path, FileNames::kRasters, "");
+  };
+  const auto look_in = [&](ConfigVisitor& terrain) {
+    terrain.shared_with_others();
+    terrain.section("raster", "", look);
+    terrain.list(
+        "nested", "", 0, [](std::size_t) {},
+        [&](ConfigVisitor& nested, std::size_t) {
+          nested.shared_with_others();
+          nested.section("raster", "", look);
+        });
+  };
+  // The bathymetry service decides whether these keys apply.
+  v.when(false, "the bathymetry service", [&] { v.section("terrain", "", look_in); });
+}
+
+// Two vehicles with the same name would publish on the same channel; with the same id, other vehicles could
+// not tell them apart.
+class VehicleChecks {
+ public:
+  void check(ConfigVisitor& v, const std::vector<VehicleEntry>& vehicles, std::size_t index) {
+    const VehicleEntry& vehicle = vehicles[index];
+    if (!names_.insert(vehicle.name).second)
+      v.problem("name", "an earlier vehicle has this name; names are unique");
+    if (!ids_.insert(vehicle.id).second) v.problem("id", "an earlier vehicle has this id; ids are unique");
+    if (index == kMaxVehicles) {
+      v.problem("name", "the channel server follows " + std::to_string(kMaxVehicles) +
+                            " vehicles, allowed are no more; these are " + std::to_string(vehicles.size()));
+    }
+  }
+
+ private:
+  std::set<std::string, std::less<>> names_;
+  std::set<std::int32_t> ids_;
+};
+
+}  // namespace
+
+const VehicleEntry* Scenario::find(std::string_view vehicle_name) const {
+  const auto found = std::find_if(vehicles.begin(), vehicles.end(),
+                                  [&](const VehicleEntry& vehicle) { return vehicle.name == vehicle_name; });
+  return found == vehicles.end() ? nullptr : &*found;
+}
+
+void visit(ConfigVisitor& v, Scenario& s) {
+  v.section("scenario", "What this is and where", [&](ConfigVisitor& section) {
+    section.text("name", s.name, {}, "short name");
+    if (!is_valid_scenario_name(s.name))
+      section.problem(
+          "name",
+          "allowed are 1 to 64 letters, digits, '_', '-', '.' and spaces, a letter, digit or '_' first");
+    section.text("description", s.description, {}, "one line for a person");
+    integer_as(section, "seed", s.seed, {0, 9e15, "", "seed of all random draws"});
+    seconds(section, "duration_s", s.duration, {0.001, kLongestRunS, "s", "simulated time of a run"});
+    if (!section.writing())
+      s.origin_given = section.given("origin_latitude_deg") || section.given("origin_longitude_deg");
+    if (!section.writing() || s.origin_given) {
+      section.number("origin_latitude_deg", s.origin_latitude_deg,
+                     {-90, 90, "deg", "latitude of the world's origin"});
+      section.number("origin_longitude_deg", s.origin_longitude_deg,
+                     {-180, 360, "deg", "longitude of the world's origin"});
+    }
+    section.number("sea_surface_z_m", s.sea_surface_z_m,
+                   {-100, 100, "m", "z of the sea surface; negative when above the terrain's datum"});
+  });
+  v.section("time", "How simulation time advances", [&](ConfigVisitor& section) {
+    section.number("rate", s.rate, {1e-3, 1e4, "", "simulated seconds per wall second in real time"});
+    seconds(section, "clock_period_s", s.clock_period,
+            {1e-3, 60, "s", "simulated time between CLOCK messages"});
+  });
+  v.section("bus", "Who may publish, and on which multicast groups", [&](ConfigVisitor& section) {
+    section.text(
+        "accept", s.accept, {},
+        "other hosts whose messages are received: any, or addresses and ranges as 10.0.3.7, 10.0.4.0/24; "
+        "empty: any if the bus has ttl=1, none with ttl=0");
+    report_refusal(section, "accept", [&] { accepted_hosts(s.accept, ""); });
+    section.number("tile_m", s.tile_m,
+                   {0, 1e6, "m",
+                    "side of tiles with a multicast group each for what a vehicle's own programs "
+                    "receive, by its start; 0: one group for all"});
+  });
+  v.section("ocean", "The ocean as fields of place and time",
+            [&](ConfigVisitor& section) { visit_ocean(section, s.ocean); });
+  if (!v.writing()) {
+    look_at_rasters(v);
+    // The key belongs to the channel server.
+    v.section("channel_server", "", [&](ConfigVisitor& section) {
+      section.shared_with_others();
+      seconds(section, "state_lag_s", s.state_lag, {0, 10, "s", ""});
+    });
+  }
+  VehicleChecks checks;
+  v.list(
+      "vehicle", "A vehicle", s.vehicles.size(), [&](std::size_t n) { s.vehicles.resize(n); },
+      [&](ConfigVisitor& item, std::size_t i) {
+        visit_vehicle(item, s.vehicles[i]);
+        checks.check(item, s.vehicles, i);
+      });
+}
+
+std::string configuration_of(const ConfigFile& file) {
+  return file.to_toml({"channel_server.shard", "channel_server.shards", "channel_server.threads",
+                       "vehicle_sim.block", "vehicle_sim.blocks", "vehicle_sim.threads"});
+}
+
+}  // namespace halocline::bus

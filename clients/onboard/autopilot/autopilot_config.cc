@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "clients/onboard/autopilot/autopilot_config.h"
+
+#include <algorithm>
+#include <functional>
+#include <initializer_list>
+#include <sstream>
+
+#include "clients/onboard/autopilot/link_seeker.h"
+#include "core/check.h"
+
+namespace halocline::clients {
+namespace {
+
+using bus::ConfigVisitor;
+
+void visit_gains(ConfigVisitor& v, Gains& g) {
+  v.number("heading_p", g.heading_p, {0, 100, "", "rad of rudder per rad of heading"});
+  v.number("heading_d_s", g.heading_d_s, {0, 100, "s", "rad of rudder per rad/s of yaw rate"});
+  v.number("depth_p_rad_per_m", g.depth_p_rad_per_m, {0, 10, "rad/m", "pitch per metre of depth error"});
+  v.number("depth_i_rad_per_m_s", g.depth_i_rad_per_m_s,
+           {0, 10, "rad/(m s)", "pitch per metre and second of depth error"});
+  v.number("pitch_p", g.pitch_p, {0, 100, "", "rad of stern plane per rad of pitch"});
+  v.number("pitch_d_s", g.pitch_d_s, {0, 100, "s", "rad of stern plane per rad/s of pitch rate"});
+  v.number("speed_feed_forward_rpm_s_per_m", g.speed_feed_forward_rpm_s_per_m,
+           {0, 1e5, "rpm s/m", "propeller speed per m/s of set speed"});
+  v.number("speed_p_rpm_s_per_m", g.speed_p_rpm_s_per_m,
+           {0, 1e5, "rpm s/m", "propeller speed per m/s of speed error"});
+  v.number("speed_i_rpm_per_m", g.speed_i_rpm_per_m,
+           {0, 1e5, "rpm/m", "propeller speed per metre of the speed error's integral"});
+  degrees(v, "max_pitch_deg", g.max_pitch_rad, {0, 60, "deg", "maximum set pitch"});
+  degrees(v, "max_fin_deg", g.max_fin_rad, {0, 90, "deg", "maximum rudder and stern plane"});
+  v.number("max_rpm", g.max_rpm, {0, 1e5, "rpm", "maximum propeller speed"});
+}
+
+void visit_hover_gains(ConfigVisitor& v, HoverGains& g) {
+  v.number("position_p_n_per_m", g.position_p_n_per_m, {0.01, 1e5, "N/m", "push per metre of distance"});
+  v.number("position_i_n_per_m_s", g.position_i_n_per_m_s, {0, 1e5, "N/(m s)", "push per metre and second"});
+  v.number("position_d_n_s_per_m", g.position_d_n_s_per_m,
+           {0, 1e6, "N s/m", "push against the speed over ground"});
+  v.number("cruise_n_s2_per_m2", g.cruise_n_s2_per_m2,
+           {0, 1e6, "N s^2/m^2", "push per square of the set speed, on the way"});
+  v.number("heading_p_nm", g.heading_p_nm, {0, 1e6, "N m", "moment per rad of heading"});
+  v.number("heading_d_nm_s", g.heading_d_nm_s, {0, 1e6, "N m s", "moment per rad/s of yaw rate"});
+  v.number("depth_p_n_per_m", g.depth_p_n_per_m, {0.01, 1e5, "N/m", "push per metre of depth"});
+  v.number("depth_i_n_per_m_s", g.depth_i_n_per_m_s,
+           {0, 1e5, "N/(m s)", "push per metre and second of depth"});
+  v.number("depth_d_n_s_per_m", g.depth_d_n_s_per_m, {0, 1e6, "N s/m", "push against the vertical speed"});
+  v.number("pitch_p_nm", g.pitch_p_nm, {0, 1e6, "N m", "moment per rad of pitch"});
+  v.number("pitch_d_nm_s", g.pitch_d_nm_s, {0, 1e6, "N m s", "moment per rad/s of pitch rate"});
+  degrees(v, "max_pitch_deg", g.max_pitch_rad, {0, 60, "deg", "maximum set pitch, on the way"});
+  v.number("min_force_n", g.min_force_n, {0, 1e5, "N", "push below which the heading is kept"});
+  v.number("beside_axis_m", g.beside_axis_m, {0.01, 100, "m", "of the horizontal thrusters"});
+  v.number("from_middle_m", g.from_middle_m, {0.01, 100, "m", "of the vertical thrusters"});
+  v.number("full_thrust_n", g.full_thrust_n, {0.01, 1e6, "N", "of a thruster at full_rpm"});
+  v.number("astern_ratio", g.astern_ratio, {0.01, 1, "", "of its thrust astern"});
+  v.number("full_rpm", g.full_rpm, {1, 1e5, "rpm", "greatest speed of a thruster"});
+}
+
+void visit_glide(ConfigVisitor& v, GlideGains& g) {
+  v.number("shallow_z_m", g.shallow_z_m,
+           {-100, 12000, "m", "z at which a climb ends; a dive ends at the behaviour's depth"});
+  degrees(v, "pitch_deg", g.pitch_rad, {1, 60, "deg", "down on dives, up on climbs"});
+  v.number("volume_m3", g.volume_m3,
+           {0, 1000, "m^3", "of the buoyancy engine, less on dives, more on climbs"});
+  v.number("mass_p_m_per_rad", g.mass_p_m_per_rad,
+           {0, 1000, "m/rad", "place of the moving mass per rad of pitch"});
+  v.number("mass_i_m_per_rad_s", g.mass_i_m_per_rad_s, {0, 1000, "m/(rad s)", "and per rad and second"});
+  v.number("max_mass_m", g.max_mass_m, {0, 1000, "m", "of its place, either way"});
+}
+
+const std::vector<std::string> kKinds{"waypoints", "heading", "loiter",   "survey",
+                                      "follow",    "wait",    "seek_link"};
+
+// Visits keys that apply only to the behaviours of the given kinds.
+void with_kind(ConfigVisitor& v, const Behaviour& b, std::initializer_list<BehaviourKind> kinds,
+               const std::function<void()>& body) {
+  bus::when_one_of(v, "kind", b.kind, kKinds, kinds, body);
+}
+
+void visit_circle(ConfigVisitor& v, Behaviour& b) {
+  using Kind = BehaviourKind;
+  with_kind(v, b, {Kind::kLoiter, Kind::kSurvey, Kind::kSeekLink}, [&] {
+    v.number("center_north_m", b.center_north_m,
+             {-1e6, 1e6, "m", "middle of a loiter or a survey, or of the depths of seek_link"});
+    v.number("center_east_m", b.center_east_m,
+             {-1e6, 1e6, "m", "middle of a loiter or a survey, or of the depths of seek_link"});
+  });
+  with_kind(v, b, {Kind::kLoiter, Kind::kFollow, Kind::kSeekLink}, [&] {
+    v.number("radius_m", b.radius_m,
+             {1, 1e5, "m", "of a loiter, of seek_link, and of a follower's circle without its leader"});
+  });
+  with_kind(v, b, {Kind::kLoiter, Kind::kSeekLink}, [&] {
+    bus::choice(v, "sense", b.sense, {"clockwise", "counterclockwise"}, "of a loiter, seen from above");
+  });
+}
+
+void visit_where(ConfigVisitor& v, Behaviour& b) {
+  using Kind = BehaviourKind;
+  with_kind(v, b, {Kind::kHeading, Kind::kLoiter, Kind::kSurvey}, [&] {
+    v.number("depth_m", b.depth_m, {-100, 12000, "m", "z of heading, loiter and survey"});
+  });
+  v.number("altitude_m", b.altitude_m, {0, 1000, "m", "above the ground instead of a depth; 0: not used"});
+  v.when(b.altitude_m > 0, "altitude_m above 0", [&] {
+    v.number("max_depth_m", b.max_depth_m, {0, 12000, "m", "z never passed on the way to an altitude"});
+  });
+  with_kind(v, b, {Kind::kHeading, Kind::kSurvey}, [&] {
+    degrees(v, "heading_deg", b.heading_rad, {-360, 360, "deg", "of heading, and of a survey's first track"});
+  });
+  visit_circle(v, b);
+  with_kind(v, b, {Kind::kSurvey}, [&] {
+    v.number("length_m", b.length_m, {1, 1e5, "m", "of a survey's box, along its tracks"});
+    v.number("width_m", b.width_m, {0, 1e5, "m", "of a survey's box, across its tracks"});
+    v.number("track_spacing_m", b.track_spacing_m, {0.1, 1e4, "m", "of a survey"});
+    v.number("turn_m", b.turn_m, {0, 1e4, "m", "how far outside of the box a survey's tracks end"});
+  });
+}
+
+void visit_formation(ConfigVisitor& v, Formation& f) {
+  v.text("leader", f.leader, {}, "name of a vehicle with a [vehicle.mission.broadcast]");
+  v.number("along_m", f.along_m, {-1e4, 1e4, "m", "ahead of the leader; below 0: astern"});
+  v.number("across_m", f.across_m, {-1e4, 1e4, "m", "to the leader's starboard"});
+  v.number("below_m", f.below_m, {-1e4, 1e4, "m", "below the leader"});
+  v.number("fresh_for_s", f.fresh_for_s, {1, 60, "s", "age of a report beyond which the leader is lost"});
+  v.number("keep_course_s", f.keep_course_s, {0, 1e5, "s", "how long the last course is then kept"});
+  v.number("safe_depth_m", f.safe_depth_m, {-100, 12000, "m", "z of the circle (radius_m) after that"});
+  v.number("safe_speed_mps", f.safe_speed_mps, {0.01, 50, "m/s", "speed on that circle"});
+  v.number("max_speed_mps", f.max_speed_mps, {0.01, 50, "m/s", "to catch up with"});
+}
+
+void visit_search(ConfigVisitor& v, Behaviour& b) {
+  LinkSearch& s = b.search;
+  v.text("listeners", s.listeners, {}, "vehicles that are to hear it, with spaces between");
+  v.when(b.waypoints.empty(), "no waypoints", [&] {
+    v.number("shallowest_m", s.shallowest_m,
+             {0, 12000, "m", "z of the first depth, where there are no waypoints"});
+    v.number("deepest_m", s.deepest_m, {0, 12000, "m", "z of the last"});
+    v.number("step_m", s.step_m, {0.1, 1000, "m", "between them"});
+  });
+  v.number("period_s", s.period_s, {2, 1e5, "s", "between questions where it is best heard"});
+  v.number("least_gain", s.least_gain, {0, 1, "", "of the delivery probability, for which it moves"});
+}
+
+// Checks that a behaviour that seeks a link has listeners and places to choose from.
+void check_search(ConfigVisitor& v, const Behaviour& b) {
+  constexpr std::size_t kMaxLinks = 1600;  // limit on listeners times places in best_place_query_t
+  const std::size_t listeners = listeners_of(b.search).size();
+  if (listeners == 0) v.problem("search.listeners", "at least one vehicle, with kind = seek_link");
+  if (b.waypoints.empty() && b.search.deepest_m < b.search.shallowest_m)
+    v.problem("search.deepest_m", "shallowest_m or more");
+  else if (places_of(b).size() * listeners > kMaxLinks)
+    v.problem("search.listeners", "at most 1600 listeners times places or depths");
+}
+
+void visit_behaviour(ConfigVisitor& v, Behaviour& b) {
+  using Kind = BehaviourKind;
+  bus::choice(v, "kind", b.kind, kKinds, "what is done");
+  with_kind(v, b, {Kind::kWaypoints, Kind::kSeekLink}, [&] {
+    v.points("waypoints", b.waypoints,
+             {-1e6, 1e6, "m", "of waypoints, or the places of seek_link: north, east, down of each"});
+  });
+  with_kind(v, b, {Kind::kHeading, Kind::kLoiter, Kind::kFollow, Kind::kWait, Kind::kSeekLink}, [&] {
+    v.number("duration_s", b.duration_s,
+             {0, 1e7, "s", "of heading, loiter, follow, wait and seek_link; 0: for ever"});
+  });
+  v.number("speed_mps", b.speed_mps, {0, 50, "m/s", "through the water; 0: the mission's"});
+  visit_where(v, b);
+  with_kind(v, b, {Kind::kFollow}, [&] {
+    v.section("formation", "kind = follow: the place beside a leader, kept by its acoustic reports",
+              [&](ConfigVisitor& formation) { visit_formation(formation, b.formation); });
+  });
+  with_kind(v, b, {Kind::kSeekLink}, [&] {
+    v.section("search", "kind = seek_link: who is to hear it, and at which depths it may be",
+              [&](ConfigVisitor& search) { visit_search(search, b); });
+  });
+  if (!v.writing() && b.kind == BehaviourKind::kSeekLink) check_search(v, b);
+  if (!v.writing() && b.kind == BehaviourKind::kWaypoints && b.waypoints.empty())
+    v.problem("waypoints", "at least one point [north, east, down], with kind = waypoints");
+}
+
+void visit_behaviours(ConfigVisitor& v, PilotConfig& pilot) {
+  v.list(
+      "behaviour", "What is done one after another, instead of the mission's waypoints",
+      pilot.behaviours.size(), [&](std::size_t n) { pilot.behaviours.resize(n); },
+      [&](ConfigVisitor& item, std::size_t i) { visit_behaviour(item, pilot.behaviours[i]); });
+  if (!v.writing() && !pilot.behaviours.empty() && !pilot.mission.waypoints.empty())
+    v.problem("waypoints", "none beside [[vehicle.mission.behaviour]]; give them to a behaviour");
+}
+
+void visit_navigator(ConfigVisitor& v, PilotConfig& pilot) {
+  NavigatorRules& rules = pilot.navigator;
+  AcousticFixRules& fix = pilot.acoustic_fix;
+  v.number("log_drift_mps", rules.log_drift_mps, {0, 10, "m/s", "by the speed through the water: currents"});
+  v.number("ground_drift", rules.ground_drift, {0, 1, "", "metres a metre by the speed over ground"});
+  v.number("start_deviation_m", rules.start_deviation_m, {0, 1e4, "m", "of the place at the start"});
+  bus::degrees(v, "gyro_bias_degps", rules.gyro_bias_radps,
+               {0, 10, "deg/s", "at most, of a gyro that carries the heading on without a compass"});
+  bus::seconds(v, "dvl_fresh_for_s", pilot.dvl_fresh_for,
+               {0, 60, "s", "how long a Doppler log's velocity is used; then the speed through the water"});
+  v.text("usbl_beacons", pilot.usbl_beacons, {},
+         "vehicles that do not move, with spaces between: by bearings of their stamped packets");
+  v.when(!pilot.usbl_beacons.empty(), "usbl_beacons", [&] {
+    v.number("sound_speed_mps", fix.sound_speed_mps, {1300, 1700, "m/s", "mean, for ranges to beacons"});
+    bus::degrees(v, "heading_deviation_deg", fix.heading_deviation_rad,
+                 {0, 90, "deg", "of the compass, for bearings of beacons"});
+    v.number("range_deviation", fix.range_deviation, {0, 1, "", "of a beacon's range, relative"});
+  });
+}
+
+void visit_broadcast(ConfigVisitor& v, Broadcast& broadcast) {
+  double period_s = broadcast.period.seconds(), start_s = broadcast.start.seconds();
+  v.number("period_s", period_s, {0, 3600, "s", "between reports of 17 bytes; 0: none"});
+  v.when(period_s > 0, "period_s above 0", [&] {
+    v.number("start_s", start_s, {0, 1e7, "s", "time of the first, by the vehicle's clock"});
+  });
+  broadcast = {SimDuration::from_seconds(period_s), SimTime::from_seconds(start_s)};
+}
+
+const std::vector<std::string> kEnds{"loop", "hold", "stop", "surface"};
+const std::vector<std::string> kSteerings{"fins", "thrusters", "buoyancy"};
+
+// Visits the gains of the chosen steering. A glider's rudder uses the gains of fin steering.
+void visit_control(ConfigVisitor& v, PilotConfig& pilot) {
+  const auto with = [&](std::initializer_list<Steering> steerings, const std::function<void()>& body) {
+    bus::when_one_of(v, "steering", pilot.steering, kSteerings, steerings, body);
+  };
+  with({Steering::kFins, Steering::kBuoyancy}, [&] {
+    v.section("gains", "Gains with fins; the defaults suit torpedo and remus100-pvs",
+              [&](ConfigVisitor& gains) { visit_gains(gains, pilot.gains); });
+  });
+  with({Steering::kThrusters}, [&] {
+    v.section("hover_gains", "Gains with thrusters; the defaults suit hover",
+              [&](ConfigVisitor& gains) { visit_hover_gains(gains, pilot.hover_gains); });
+  });
+  with({Steering::kBuoyancy}, [&] {
+    v.section("glide", "The sawtooth, with steering = buoyancy; the defaults suit glider",
+              [&](ConfigVisitor& glide) { visit_glide(glide, pilot.glide); });
+  });
+}
+
+void visit_mission(ConfigVisitor& v, PilotConfig& pilot) {
+  Mission& m = pilot.mission;
+  v.points("waypoints", m.waypoints,
+           {-1e6, 1e6, "m",
+            "north, east, down of each waypoint; without these and behaviours the vehicle is not piloted"});
+  v.number("speed_mps", m.speed_mps, {0.01, 50, "m/s", "speed through the water"});
+  bus::choice(
+      v, "at_end", m.at_end, kEnds,
+      "after the last waypoint: start again, circle it (with thrusters: stay at it), stop, or stop and rise "
+      "by buoyancy engine and drop weight");
+  v.number("acceptance_radius_m", m.acceptance_radius_m,
+           {0.1, 1e4, "m", "horizontal distance at which a waypoint counts as reached"});
+  bus::when_one_of(v, "at_end", m.at_end, kEnds, {AtEnd::kHold}, [&] {
+    v.number("hold_radius_m", m.hold_radius_m, {1, 1e5, "m", "radius of the circle round the last waypoint"});
+  });
+  v.number("lookahead_m", m.lookahead_m, {0.1, 1e4, "m", "how far ahead on the leg the vehicle aims"});
+  v.number("min_altitude_m", m.min_altitude_m,
+           {0, 1000, "m", "least height above the seabed, where the altimeter sees it"});
+  v.number("ground_ahead_m", pilot.ground_ahead_m, {0, 1000, "m", "how far ahead the ground is looked at"});
+  bus::choice(
+      v, "steering", pilot.steering, kSteerings,
+      "what steers it: propeller and fins, thrusters as hover has them, or buoyancy, moving mass and rudder");
+  bus::choice(v, "navigate_by", pilot.navigate_by, {"state", "sensors"},
+              "source of its position: the true state, or dead reckoning by its own sensors");
+  v.when(pilot.navigate_by == NavigateBy::kSensors, "navigate_by = \"sensors\"", [&] {
+    v.section("navigator", "Uncertainty of dead reckoning, with navigate_by = sensors",
+              [&](ConfigVisitor& navigator) { visit_navigator(navigator, pilot); });
+  });
+  v.section("broadcast", "Its position reports, sent by modem to its followers",
+            [&](ConfigVisitor& broadcast) { visit_broadcast(broadcast, pilot.broadcast); });
+  visit_control(v, pilot);
+  visit_behaviours(v, pilot);
+}
+
+void visit_vehicle(ConfigVisitor& v, PilotConfig& pilot) {
+  v.shared_with_others();
+  v.text("name", pilot.vehicle, {}, "");
+  bus::integer_as(v, "id", pilot.vehicle_id, {1, 2147483647, "", ""});
+  v.vector3("start_ned_m", pilot.start_ned_m, {-1e6, 1e6, "m", ""});
+  if (!v.given("mission")) return;
+  v.section("mission", "What the autopilot does with this vehicle",
+            [&](ConfigVisitor& mission) { visit_mission(mission, pilot); });
+}
+
+void check_leaders(ConfigVisitor& v, const AutopilotConfig& config) {
+  for (const PilotConfig& follower : config.vehicles) {
+    for (const Behaviour& behaviour : follower.behaviours) {
+      const std::string& name = behaviour.formation.leader;
+      if (behaviour.kind != BehaviourKind::kFollow || find_leader(config, name)) continue;
+      v.problem("vehicle", "for the formation of " + follower.vehicle +
+                               " a leader that broadcasts (broadcast.period_s above 0); given is '" + name +
+                               "'");
+    }
+  }
+}
+
+void check_listeners(ConfigVisitor& v, const AutopilotConfig& config) {
+  for (const PilotConfig& seeker : config.vehicles) {
+    for (const Behaviour& behaviour : seeker.behaviours) {
+      if (behaviour.kind != BehaviourKind::kSeekLink) continue;
+      for (const std::string& name : listeners_of(behaviour.search)) {
+        const auto listener = std::ranges::find(config.vehicles, name, &PilotConfig::vehicle);
+        if (listener == config.vehicles.end() || name == seeker.vehicle)
+          v.problem("vehicle", "for the search.listeners of " + seeker.vehicle +
+                                   " other vehicles of the scenario; given is '" + name + "'");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::map<std::int32_t, Vec3> beacons_of(const AutopilotConfig& config, const PilotConfig& pilot) {
+  std::map<std::int32_t, Vec3> beacons;
+  std::istringstream names(pilot.usbl_beacons);
+  for (std::string name; names >> name;) {
+    const auto found = std::ranges::find(config.vehicles, name, &PilotConfig::vehicle);
+    require(found != config.vehicles.end() && name != pilot.vehicle,
+            "vehicle " + pilot.vehicle + ": mission.navigator.usbl_beacons names '" + name +
+                "'; allowed are other vehicles of the scenario, with spaces between");
+    beacons[found->vehicle_id] = found->start_ned_m;
+  }
+  return beacons;
+}
+
+const PilotConfig* find_leader(const AutopilotConfig& config, const std::string& name) {
+  for (const PilotConfig& vehicle : config.vehicles) {
+    if (vehicle.vehicle == name && vehicle.broadcast.period > SimDuration()) return &vehicle;
+  }
+  return nullptr;
+}
+
+void visit(ConfigVisitor& v, AutopilotConfig& config) {
+  v.section("autopilot", "The pilots of all vehicles with a mission", [&](ConfigVisitor& section) {
+    bus::seconds(section, "command_period_s", config.command_period,
+                 {0.001, 10, "s", "simulated time between commands"});
+    bus::seconds(section, "state_timeout_s", config.state_timeout,
+                 {0.01, 3600, "s", "age of a vehicle's state beyond which it is not steered"});
+    section.text("only_vehicle", config.only_vehicle, {}, "pilot only this one; empty: all with a mission");
+  });
+  v.list(
+      "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
+      [&](ConfigVisitor& item, std::size_t i) { visit_vehicle(item, config.vehicles[i]); });
+  if (v.writing()) return;
+  visit(v, config.clocks);
+  check_leaders(v, config);
+  check_listeners(v, config);
+}
+
+}  // namespace halocline::clients

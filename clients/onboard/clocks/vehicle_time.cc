@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "clients/onboard/clocks/vehicle_time.h"
+
+#include <algorithm>
+
+#include "bus/messages/channels.h"
+#include "bus/messages/messages.h"
+#include "bus/transport/subscription.h"
+
+namespace halocline::clients {
+namespace {
+
+// Fixes kept of each vehicle for a node that is restarted: the latest one, and those that do not apply yet.
+constexpr std::ptrdiff_t kFixesKept = 16;
+// Bound on the rate of a clock, s/s; only its random walk may exceed it (VehicleClocks).
+constexpr double kFastest = 1.001;
+
+SimTime whole_microsecond_from(SimTime time) {
+  return SimTime::from_utime((time + SimDuration::from_nanoseconds(499)).to_utime());
+}
+
+}  // namespace
+
+VehicleTime::VehicleTime(bus::Bus& bus, const ClockSetConfig& config)
+    : clocks_(config.clocks, config.seed, config.fix_lag), fix_lag_(config.fix_lag) {
+  for (const channel_server::ClockOf& clock : config.clocks) {
+    owners_.insert(clock.id);
+    if (!clock.settings.is_set_by_gps) continue;
+    bus.subscribe<vehicle_gps_t>(
+        bus::channels::kGps.of(clock.vehicle),
+        [this, vehicle = clock.vehicle](const vehicle_gps_t& fix) { add_fix(vehicle, fix.utime); },
+        bus::Wakeup::kMayAdvanceDue);
+  }
+}
+
+void VehicleTime::add_fix(std::string_view vehicle, std::int64_t utime) {
+  clocks_.add_fix(vehicle, SimTime::from_utime(utime));
+  fixes_.emplace_back(vehicle, utime);
+  const auto is_of_it = [&](const Fix& fix) { return fix.first == vehicle; };
+  if (std::count_if(fixes_.begin(), fixes_.end(), is_of_it) > kFixesKept)
+    fixes_.erase(std::find_if(fixes_.begin(), fixes_.end(), is_of_it));
+}
+
+SimTime VehicleTime::shown(std::int32_t vehicle_id, SimTime at) const {
+  return has_clock(vehicle_id) ? at + SimDuration::from_seconds(clocks_.error_s(vehicle_id, at)) : at;
+}
+
+// Advances by steps in which the clock cannot have passed the wanted reading, of at least a microsecond. If
+// its random walk runs ahead meanwhile, the result is late. A received fix sets the clock within the lag, so
+// the first step ends there at the latest.
+SimTime VehicleTime::due(std::int32_t vehicle_id, SimTime shown_time) const {
+  const bool is_instant = shown_time != SimTime::never() && shown_time != SimTime::at_once();
+  if (!is_instant || !has_clock(vehicle_id)) return shown_time;
+  constexpr double kMicrosecond_s = 1e-6;
+  const SimTime set = now_ + fix_lag_;
+  SimTime at = now_;
+  for (double left_s = (shown_time - shown(vehicle_id, at)).seconds(); left_s > 0;
+       left_s = (shown_time - shown(vehicle_id, at)).seconds()) {
+    const SimTime next = at + SimDuration::from_seconds(std::max(left_s / kFastest, kMicrosecond_s));
+    at = whole_microsecond_from(at < set ? std::min(next, set) : next);
+  }
+  return at;
+}
+
+SimTime VehicleTime::instant_of(std::int32_t vehicle_id, SimTime shown_time, SimTime now) const {
+  return now - (shown(vehicle_id, now) - shown_time);
+}
+
+void VehicleTime::restart(SimTime now) {
+  clocks_.clear();
+  fixes_.clear();
+  now_ = now;
+}
+
+void VehicleTime::archive(Archive& a) {
+  a(fixes_, now_);
+  if (!a.is_loading()) return;
+  for (const auto& [vehicle, utime] : fixes_) clocks_.add_fix(vehicle, SimTime::from_utime(utime));
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/link_survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "acoustics/fading/reverberation.h"
+#include "acoustics/fading/sound_path.h"
+#include "acoustics/link/link_budget.h"
+#include "acoustics/link/received_field.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/sea/environment.h"
+#include "acoustics/sea/published_range.h"
+#include "bathymetry/ray_service.h"
+#include "bathymetry/terrain/terrain.h"
+#include "bus/config/scenario.h"
+#include "channel_server/channel_server_config.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/terrain_rays.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "core/check.h"
+#include "core/csv_table.h"
+#include "core/elementary.h"
+#include "core/sim_time.h"
+#include "core/units.h"
+#include "simulation/link_surveyor.h"
+
+namespace halocline::clients {
+namespace {
+
+using channel_server::RayAnswer;
+using channel_server::TerrainRay;
+
+RayAnswer::Kind kind_of(bathymetry::RayStatus status) {
+  using Status = bathymetry::RayStatus;
+  switch (status) {
+    case Status::kHit:
+      return RayAnswer::Kind::kHit;
+    case Status::kMiss:
+      return RayAnswer::Kind::kMiss;
+    case Status::kOutside:
+      return RayAnswer::Kind::kOutside;
+    case Status::kNoData:
+      return RayAnswer::Kind::kNoData;
+    case Status::kStartedBelowBottom:
+      return RayAnswer::Kind::kBelowBottom;
+    case Status::kBadInput:
+      break;
+  }
+  return RayAnswer::Kind::kBadInput;
+}
+
+std::vector<RayAnswer> query(const bathymetry::Terrain& terrain, bathymetry::QueryMode mode,
+                             const std::vector<TerrainRay>& rays, double spacing_m = 0) {
+  if (rays.empty()) return {};
+  bathymetry::RayBatch batch{.mode = mode, .sample_spacing_m = spacing_m};
+  for (const TerrainRay& ray : rays) batch.rays.push_back({ray.origin_ned_m, ray.direction, ray.max_range_m});
+  const auto answers = bathymetry::answer(terrain, bathymetry::version_text(terrain.version()), batch);
+  std::vector<RayAnswer> out;
+  for (std::size_t i = 0; i < answers.statuses.size(); ++i) {
+    out.push_back({kind_of(answers.statuses[i]), answers.results_m[i]});
+  }
+  return out;
+}
+
+bool parse_position(const std::string& text, Vec3& position) {
+  std::istringstream in(text);
+  std::string part;
+  int count = 0;
+  for (; std::getline(in, part, ','); ++count) {
+    if (count == 3) return false;
+    const auto number = parse_number(part);
+    if (!number) return false;
+    position[count] = *number;
+  }
+  return count == 3;
+}
+
+// Returns measured taps as arrivals. A measured level does not tell its causes apart: all of the loss counts
+// as spreading.
+acoustics::Arrivals measured_arrivals(const channel_server::Reception& reception, Decibels source_level) {
+  acoustics::Arrivals arrivals;
+  for (const channel_server::SoundPath& tap : reception.paths) {
+    acoustics::Arrival path;
+    path.delay_s = tap.delay_s;
+    path.amplitude = elementary::exp10((tap.level - source_level).value / 20);
+    path.phase_rad = tap.phase_rad;
+    arrivals.paths.push_back(path);
+  }
+  return arrivals;
+}
+
+// Returns the single straight path as an arrival. The transmission loss without absorption and beam patterns
+// is its spreading loss:
+//   amplitude = 10^((absorption_db + beam_loss_db - transmission_loss_db) / 20)
+acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
+                                     const acoustics::Transducers& beams) {
+  const acoustics::LinkBudget& budget = reception.budget;
+  acoustics::Arrival path;
+  path.delay_s = budget.delay_s;
+  path.path_length_m = budget.range_m;
+  path.absorption_db = budget.absorption_db_per_km * budget.range_m / 1000;
+  path.launch_angle_rad = reception.paths.front().launch_angle_rad;
+  path.arrival_angle_rad = reception.paths.front().arrival_angle_rad;
+  const Decibels weighed =
+      beams.source.loss(path.launch_angle_rad) + beams.receiver.loss(-path.arrival_angle_rad);
+  path.amplitude =
+      elementary::exp10((path.absorption_db + weighed.value - budget.transmission_loss.value) / 20);
+  return {.paths = {path}};
+}
+
+// Describes the paths of a reception, for any propagation model.
+LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to,
+                           const channel_server::Reception& reception, acoustics::Arrivals arrivals) {
+  const Vec3 way = to.position_ned_m - from.position_ned_m;
+  const double surface_z_m = config.scenario.sea_surface_z_m;
+  LinkArrivals all{
+      .link = {depth_below_surface_m(from.position_ned_m, surface_z_m),
+               depth_below_surface_m(to.position_ned_m, surface_z_m), elementary::hypot(way.x(), way.y())},
+      .arrivals = std::move(arrivals)};
+  all.modems_known = true;
+  all.beams = {from.modem.modem.beam, to.modem.modem.beam};
+  all.blocked = reception.state == channel_server::PathState::kBlocked;
+  if (reception.measured)
+    all.found_by = "measured";
+  else if (!is_along_rays(reception.used))
+    all.found_by = "straight";
+  for (const channel_server::SoundPath& path : reception.paths) {
+    if (!is_reverberation(path)) all.received.push_back({path.level.value, path.doppler_factor});
+  }
+  return all;
+}
+
+acoustics::Arrivals arrivals_of(LinkSurveyor& surveyor, const channel_server::LinkEnd& from,
+                                const channel_server::LinkEnd& to,
+                                const channel_server::Reception& reception) {
+  if (reception.measured) return measured_arrivals(reception, from.modem->source_level);
+  if (is_along_rays(reception.used)) return surveyor.arrivals(from, to);
+  return reception.paths.empty() ? acoustics::Arrivals()
+                                 : straight_arrival(reception, {from.modem->beam, to.modem->beam});
+}
+
+channel_server::Multipath echo_likelihood(const ScenarioConfig& config, const bathymetry::Terrain& terrain,
+                                          const LinkSurveyEnd& from, const LinkSurveyEnd& to,
+                                          channel_server::Propagation& propagation) {
+  const auto echoes = survey_echoes(terrain, from.position_ned_m, to.position_ned_m,
+                                    config.channel_server.rules.bottom_points);
+  return multipath_of(echoes, /*reversed=*/false, SimTime(), propagation, from.modem.modem, to.modem.modem);
+}
+
+// Returns remarks that a reader of the prediction needs.
+std::vector<std::string> notes_of(const ScenarioConfig& config, const bathymetry::Terrain& terrain,
+                                  const LinkSurveyEnd& from, const LinkSurveyEnd& to,
+                                  LinkSurveyor& surveyor) {
+  const acoustics::Environment& environment = surveyor.propagation().environment(SimTime());
+  std::vector<std::string> notes = acoustics::beyond_published_ranges(
+      environment, from.modem.modem.band(),
+      std::max(depth_below_surface_m(from.position_ned_m, environment.sea_surface_z_m),
+               depth_below_surface_m(to.position_ned_m, environment.sea_surface_z_m)));
+  if (!surveyor.along_rays() && is_cut(terrain, from.position_ned_m, to.position_ned_m))
+    notes.emplace_back(
+        "the terrain stands in the straight line: propagation.model = straight knows no terrain");
+  const bool has_position = from.id == 0 || to.id == 0;
+  if (has_position && config.channel_server.propagation.replay.is_wanted())
+    notes.emplace_back("measured channels hold between vehicles: a link with a position is modelled");
+  return notes;
+}
+
+}  // namespace
+
+Vec3 parse_vector(const std::string& text, const std::string& what) {
+  Vec3 vector;
+  require(parse_position(text, vector), what + " is '" + text + "'; allowed is north,east,down");
+  return vector;
+}
+
+LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text) {
+  const auto modems = make_modems(config.channel_server);
+  LinkSurveyEnd end{.name = text, .modem = modems.standard};
+  if (const bus::VehicleEntry* vehicle = config.scenario.find(text)) {
+    end.position_ned_m = vehicle->start_ned_m;
+    end.id = vehicle->id;
+    end.modem = modems.of(text);
+  } else {
+    require(parse_position(text, end.position_ned_m),
+            "'" + text +
+                "' is no link end; allowed is the name of a vehicle of the scenario, or "
+                "north,east,down in metres");
+  }
+  require(depth_below_surface_m(end.position_ned_m, config.scenario.sea_surface_z_m) >= 0,
+          "'" + text + "' lies above the sea surface");
+  return end;
+}
+
+std::optional<double> seabed_z_m(const bathymetry::Terrain& terrain, const Vec3& place_ned_m) {
+  const auto depth = terrain.held_depth_at(place_ned_m.x(), place_ned_m.y());
+  return depth ? std::optional(depth->z_m) : std::nullopt;
+}
+
+void require_above_seabed(const bathymetry::Terrain& terrain, const LinkSurveyEnd& end) {
+  const auto seabed_m = seabed_z_m(terrain, end.position_ned_m);
+  require(!seabed_m || end.position_ned_m.z() <= *seabed_m,
+          "'" + end.name + "' lies inside the seabed: z is " + format_number(end.position_ned_m.z()) +
+              " m, that of the seabed there " + format_number(std::round(100 * seabed_m.value_or(0)) / 100) +
+              " m");
+}
+
+bool is_cut(const bathymetry::Terrain& terrain, const Vec3& from_ned_m, const Vec3& to_ned_m) {
+  const Vec3 way = to_ned_m - from_ned_m;
+  const double length = way.norm() - channel_server::EchoSurvey::kShortOfBottomM;
+  if (length <= 0) return false;
+  return query(terrain, bathymetry::QueryMode::kOccluded, {{from_ned_m, way, length}}).front().kind ==
+         RayAnswer::Kind::kHit;
+}
+
+channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
+                                         const Vec3& to_ned_m, int bottom_points) {
+  channel_server::EchoSurvey survey(from_ned_m, to_ned_m, bottom_points);
+  survey.take_depths(query(terrain, bathymetry::QueryMode::kDepth, survey.depth_rays()));
+  survey.take_ways(query(terrain, bathymetry::QueryMode::kOccluded, survey.way_rays()));
+  return survey;
+}
+
+void answer_requests(const bathymetry::Terrain& terrain, channel_server::SeabedMap& seabed) {
+  for (channel_server::TileSurvey& tile : seabed.take_requests()) {
+    static_assert(bathymetry::kTileSide == channel_server::kTileSide);
+    tile.take(query(terrain, bathymetry::QueryMode::kDepthTiles, tile.rays(), tile.spacing_m()));
+    seabed.store(tile);
+  }
+}
+
+LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to) {
+  const auto terrain = make_terrain(config).terrain;
+  require_above_seabed(*terrain, from);
+  require_above_seabed(*terrain, to);
+  const acoustics::Modem &transmitter = from.modem.modem, &receiver = receiving_modem(to.modem, transmitter);
+  // The transmitter's id only selects the direction in which paths are searched, so a link to a position has
+  // none.
+  const channel_server::VehicleId from_id = to.id == 0 ? 0 : from.id;
+  const channel_server::LinkEnd here{from_id, from.position_ned_m, from.velocity_ned_mps, &transmitter};
+  const channel_server::LinkEnd there{to.id, to.position_ned_m, to.velocity_ned_mps, &receiver};
+  LinkSurveyor surveyor(config, terrain, read_water(config.channel_server, config.scenario));
+  LinkSurvey answer;
+  answer.notes = notes_of(config, *terrain, from, to, surveyor);
+  auto [reception, forecast] = surveyor.survey(here, there);
+  answer.reception = std::move(reception);
+  answer.forecast = forecast;
+  answer.arrivals =
+      link_arrivals(config, from, to, answer.reception, arrivals_of(surveyor, here, there, answer.reception));
+  answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
+  answer.multipath = surveyor.along_rays()
+                         ? multipath_of(answer.reception, receiver.min_receivable_level)
+                         : echo_likelihood(config, *terrain, from, to, surveyor.propagation());
+  return answer;
+}
+
+}  // namespace halocline::clients
