@@ -80,7 +80,8 @@ TEST(FoxgloveSession, AdvertisesAndSendsWhatIsSubscribed) {
   EXPECT_EQ(client.texts[3]["channels"][0]["topic"], "/vehicles/auv-1/position");
   ASSERT_EQ(client.data.size(), 1u);  // the time
   client.session.take(
-      R"({"op":"subscribe","subscriptions":[{"id":7,"channelId":1},{"id":8,"channelId":3},{"id":9,"channelId":2}]})");
+      R"({"op":"subscribe","subscriptions":[{"id":7,"channelId":1},{"id":8,"channelId":3},{"id":9,)"
+      R"("channelId":2}]})");
   client.session.tick(0.2, true, mission, SimTime::from_seconds(12));
   ASSERT_EQ(client.data.size(), 4u);
   EXPECT_EQ(client.data[2].substr(0, 5), std::string("\1\7\0\0\0", 5));

@@ -255,7 +255,8 @@ class MissionChart {
                             px(cx - 4.5), px(cy - 4.5), colour_of(vehicle), text));
       else
         overlay(fmt::format(
-            R"svg(<path d="M0-8L5.5 6L0 3L-5.5 6Z" transform="translate({} {}) rotate({})" class="vehicle {}">{}</path>)svg",
+            R"svg(<path d="M0-8L5.5 6L0 3L-5.5 6Z" transform="translate({} {}) rotate({})" )svg"
+            R"svg(class="vehicle {}">{}</path>)svg",
             px(cx), px(cy), px(to_degrees(last.attitude.yaw)), colour_of(vehicle), text));
       draw_name(vehicle.name, cx, cy - 6);
     }
@@ -283,12 +284,14 @@ class MissionChart {
     const double left = picture_.left_px + 14, bottom = picture_.height_px - picture_.bottom_px - 16;
     const double right = left + x(length_m) - x(0.0);
     overlay(fmt::format(
-        R"(<path d="M{0} {1}v6H{2}v-6" class="scale"/><text x="{3}" y="{4}" text-anchor="middle" class="name">{5}</text>)",
+        R"(<path d="M{0} {1}v6H{2}v-6" class="scale"/>)"
+        R"(<text x="{3}" y="{4}" text-anchor="middle" class="name">{5}</text>)",
         px(left), px(bottom - 6), px(right), px((left + right) / 2), px(bottom - 9),
         distance_text(length_m)));
     const double nx = picture_.left_px + 20, ny = picture_.top_px + 40;
     overlay(fmt::format(
-        R"(<path d="M{0} {1}v-26m-5 8l5-9l5 9" class="scale"/><text x="{0}" y="{2}" text-anchor="middle" class="name">N</text>)",
+        R"(<path d="M{0} {1}v-26m-5 8l5-9l5 9" class="scale"/>)"
+        R"(<text x="{0}" y="{2}" text-anchor="middle" class="name">N</text>)",
         px(nx), px(ny), px(ny + 14)));
   }
 

@@ -46,7 +46,8 @@ class Lanes {
     const double height = rows_ * row_height() - kRowGap_px;
     return {
         fmt::format(
-            R"(<svg viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img" aria-label="Time line of packets">)",
+            R"(<svg viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img" aria-label="Time )"
+            R"(line of packets">)",
             px(kWidth_px), px(height)) +
             svg + "</svg>\n",
         note()};
@@ -163,7 +164,8 @@ class Lanes {
     std::string svg;
     for (double t = std::ceil(row_.begin_s / axis.step_s) * axis.step_s; t <= row_.end_s; t += axis.step_s) {
       svg += fmt::format(
-          R"(<path d="M{0} {1}V{2}" class="grid"/><text x="{0}" y="{3}" text-anchor="middle" class="tick">{4:g} {5}</text>)",
+          R"(<path d="M{0} {1}V{2}" class="grid"/>)"
+          R"(<text x="{0}" y="{3}" text-anchor="middle" class="tick">{4:g} {5}</text>)",
           px(x(t)), px(top_), px(bottom), px(bottom + 16), t / axis.unit_s, axis.unit);
     }
     return svg;

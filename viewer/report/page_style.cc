@@ -14,14 +14,19 @@ namespace {
 
 constexpr const char* kStyle =
     R"css(:root { --paper: #fbfaf6; --ink: #1b2327; --quiet: #5d6a71; --line: #dcd9d0; --accent: #0a6a8c;
-  --ground: #d9d1be; --ground-edge: #8b7f66; --water: #e6eff0; --hatch: #fbfaf6; --soft: #f0eee7; --contour: #14262c; --arrived: .55; --casing: #fff; color-scheme: light dark; }
-@media (prefers-color-scheme: dark) { :root { --paper: #0d1316; --ink: #e4e9eb; --quiet: #93a0a7; --line: #28333a; --accent: #63c4e3;
-  --ground: #3d382d; --ground-edge: #9a8d72; --water: #10242b; --hatch: #0d1316; --soft: #151d21; --contour: #14262c; --arrived: .8; --casing: #0b1a20; --c-no_path: #4d9fd0; }
+  --ground: #d9d1be; --ground-edge: #8b7f66; --water: #e6eff0; --hatch: #fbfaf6; --soft: #f0eee7;
+    --contour: #14262c; --arrived: .55; --casing: #fff; color-scheme: light dark; }
+@media (prefers-color-scheme: dark) { :root { --paper: #0d1316; --ink: #e4e9eb; --quiet: #93a0a7;
+  --line: #28333a; --accent: #63c4e3;
+  --ground: #3d382d; --ground-edge: #9a8d72; --water: #10242b; --hatch: #0d1316; --soft: #151d21;
+    --contour: #14262c; --arrived: .8; --casing: #0b1a20; --c-no_path: #4d9fd0; }
   svg image { filter: brightness(.86); } }
 * { box-sizing: border-box; }
-body { margin: 0; background: var(--paper); color: var(--ink); font: 1rem/1.5 system-ui, sans-serif; font-variant-numeric: tabular-nums;
+body { margin: 0; background: var(--paper); color: var(--ink); font: 1rem/1.5 system-ui, sans-serif;
+  font-variant-numeric: tabular-nums;
   -webkit-text-size-adjust: 100%; }
-main { max-width: 1180px; margin: 0 auto; padding: 2rem 1.5rem 4rem; display: grid; grid-template-columns: 656px minmax(0, 1fr); gap: 2.2rem 2.2rem; }
+main { max-width: 1180px; margin: 0 auto; padding: 2rem 1.5rem 4rem; display: grid;
+  grid-template-columns: 656px minmax(0, 1fr); gap: 2.2rem 2.2rem; }
 main > * { grid-column: 1 / -1; min-width: 0; }
 main:not(.two) { grid-template-rows: auto auto auto 1fr; }
 main:not(.two) > #chart { grid-column: 1; grid-row: 2 / span 3; }
@@ -65,7 +70,8 @@ tr:target, g:target { scroll-margin-top: 40vh; }
 .legend { margin: .5rem 0 .3rem; }
 .matrix th, .matrix td { text-align: center; padding: .35rem .4rem; white-space: nowrap; }
 .matrix tr > th:first-child { text-align: left; padding-left: 0; }
-.matrix .cell { background: color-mix(in srgb, #009e73 calc(var(--share) * 46%), var(--soft)); border: 2px solid var(--paper); min-width: 4rem; }
+.matrix .cell { background: color-mix(in srgb, #009e73 calc(var(--share) * 46%), var(--soft));
+  border: 2px solid var(--paper); min-width: 4rem; }
 .matrix b { display: block; font-size: 1rem; font-weight: 650; }
 .matrix small { display: block; font-size: .8125rem; line-height: 1.3; white-space: nowrap; }
 .ledger .share { width: 100%; padding-right: 0; vertical-align: middle; }
@@ -103,17 +109,23 @@ svg .fault text { fill: #d55e00; }
 .time { fill: var(--casing); stroke: currentColor; stroke-width: 1.2; }
 .vehicle { fill: currentColor; stroke: var(--casing); stroke-width: 1.4; stroke-linejoin: round; }
 .link { stroke: #fff; stroke-opacity: .5; stroke-dasharray: 1 5; stroke-linecap: round; }
-.plan { fill: none; stroke: currentColor; stroke-width: 1.4; stroke-dasharray: 5 4; filter: drop-shadow(0 0 1px var(--casing)) drop-shadow(0 0 1px var(--casing)); }
+.plan { fill: none; stroke: currentColor; stroke-width: 1.4; stroke-dasharray: 5 4;
+  filter: drop-shadow(0 0 1px var(--casing)) drop-shadow(0 0 1px var(--casing)); }
 .waypoint { fill: var(--casing); fill-opacity: .6; stroke: currentColor; stroke-width: 1.2; }
 .disc { fill: #fff; fill-opacity: .85; }
 .loss .c-no_path { filter: drop-shadow(0 0 1.2px #fff) drop-shadow(0 0 .6px #fff); }
-.scale { fill: none; stroke: #fff; stroke-width: 1.6; paint-order: stroke; filter: drop-shadow(0 0 1.5px #0b1a20); }
-svg text.name { fill: #fff; font-weight: 650; paint-order: stroke; stroke: #0b1a20; stroke-width: 2.6px; stroke-opacity: .8; stroke-linejoin: round; }
+.scale { fill: none; stroke: #fff; stroke-width: 1.6; paint-order: stroke;
+  filter: drop-shadow(0 0 1.5px #0b1a20); }
+svg text.name { fill: #fff; font-weight: 650; paint-order: stroke; stroke: #0b1a20; stroke-width: 2.6px;
+  stroke-opacity: .8; stroke-linejoin: round; }
 .on-paper .link, .on-paper .scale { stroke: var(--ink); filter: none; }
 svg .on-paper text.name { fill: var(--ink); stroke: var(--water); }
-@media (max-width: 1100px) { main { grid-template-columns: minmax(0, 1fr); } main:not(.two) > * { grid-column: 1 !important; grid-row: auto !important; } main:not(.two) { grid-template-rows: none; } }
-@media (max-width: 640px) { main { padding: 1rem .8rem 3rem; } .pair { grid-template-columns: 1fr; } #chart .wide > svg { min-width: 440px; }
-  .summary, .summary tbody, .summary tr, .summary th, .summary td { display: block; padding: 0; } .summary td { margin-bottom: .3rem; } }
+@media (max-width: 1100px) { main { grid-template-columns: minmax(0, 1fr); } main:not(.two) > * {
+  grid-column: 1 !important; grid-row: auto !important; } main:not(.two) { grid-template-rows: none; } }
+@media (max-width: 640px) { main { padding: 1rem .8rem 3rem; } .pair { grid-template-columns: 1fr; }
+  #chart .wide > svg { min-width: 440px; }
+  .summary, .summary tbody, .summary tr, .summary th, .summary td { display: block; padding: 0; }
+    .summary td { margin-bottom: .3rem; } }
 @media print { details > *:not(summary) { display: block; } .wide { overflow: visible; } }
 )css";
 

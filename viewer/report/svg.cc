@@ -67,12 +67,15 @@ std::string mark_definitions() {
   // Each symbol fills at most 10 by 10 units.
   return R"svg(<svg width="0" height="0" style="position:absolute" aria-hidden="true"><defs>
 <symbol id="m-dot" viewBox="0 0 10 10"><circle cx="5" cy="5" r="3.6" fill="currentColor"/></symbol>
-<symbol id="m-ring" viewBox="0 0 10 10"><circle cx="5" cy="5" r="3.2" fill="none" stroke="currentColor" stroke-width="1.8"/></symbol>
-<symbol id="m-cross" viewBox="0 0 10 10"><path d="M1.7 1.7 8.3 8.3M8.3 1.7 1.7 8.3" stroke="currentColor" stroke-width="2"/></symbol>
+<symbol id="m-ring" viewBox="0 0 10 10"><circle cx="5" cy="5" r="3.2" fill="none" stroke="currentColor"
+  stroke-width="1.8"/></symbol>
+<symbol id="m-cross" viewBox="0 0 10 10"><path d="M1.7 1.7 8.3 8.3M8.3 1.7 1.7 8.3" stroke="currentColor"
+  stroke-width="2"/></symbol>
 <symbol id="m-bowtie" viewBox="0 0 10 10"><path d="M.8 1.6V8.4L9.2 1.6V8.4Z" fill="currentColor"/></symbol>
 <symbol id="m-bar" viewBox="0 0 10 10"><path d="M5 .6V9.4" stroke="currentColor" stroke-width="2.8"/></symbol>
 <symbol id="m-dash" viewBox="0 0 10 10"><path d="M1 5H9" stroke="currentColor" stroke-width="2"/></symbol>
-<pattern id="hatch" width="4" height="4" patternUnits="userSpaceOnUse" patternTransform="rotate(45)"><path d="M0 0V4" class="hatch"/></pattern>
+<pattern id="hatch" width="4" height="4" patternUnits="userSpaceOnUse" patternTransform="rotate(45)"><path
+  d="M0 0V4" class="hatch"/></pattern>
 </defs></svg>
 )svg";
 }

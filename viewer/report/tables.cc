@@ -28,7 +28,8 @@ std::string percent(std::int64_t part, std::int64_t all) {
 std::string matrix_cell(const PairDelivery& pair, const std::string& from, const std::string& to) {
   const std::string snr = pair.snr_db ? fmt::format("{:.0f}", *pair.snr_db) : "";
   return fmt::format(
-      R"(<td class="cell" style="--share:{:.3f}" title="{}"><b>{:.0f}<span class="unit"> %</span></b><small>{}/{}</small>{}</td>)",
+      R"(<td class="cell" style="--share:{:.3f}" title="{}"><b>{:.0f}<span class="unit"> %</span>)"
+      R"(</b><small>{}/{}</small>{}</td>)",
       pair.share(),
       escaped_xml(fmt::format("{} received {} of {} packets of {}{}", to, pair.received, pair.packets, from,
                               snr.empty() ? "" : "; median SNR " + snr + " dB")),
@@ -38,7 +39,8 @@ std::string matrix_cell(const PairDelivery& pair, const std::string& from, const
 
 std::string ledger_row(const OutcomeClass& c, const std::string& name, std::int64_t count, std::int64_t all) {
   return fmt::format(
-      R"(<tr><td>{} {}</td><td class="number">{}</td><td class="number">{}<span class="unit"> %</span></td><td class="share"><i class="c-{}" style="width:{}%"></i></td></tr>)"
+      R"(<tr><td>{} {}</td><td class="number">{}</td><td class="number">{}<span class="unit">)"
+      R"( %</span></td><td class="share"><i class="c-{}" style="width:{}%"></i></td></tr>)"
       "\n",
       inline_mark(c), name, count, percent(count, all), c.key, percent(count, all));
 }

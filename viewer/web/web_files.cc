@@ -19,10 +19,12 @@ constexpr std::uintmax_t kMaxFileBytes = 32 * 1024 * 1024;
 constexpr std::string_view kOwnPage = R"(<!doctype html>
 <html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <title>Halocline monitor</title><link rel="icon" href="data:,"><style>
-:root { --paper: #fbfaf6; --ink: #1b2327; --line: #b9b5a8; --accent: #0a6a8c; --on-accent: #fff; --bad: #b3470a;
+:root { --paper: #fbfaf6; --ink: #1b2327; --line: #b9b5a8; --accent: #0a6a8c; --on-accent: #fff;
+  --bad: #b3470a;
         color-scheme: light dark }
 @media (prefers-color-scheme: dark) {
-  :root { --paper: #0d1316; --ink: #e4e9eb; --line: #3a4850; --accent: #63c4e3; --on-accent: #06222c; --bad: #ff9d5c }
+  :root { --paper: #0d1316; --ink: #e4e9eb; --line: #3a4850; --accent: #63c4e3; --on-accent: #06222c;
+    --bad: #ff9d5c }
 }
 body { margin: 18vh auto 0; max-width: 32rem; padding: 0 1.5rem; background: var(--paper); color: var(--ink);
        font: .875rem/1.6 system-ui, sans-serif }

@@ -101,7 +101,8 @@ class DoorsOfAMission : public ::testing::Test {
       host.write("AT*SENDIM,6," + other + ",ack,a+,b\r\n\n");
     if (i / 2 == 2 && second % 3 == static_cast<int>(i % 2))
       host.write(
-          R"({"action":"send","message":{"clazz":"org.arl.unet.DatagramReq","data":{"msgID":"m","sender":"g",)"
+          R"({"action":"send","message":{"clazz":"org.arl.unet.DatagramReq","data":{"msgID":"m",)"
+          R"("sender":"g",)"
           R"("recipient":"phy","to":)" +
           other +
           R"(,"data":[1,2,3]}}})"
