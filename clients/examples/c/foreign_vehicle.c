@@ -4,8 +4,7 @@
 // the tree (docs/extending.md has other languages):
 //
 //   $ mkdir -p build/mine/c && lcm-gen --c --c-cpath build/mine/c --c-hpath build/mine/c lcmtypes/*.lcm
-//   $ cc -std=gnu11 -I build/mine/c clients/examples/c/foreign_vehicle.c \
-//       build/mine/c/halocline_{modem,packet,sim,vehicle_state}_*.c -llcm -lm -o build/mine/vehicle_c
+//   $ cc -std=gnu11 -I build/mine/c clients/examples/c/*.c build/mine/c/*.c -llcm -lm -o build/mine/vehicle_c
 //   $ ./scripts/join build/mine/vehicle_c --name visitor --id 77 --to 1
 #include "halocline_modem_config_t.h"
 #include "halocline_modem_receipt_t.h"
