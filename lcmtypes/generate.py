@@ -201,7 +201,7 @@ def allowed(field):
 def page(messages, channels):
     text = """# Channels and messages
 
-Made from `lcmtypes/` by `lcmtypes/generate.py --doc docs/messages.md`; [bus.md](bus.md) has what holds for all of them. A range
+Made from `lcmtypes/` by `lcmtypes/generate.py --doc docs/messages.md`; [architecture.md](architecture.md#conventions) has what holds for all of them. A range
 is inclusive; a message with a value beyond it, or with a number that is not finite, is refused.
 
 ## Channels

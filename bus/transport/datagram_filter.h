@@ -33,7 +33,7 @@
 namespace halocline::bus {
 
 // Size of the largest message that is received in fragments, bytes. Halocline's own messages stay below 1 MB
-// (docs/bus.md); LCM 1.3.1 keeps 2^24 bytes of unfinished messages, and accepts messages up to 2^28.
+// (docs/reliability.md); LCM 1.3.1 keeps 2^24 bytes of unfinished messages, and accepts messages up to 2^28.
 inline constexpr std::uint32_t kMaxMessageBytes = 1u << 24;
 
 using FilterProgram = std::vector<sock_filter>;  // jumps lead forward, within it or to its end

@@ -4,8 +4,8 @@
 //
 // The rule is a token bucket for messages and one for bytes (Turner 1986, "New directions in
 // communications"). A burst of kBurstMessages and kBurstBytes is sent at once, further messages at
-// kMessagesPerS and kBytesPerS. LCM's logger queues 30 messages, the kernel 4 MB (docs/bus.md). A publisher
-// that has to wait waits until both buckets are full again, so that few sleeps suffice.
+// kMessagesPerS and kBytesPerS. LCM's logger queues 30 messages, the kernel 4 MB (docs/architecture.md). A
+// publisher that has to wait waits until both buckets are full again, so that few sleeps suffice.
 #pragma once
 
 #include <cstddef>

@@ -86,7 +86,7 @@ void warn_of_missing_filter() {
     EventLog("bus").warning(
         "receive-filter-missing",
         std::string("reason=\"") + std::strerror(errno) +
-            "\" open_to=\"any host, datagrams that end the process: docs/bus.md, Hosts\"");
+            "\" open_to=\"any host, datagrams that end the process: docs/reliability.md, Firewall\"");
   });
 }
 

@@ -14,7 +14,7 @@
 namespace halocline::bus {
 
 // LCM's usual group, restricted to this host, with a receive buffer that holds a burst (LCM's default loses
-// 65 % of 100 messages published back to back; docs/bus.md).
+// 65 % of 100 messages published back to back; docs/architecture.md).
 inline constexpr std::string_view kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
 // URL of the lockstep protocol: grants use this port, answers the next.

@@ -193,7 +193,7 @@ TEST_F(BathymetryNodeTest, RepliesPassTheChecksOfTheBus) {
 }
 
 std::size_t size_of(const terrain_tile_t& tile) { return static_cast<std::size_t>(tile.getEncodedSize()); }
-constexpr std::size_t kPacedMessage = 60'000;  // docs/bus.md
+constexpr std::size_t kPacedMessage = 60'000;  // docs/architecture.md
 
 TEST_F(BathymetryNodeTest, TheWholeTerrainIsPublishedOnceWhenTheTimeIsKnown) {
   step();  // the time is not known

@@ -31,7 +31,7 @@ using testing::kSpeedMps;
 using testing::named;
 using testing::NodeBench;
 
-constexpr int kPacedMessage = 60'000;  // bytes, docs/bus.md
+constexpr int kPacedMessage = 60'000;  // bytes, docs/architecture.md
 
 struct Bench {
   explicit Bench(

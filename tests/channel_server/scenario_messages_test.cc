@@ -19,7 +19,7 @@ namespace {
 
 using testing::at_s;
 
-constexpr int kMaxPartBytes = 60'000;  // bytes, docs/bus.md
+constexpr int kMaxPartBytes = 60'000;  // bytes, docs/architecture.md
 
 bus::Scenario scenario_of(int vehicles) {
   bus::Scenario scenario;

@@ -100,11 +100,11 @@ TEST(AttackedDatagrams, EndNoProgramOnTheBus) {
   expect_all_running(processes, "afterwards");
 }
 
-// The commands as docs/bus.md has them.
+// The commands as docs/reliability.md has them.
 TEST(AttackedDatagrams, TheFirewallKeepsThemFromStockTools) {
   if (std::system("PATH=$PATH:/sbin:/usr/sbin; nft list tables >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "no nft here";
-  std::ifstream page(HALOCLINE_SOURCE_DIR "/docs/bus.md");
+  std::ifstream page(HALOCLINE_SOURCE_DIR "/docs/reliability.md");
   int rules = 0;
   for (std::string line; std::getline(page, line);) {
     if (!line.starts_with("    nft add ")) continue;
