@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command lines of docs/vehicles.md, run as they stand there: each makes the reference trajectory of its
-// name.
+// The command lines of tests/data/vehicle/README.md, run as they stand there: each makes the reference
+// trajectory of its name.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -41,7 +41,7 @@ std::vector<double> numbers_of(const CsvLine& row) {
 // The lines of the documentation that write a table, by the table's name.
 std::map<std::string, std::string> documented_lines() {
   std::map<std::string, std::string> lines;
-  std::ifstream file(kSource + "/docs/vehicles.md");
+  std::ifstream file(kSource + "/tests/data/vehicle/README.md");
   for (std::string line; std::getline(file, line);) {
     const auto out = line.find(" --out ");
     if (line.starts_with("halocline vehicle replay --model ") && out != std::string::npos)
@@ -86,7 +86,7 @@ class DocumentedReplay : public ::testing::TestWithParam<std::string> {
 TEST_P(DocumentedReplay, MakesTheReferenceTrajectory) {
   const std::string name = GetParam() + ".csv";
   const auto lines = documented_lines();
-  ASSERT_TRUE(lines.contains(name)) << "docs/vehicles.md has no command line for it";
+  ASSERT_TRUE(lines.contains(name)) << "tests/data/vehicle/README.md has no command line for it";
   std::string line = lines.at(name);
   line.replace(line.find(" --out ") + 7, std::string::npos, GetParam() + ".csv");
   const CsvTable made = run(line, GetParam()), reference = read_table(reference_files().at(name));
