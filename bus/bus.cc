@@ -206,7 +206,7 @@ void Bus::subscribe_to_all(RawHandler handler) {
 }
 
 void Bus::subscribe_to_all_flows(FlowOf flow_of, RawHandler handler) {
-  follows_all_ = true;
+  tracks_all_ = true;
   subscribe_to_all([this, flow_of = std::move(flow_of), handler = std::move(handler)](
                        std::string_view channel, const void* data, std::size_t size) {
     const auto head = flow_of(channel, std::span(static_cast<const std::uint8_t*>(data), size));
@@ -234,7 +234,7 @@ void Bus::restore_history(std::string_view channel, std::int64_t session, std::i
   if (repair_) repair_->restore_history(channel, session, sequence, std::move(bytes));
 }
 
-void Bus::refuse_rival(std::string_view channel, std::int64_t session) {
+void Bus::refuse_duplicate_publisher(std::string_view channel, std::int64_t session) {
   ++counters_.rivals;
   refuse(channel, "session is " + std::to_string(session) +
                       ", a rival's: another is publisher until it has been silent for 1 s");
@@ -244,12 +244,12 @@ void Bus::refuse_rival(std::string_view channel, std::int64_t session) {
 // publishes now. A recorder examines a message once, as raw bytes, and records messages of duplicate
 // publishers too.
 bool Bus::takes(std::string_view channel, const FlowHead& head, bool as_bytes) {
-  if (follows_all_ && !as_bytes) return true;
+  if (tracks_all_ && !as_bytes) return true;
   const auto& [session, sequence, utime, receiver, is_packet] = head;
   const bool may_come_again = is_packet && !is_repair_;
   const bool is_old = repair_ && !may_come_again && flows_.is_old(steady_, channel, session, sequence, utime);
   if (repair_ && !is_old && !as_bytes && !sessions_.on_message(steady_, channel, session, receiver)) {
-    refuse_rival(channel, session);
+    refuse_duplicate_publisher(channel, session);
     return false;
   }
   ++counters_.received;
@@ -299,16 +299,16 @@ void Bus::on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat)
   if (!sessions_.on_heartbeat(steady_, node, heartbeat.session)) {
     // Flows that begin meanwhile are requested from their start once this publisher is accepted.
     repair_->on_heartbeat(steady_, node, heartbeat, [](std::string_view) { return false; });
-    return refuse_rival(channels::kHeartbeat.of(node), heartbeat.session);
+    return refuse_duplicate_publisher(channels::kHeartbeat.of(node), heartbeat.session);
   }
-  const auto is_followed = [this](std::string_view channel) {
-    if (follows_all_) return true;
+  const auto is_tracked = [this](std::string_view channel) {
+    if (tracks_all_) return true;
     const auto matching = subscribed_to(channel);
     return std::any_of(matching.begin(), matching.end(),
                        [this](std::size_t i) { return subscribed_[i].expression != kAllChannels; });
   };
   counters_.gaps =
-      saturating_sum(counters_.gaps, repair_->on_heartbeat(steady_, node, heartbeat, is_followed));
+      saturating_sum(counters_.gaps, repair_->on_heartbeat(steady_, node, heartbeat, is_tracked));
 }
 
 SimTime Bus::next_repair() const {

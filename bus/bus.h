@@ -133,7 +133,7 @@ class Bus {
   const std::vector<const Subscription*>& subscriptions_to(std::string_view channel);
   template <class Message>
   [[nodiscard]] bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
-  void refuse_rival(std::string_view channel, std::int64_t session);
+  void refuse_duplicate_publisher(std::string_view channel, std::int64_t session);
   bool takes(std::string_view channel, const FlowHead& head, bool as_bytes = false);
   void on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat);
   void note_lateness(std::string_view channel, const void* data, std::size_t size);
@@ -151,8 +151,8 @@ class Bus {
   UnsentMessages unsent_;
   LatenessWatch lateness_;
   SimTime steady_, received_at_;
-  // `is_repair_`: the current message came on REPAIR.<channel>; `follows_all_`: all flows are recorded.
-  bool is_repair_ = false, follows_all_ = false;
+  // `is_repair_`: the current message came on REPAIR.<channel>; `tracks_all_`: all flows are recorded.
+  bool is_repair_ = false, tracks_all_ = false;
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // counts by kind, for rate-limited reports
   std::exception_ptr failure_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;

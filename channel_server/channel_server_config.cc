@@ -50,7 +50,7 @@ void visit_noise_variation(bus::ConfigVisitor& v, acoustics::NoiseVariation& n) 
   bus::report_refusal(v, "impulse_exponent", [&] { validate(n); });
 }
 
-void visit_vehicle_noise(bus::ConfigVisitor& v, NoiseOf& noise) {
+void visit_vehicle_noise(bus::ConfigVisitor& v, NoiseSource& noise) {
   std::vector<double> frequencies_khz, levels_db = noise.at_1m.levels_db();
   for (const double f : noise.at_1m.frequencies_hz()) frequencies_khz.push_back(f / 1000);
   v.numbers("frequency_khz", frequencies_khz, {0.001, 1000, "kHz", "of level_db, rising"});
@@ -89,7 +89,7 @@ void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicl
     vehicle.clock = clock;
   }
   if (v.writing() ? vehicle.noise.has_value() : v.given("noise")) {
-    NoiseOf noise = vehicle.noise.value_or(NoiseOf());
+    NoiseSource noise = vehicle.noise.value_or(NoiseSource());
     v.section("noise", "That it makes; without this it is silent",
               [&](bus::ConfigVisitor& section) { visit_vehicle_noise(section, noise); });
     vehicle.noise = noise;
@@ -238,7 +238,7 @@ ConfiguredModems make_modems(const ChannelServerConfig& config) {
 
 VehicleEquipment make_equipment(const ChannelServerConfig& config, const bus::Scenario& scenario) {
   std::vector<ClockOf> clocks;
-  std::vector<NoiseOf> noise;
+  std::vector<NoiseSource> noise;
   std::set<VehicleId> transponders;
   for (const auto& vehicle : config.vehicles) {
     const bus::VehicleEntry* entry = scenario.find(vehicle.name);

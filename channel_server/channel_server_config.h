@@ -129,7 +129,7 @@ struct ServerRules {
   SeabedRule seabed;
   // Size of the lattice of the ends of bottom profiles of link tables, m.
   double profile_reuse_distance_m = 25;
-  // Distance over which rows of link tables are reused, m (links/kept_rows.h).
+  // Distance over which rows of link tables are reused, m (links/link_row_cache.h).
   double row_reuse_distance_m = 0;
   int max_searches_per_tick = 0;     // eigenray searches for link tables; 0: as many as are needed
   int threads = 1;                   // threads that compute link tables and the paths of packets
@@ -145,7 +145,7 @@ struct ChannelServerConfig {
     bool carries_modem = true;  // false for a ship or a jammer
     bool is_transponder = false;
     std::optional<ClockSettings> clock;
-    std::optional<NoiseOf> noise;
+    std::optional<NoiseSource> noise;
   };
   EnvironmentConfig environment;
   PropagationConfig propagation;

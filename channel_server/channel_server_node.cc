@@ -78,7 +78,7 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
               rules.medium.seed),
       noise_(sounds_),
       predictor_(make_predictor(rules)),
-      kept_rows_(sounds_.differ() ? 0 : rules.row_reuse_distance_m),
+      link_row_cache_(sounds_.differ() ? 0 : rules.row_reuse_distance_m),
       echoes_(rules.echoes.reuse_distance_m),
       rays_(rules.ray_queries),
       queries_(vehicles_, *water_.propagation, predictor_, noise_, echoes_, rays_,
@@ -93,7 +93,8 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       exchange_(bus(), publisher_, rules.medium.shard, rules.ray_queries.answer_deadline, hash_of(scenario)),
       packets_(bus(), journal_),
       tables_(publisher_, bus().log(),
-              {vehicles_, *water_.propagation, predictor_, echoes_, kept_rows_, noise_}, pool_.sharing_out()),
+              {vehicles_, *water_.propagation, predictor_, echoes_, link_row_cache_, noise_},
+              pool_.sharing_out()),
       processor_(bus(), vehicles_, *water_.waters, *water_.propagation, medium_, packets_),
       scenario_(std::move(scenario)),
       scenario_period_(scenario_period(scenario_)),
@@ -125,7 +126,7 @@ bus::Due ChannelServerNode::on_due() const {
 
 // Between ticks the node publishes outcomes of packets and answers of modems; other servers receive only the
 // answers.
-SimTime ChannelServerNode::on_quiet_until(const ChannelTest& matters) const {
+SimTime ChannelServerNode::on_lookahead(const ChannelTest& matters) const {
   if (exchange_.will_tell_of_terrain()) return SimTime::at_once();
   for (const bus::Family& family : {channels::kReceipt, channels::kReceive, channels::kModemEvent,
                                     channels::kLinkReply, channels::kBestPlaceReply}) {
@@ -214,8 +215,8 @@ ChannelServerNode::Tables ChannelServerNode::begin_tables(SimTime tick) {
   tables.rows = table_rows(tables.present, tables.ranges_m, rules_.medium.shard);
   if (!rules_.medium.shard.is_alone())
     tables.links_of_all = table_rows(tables.present, tables.ranges_m).links;
-  kept_rows_.carry_on(tick, {water_.waters->water_at(tick), water_.seabed->version()},
-                      water_.propagation->environment(tick), tables.present, tables.rows);
+  link_row_cache_.reuse(tick, {water_.waters->water_at(tick), water_.seabed->version()},
+                        water_.propagation->environment(tick), tables.present, tables.rows);
   return tables;
 }
 
@@ -325,7 +326,7 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   queries_.clear();
   places_.clear();
   tables_.clear();
-  kept_rows_.clear();
+  link_row_cache_.clear();
   exchange_.clear();
   tables_in_work_.reset();
   journal_.clear();

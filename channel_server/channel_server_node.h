@@ -28,15 +28,15 @@
 #include "channel_server/input_processor.h"
 #include "channel_server/link_table_publisher.h"
 #include "channel_server/links/best_place_service.h"
-#include "channel_server/links/kept_rows.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_query_service.h"
+#include "channel_server/links/link_row_cache.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/packet_publisher.h"
 #include "channel_server/packets/packet_medium.h"
-#include "channel_server/packets/vehicle_sounds.h"
+#include "channel_server/packets/platform_noise.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/reach.h"
 #include "channel_server/seabed_client.h"
@@ -65,7 +65,7 @@ class ChannelServerNode : public bus::Node {
 
  protected:
   bus::Due on_due() const override;
-  SimTime on_quiet_until(const ChannelTest& matters) const override;
+  SimTime on_lookahead(const ChannelTest& matters) const override;
   void on_step(const bus::Now& now) override;
   void on_restart(const bus::Now& now) override;
   std::string status_text() const override;
@@ -110,10 +110,10 @@ class ChannelServerNode : public bus::Node {
   VehicleRegistry vehicles_;
   ReachModel reach_;
   PacketMedium medium_;
-  VehicleSounds sounds_;
-  SoundsAtReceivers noise_;  // noise in link tables and in answers to queries
+  PlatformNoise sounds_;
+  PlatformReceiverNoise noise_;  // noise in link tables and in answers to queries
   LinkPredictor predictor_;
-  KeptRows kept_rows_;
+  LinkRowCache link_row_cache_;
   MultipathCache echoes_;
   RayQueryClient rays_;
   LinkQueryService queries_;

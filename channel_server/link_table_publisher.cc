@@ -11,18 +11,18 @@ namespace halocline::channel_server {
 
 namespace {
 
-Hearing hearing_of(const EndPair& link, SimTime at, VehicleId silent) {
+NoiseQuery noise_query_of(const EndPair& link, SimTime at, VehicleId silent) {
   return {link.to, link.from.modem->band(), at, at, silent};
 }
 
 }  // namespace
 
-Decibels SoundsAtReceivers::above_ambient(const EndPair& link, SimTime at, VehicleId silent) {
-  return sounds_.above_ambient(hearing_of(link, at, silent));
+Decibels PlatformReceiverNoise::above_ambient(const EndPair& link, SimTime at, VehicleId silent) {
+  return sounds_.above_ambient(noise_query_of(link, at, silent));
 }
 
-bool SoundsAtReceivers::is_ready(const EndPair& link, SimTime at, VehicleId silent) {
-  return sounds_.is_ready(hearing_of(link, at, silent));
+bool PlatformReceiverNoise::is_ready(const EndPair& link, SimTime at, VehicleId silent) {
+  return sounds_.is_ready(noise_query_of(link, at, silent));
 }
 
 bool LinkTablePublisher::is_noise_ready(SimTime tick, const std::vector<EndPair>& links) {

@@ -11,12 +11,12 @@
 
 #include "bus/numbered_publisher.h"
 #include "bus/transport/event_log.h"
-#include "channel_server/links/kept_rows.h"
 #include "channel_server/links/link_predictor.h"
+#include "channel_server/links/link_row_cache.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/receiver_noise.h"
-#include "channel_server/packets/vehicle_sounds.h"
+#include "channel_server/packets/platform_noise.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
@@ -27,16 +27,16 @@
 namespace halocline::channel_server {
 
 // The noise of vehicles at the receivers of links.
-class SoundsAtReceivers final : public ReceiverNoise {
+class PlatformReceiverNoise final : public ReceiverNoise {
  public:
-  explicit SoundsAtReceivers(VehicleSounds& sounds) : sounds_(sounds) {}  // must outlive it
+  explicit PlatformReceiverNoise(PlatformNoise& sounds) : sounds_(sounds) {}  // must outlive it
 
   bool differ() const override { return sounds_.differ(); }
   Decibels above_ambient(const EndPair& link, SimTime at, VehicleId silent) override;
   bool is_ready(const EndPair& link, SimTime at, VehicleId silent) override;
 
  private:
-  VehicleSounds& sounds_;
+  PlatformNoise& sounds_;
 };
 
 class LinkTablePublisher {
@@ -47,7 +47,7 @@ class LinkTablePublisher {
     Propagation& propagation;
     LinkPredictor& predictor;
     MultipathCache& echoes;
-    KeptRows& kept;
+    LinkRowCache& kept;
     ReceiverNoise& noise;
   };
   LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, ForEach for_each)

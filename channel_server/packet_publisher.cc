@@ -66,12 +66,12 @@ void PacketPublisher::publish(const PacketOutcome& outcome, SimTime at, bool lat
     published_late_ += is_new ? 1 : 0;
     late = is_new;
   }
-  if (is_new && outcome.is_too_late) {
+  if (is_new && outcome.conflicts_with_past) {
     bus_.log().warning("send-too-late",
                        "packet=" + text_of(outcome.packet->request) + " receiver=" + outcome.receiver +
                            " reason=\"an outcome that it would have changed was published before\"");
   }
-  if (!is_counted && (late || (is_new && outcome.is_too_late))) ++bus_.counters().late;
+  if (!is_counted && (late || (is_new && outcome.conflicts_with_past))) ++bus_.counters().late;
 }
 
 }  // namespace halocline::channel_server

@@ -159,7 +159,7 @@ std::string SeabedClient::status_text() const {
   const std::string service = models_.rays.is_away()     ? "away"
                               : terrain_version_.empty() ? "not present"
                                                          : "answering";
-  return "bathymetry " + service + ", " + std::to_string(plan_.put_off()) + " echo surveys put off, " +
+  return "bathymetry " + service + ", " + std::to_string(plan_.deferred()) + " echo surveys put off, " +
          std::to_string(counters.surveys_dropped) + " dropped, " + std::to_string(counters.surveys_failed) +
          " failed";
 }

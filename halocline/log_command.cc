@@ -10,11 +10,11 @@
 #include "halocline/commands.h"
 #include "runs/analysis/csv_export.h"
 #include "runs/analysis/log_statistics.h"
-#include "runs/analysis/mission_log.h"
+#include "runs/analysis/read_timeline.h"
 #include "runs/analysis/run_files.h"
 #include "runs/analysis/simulation_output.h"
-#include "runs/export/mission_export.h"
-#include "runs/timeline/mission_store.h"
+#include "runs/export/run_export.h"
+#include "runs/timeline/run_timeline.h"
 
 namespace halocline::clients {
 namespace {
@@ -38,23 +38,23 @@ int info(const LogArguments& arguments) {
 }
 
 // Exports the run that the logs hold into one file.
-int export_mission(const LogArguments& arguments) {
+int export_run(const LogArguments& arguments) {
   require(arguments.channel.empty(), "--channel is for --format csv alone");
-  MissionLog log = read_mission(arguments.logs);
-  MissionStore& mission = log.mission;
-  if (!arguments.origin.empty()) set_origin(mission, arguments.origin);
-  const std::map<std::string, void (*)(const MissionStore&, const std::string&)> writers{
+  LoggedTimeline log = read_timeline(arguments.logs);
+  RunTimeline& timeline = log.timeline;
+  if (!arguments.origin.empty()) set_origin(timeline, arguments.origin);
+  const std::map<std::string, void (*)(const RunTimeline&, const std::string&)> writers{
       {"mcap", export_mcap}, {"netcdf", export_netcdf}, {"geojson", export_geojson}, {"gpx", export_gpx}};
-  writers.at(arguments.format)(mission, arguments.out);
-  std::cout << arguments.out << ": " << mission.vehicles().size() << " vehicles, "
-            << mission.packets().all().size() << " packets\n";
+  writers.at(arguments.format)(timeline, arguments.out);
+  std::cout << arguments.out << ": " << timeline.vehicles().size() << " vehicles, "
+            << timeline.packets().all().size() << " packets\n";
   print_remarks(std::cerr, log);
   return log.is_whole ? kDone : kFailed;
 }
 
 int export_all(const LogArguments& arguments) {
   require_free({{arguments.out}, arguments.force}, arguments.logs);
-  if (arguments.format != "csv") return export_mission(arguments);
+  if (arguments.format != "csv") return export_run(arguments);
   LogReader log(arguments.logs);
   const ExportResult result = export_csv(log, arguments.out, arguments.channel);
   for (const auto& [file, rows] : result.rows_by_file) std::cout << file << ": " << rows << " rows\n";

@@ -20,7 +20,7 @@
 #include "core/sim_time.h"
 #include "halocline/commands.h"
 #include "runs/analysis/comparison.h"
-#include "runs/analysis/mission_log.h"
+#include "runs/analysis/read_timeline.h"
 #include "runs/analysis/recording.h"
 #include "runs/analysis/run_files.h"
 #include "simulation/composition.h"
@@ -74,7 +74,7 @@ ComparisonFiles comparison_files(const std::string& log) {
 RunFiles files_of(const ReplayOptions& options, const ScenarioConfig& config, const LogReader& log) {
   RunFiles files = run_files("", config.scenario.name, options.out, "", options.scenario);
   const auto [csv, json] = comparison_files(files.log);
-  Outputs outputs{files_of_log(files.log), options.force};
+  OutputFiles outputs{files_of_log(files.log), options.force};
   outputs.paths.push_back(files.config);
   if (!options.no_comparison) outputs.paths.insert(outputs.paths.end(), {csv, json});
   std::vector<std::string> inputs = log.files();

@@ -8,7 +8,7 @@
 #include "core/atomic_file.h"
 #include "halocline/commands.h"
 #include "runs/analysis/comparison.h"
-#include "runs/analysis/mission_log.h"
+#include "runs/analysis/read_timeline.h"
 #include "runs/analysis/run_files.h"
 #include "viewer/report/report_page.h"
 
@@ -26,21 +26,21 @@ int write_report(ReportArguments arguments) {
   const bool is_one = arguments.logs.size() == 1;
   const std::string out = arguments.out.empty() ? report_beside(arguments.logs.back()) : arguments.out;
   require_free({{out}, arguments.force}, arguments.logs);
-  const MissionLog first = read_mission({arguments.logs.front()});
+  const LoggedTimeline first = read_timeline({arguments.logs.front()});
   print_remarks(std::cerr, first);
-  const ReportPart part{arguments.logs.front(), first.mission, first.remarks};
+  const ReportPart part{arguments.logs.front(), first.timeline, first.remarks};
   bool is_whole = first.is_whole;
   if (is_one) {
     replace_file(out, report_page(part));
   } else {
-    const MissionLog second = read_mission({arguments.logs.back()});
+    const LoggedTimeline second = read_timeline({arguments.logs.back()});
     print_remarks(std::cerr, second);
     is_whole = is_whole && second.is_whole;
     LogReader before(arguments.logs.front()), after(arguments.logs.back());
-    replace_file(out, report_page(part, {arguments.logs.back(), second.mission, second.remarks},
+    replace_file(out, report_page(part, {arguments.logs.back(), second.timeline, second.remarks},
                                   Comparison(outcomes_of(before), outcomes_of(after))));
   }
-  if (is_one) print_summary(std::cout, first.mission);
+  if (is_one) print_summary(std::cout, first.timeline);
   std::cout << "report      " << out << "\n";
   return is_whole ? kDone : kFailed;
 }

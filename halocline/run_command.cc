@@ -25,9 +25,9 @@
 #include "core/sim_time.h"
 #include "halocline/commands.h"
 #include "runs/analysis/csv_export.h"
-#include "runs/analysis/mission_log.h"
+#include "runs/analysis/read_timeline.h"
 #include "runs/analysis/run_files.h"
-#include "runs/timeline/mission_store.h"
+#include "runs/timeline/run_timeline.h"
 #include "simulation/composition.h"
 #include "simulation/embedded_run.h"
 #include "simulation/log_estimate.h"
@@ -54,12 +54,12 @@ std::vector<std::string> overrides_of(const RunOptions& options) {
 }
 
 void print_end(const RunOptions& options, const RunFiles& files, const ScenarioConfig& config,
-               const RunOutcome& outcome, const MissionStore& mission) {
+               const RunOutcome& outcome, const RunTimeline& timeline) {
   fmt::print(std::cout, "scenario    {}: {}\n", config.scenario.name, config.scenario.description);
   fmt::print(std::cout, "simulated   {:.3f} s{} in {:.3f} s, {:.1f} times real time\n",
              outcome.reached.seconds(), outcome.interrupted ? " (interrupted)" : "", outcome.wall_s,
              outcome.reached.seconds() / std::max(outcome.wall_s, 1e-9));
-  print_summary(std::cout, mission);
+  print_summary(std::cout, timeline);
   std::cout << "log         " << files.log << (options.no_csv ? "" : ", CSVs " + files.csv) << "\n";
   if (!options.no_report) std::cout << "report      " << files.report << "\n";
 }
@@ -69,7 +69,7 @@ RunFiles files_of(const RunOptions& options, const std::string& name) {
   const bool all_named = !options.log.empty() && (options.no_csv || !options.csv.empty());
   const std::string out = !options.out.empty() || all_named ? options.out : make_new_folder("runs/" + name);
   RunFiles files = run_files(out, name, options.log, options.csv, options.scenario);
-  Outputs outputs{files_of_log(files.log), options.force};
+  OutputFiles outputs{files_of_log(files.log), options.force};
   outputs.paths.push_back(files.config);
   if (!options.no_report) outputs.paths.push_back(files.report);
   if (!options.no_csv) outputs.paths.push_back(files.csv);
@@ -124,9 +124,9 @@ int run(const RunOptions& options) {
   }
   const int code = bus::interrupt_requested() ? kInterrupted : kDone;
   if (options.quiet && options.no_report) return code;
-  const MissionLog log = read_mission({files.log});
-  if (!options.no_report) replace_file(files.report, report_page({files.log, log.mission, log.remarks}));
-  if (!options.quiet) print_end(options, files, config, outcome, log.mission);
+  const LoggedTimeline log = read_timeline({files.log});
+  if (!options.no_report) replace_file(files.report, report_page({files.log, log.timeline, log.remarks}));
+  if (!options.quiet) print_end(options, files, config, outcome, log.timeline);
   return code;
 }
 

@@ -17,7 +17,7 @@
 namespace halocline::ocean {
 namespace {
 
-constexpr std::size_t kMostPlaces = 1'000'000;  // limit for an axis
+constexpr std::size_t kMaxPlaces = 1'000'000;  // limit for an axis
 constexpr double kTurnDeg = 360, kPole = 90, kBeyondPole = 90.5;
 
 bool is_height(std::string_view name) { return name.starts_with("height") || name.starts_with("altitude"); }
@@ -35,7 +35,7 @@ AxisKind kind_by_units(const std::string& units) {
   if (units.find(" since ") != std::string::npos) return AxisKind::kTime;
   if (direction_in(units) == Direction::kNorth) return AxisKind::kLatitude;
   if (direction_in(units) == Direction::kEast) return AxisKind::kLongitude;
-  return unit_in(Quantity::kPressure, units) ? AxisKind::kDepth : AxisKind::kOther;
+  return unit_in(QuantityKind::kPressure, units) ? AxisKind::kDepth : AxisKind::kOther;
 }
 
 template <std::size_t N>
@@ -49,9 +49,9 @@ AxisKind kind_by_name(const std::string& name, const std::string& units) {
   constexpr std::array<std::string_view, 5> kDepths{"depth", "lev", "level", "z", "deptht"};
   constexpr std::array<std::string_view, 3> kLatitudes{"lat", "latitude", "y"};
   constexpr std::array<std::string_view, 3> kLongitudes{"lon", "longitude", "x"};
-  const bool is_angle = unit_in(Quantity::kAngle, units).has_value();
+  const bool is_angle = unit_in(QuantityKind::kAngle, units).has_value();
   if (is_one_of(name, kTimes)) return AxisKind::kTime;
-  if (is_one_of(name, kDepths) && unit_in(Quantity::kLength, units)) return AxisKind::kDepth;
+  if (is_one_of(name, kDepths) && unit_in(QuantityKind::kLength, units)) return AxisKind::kDepth;
   if (is_one_of(name, kLatitudes) && is_angle) return AxisKind::kLatitude;
   if (is_one_of(name, kLongitudes) && is_angle) return AxisKind::kLongitude;
   return AxisKind::kOther;
@@ -65,15 +65,15 @@ AxisKind kind_by_name(const std::string& name, const std::string& units) {
 
 // Converts vertical levels to metres, positive down. If no attribute states the direction, levels that are
 // all 0 or below are heights.
-void make_depths(const NetcdfFile& file, double latitude_deg, Axis& axis) {
+void make_depths(const NetcdfFile& file, double latitude_deg, CfAxis& axis) {
   const std::string units = file.text(axis.name, "units"),
                     positive = lower_case(file.text(axis.name, "positive")),
                     name = file.text(axis.name, "standard_name");
-  if (const auto pressure = unit_in(Quantity::kPressure, units)) {
+  if (const auto pressure = unit_in(QuantityKind::kPressure, units)) {
     for (double& value : axis.values) value = unesco_depth_m((*pressure)(value), to_radians(latitude_deg));
     return;
   }
-  const UnitFactor metres = unit_of(file, axis.name, Quantity::kLength);
+  const UnitFactor metres = unit_of(file, axis.name, QuantityKind::kLength);
   const bool contradicts =
       (positive == "down" && is_height(name)) || (positive == "up" && name.starts_with("depth"));
   if (contradicts)
@@ -85,21 +85,21 @@ void make_depths(const NetcdfFile& file, double latitude_deg, Axis& axis) {
   for (double& value : axis.values) value = metres(value) * (is_up && value != 0 ? -1 : 1);
 }
 
-void make_degrees(const NetcdfFile& file, Axis& axis) {
+void make_degrees(const NetcdfFile& file, CfAxis& axis) {
   const bool has_units = !file.text(axis.name, "units").empty();
-  const UnitFactor degrees = has_units ? unit_of(file, axis.name, Quantity::kAngle) : UnitFactor{};
+  const UnitFactor degrees = has_units ? unit_of(file, axis.name, QuantityKind::kAngle) : UnitFactor{};
   for (double& value : axis.values) value = degrees(value);
 }
 
 // Clamps latitudes to the poles: some grids place their outermost rows half a cell beyond the pole.
-void cut_at_poles(Axis& latitudes) {
+void cut_at_poles(CfAxis& latitudes) {
   for (double& value : latitudes.values) {
     if (std::abs(value) <= kBeyondPole) value = std::clamp(value, -kPole, kPole);
   }
 }
 
 // Removes one jump of a full turn, as from 179 to -180.
-void unwrap(Axis& longitudes) {
+void unwrap(CfAxis& longitudes) {
   std::vector<double>& values = longitudes.values;
   const auto jump = std::adjacent_find(values.begin(), values.end(),
                                        [](double a, double b) { return std::abs(b - a) > kTurnDeg / 2; });
@@ -108,7 +108,7 @@ void unwrap(Axis& longitudes) {
   std::for_each(jump + 1, values.end(), [turn](double& value) { value += turn; });
 }
 
-void make_rising(const NetcdfFile& file, Axis& axis) {
+void make_rising(const NetcdfFile& file, CfAxis& axis) {
   std::vector<double>& values = axis.values;
   if (values.empty()) file.refuse(axis.name, "has no values");
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -128,8 +128,8 @@ void make_rising(const NetcdfFile& file, Axis& axis) {
 std::string range_in_words(const NetcdfFile& file, const std::string& variable) {
   std::size_t places = 1;
   for (const std::string& dimension : file.dimensions_of(variable))
-    places *= std::min(file.length_of(dimension), kMostPlaces + 1);
-  if (places > kMostPlaces) return "many";
+    places *= std::min(file.length_of(dimension), kMaxPlaces + 1);
+  if (places > kMaxPlaces) return "many";
   std::vector<double> values = file.values(variable);
   std::erase_if(values, [](double value) { return std::isnan(value); });
   if (values.empty()) return "nothing";
@@ -139,7 +139,7 @@ std::string range_in_words(const NetcdfFile& file, const std::string& variable) 
 
 }  // namespace
 
-UnitFactor unit_of(const NetcdfFile& file, const std::string& variable, Quantity quantity) {
+UnitFactor unit_of(const NetcdfFile& file, const std::string& variable, QuantityKind quantity) {
   const std::string units = file.text(variable, "units");
   if (const auto unit = unit_in(quantity, units)) return *unit;
   file.refuse(variable, "units are \"" + units + "\"; allowed are " + allowed_units(quantity));
@@ -179,11 +179,11 @@ AxisKind kind_of(const NetcdfFile& file, const std::string& axis) {
   return kind_by_name(lower_case(axis), units);
 }
 
-Axis read_axis(const NetcdfFile& file, const std::string& name, AxisKind kind, double latitude_deg) {
+CfAxis read_axis(const NetcdfFile& file, const std::string& name, AxisKind kind, double latitude_deg) {
   const std::vector<std::string> dimensions = file.dimensions_of(name);
-  Axis axis{.name = name, .dimension = dimensions.empty() ? "" : dimensions.front()};
+  CfAxis axis{.name = name, .dimension = dimensions.empty() ? "" : dimensions.front()};
   const std::size_t length = dimensions.empty() ? 1 : file.length_of(axis.dimension);
-  if (length > kMostPlaces)
+  if (length > kMaxPlaces)
     file.refuse(name, "has " + std::to_string(length) + " values; allowed are 1000000");
   if (length == 0) file.refuse(name, "has no values");
   axis.values = file.values(name);
@@ -197,7 +197,7 @@ Axis read_axis(const NetcdfFile& file, const std::string& name, AxisKind kind, d
   return axis;
 }
 
-void move_seam(Axis& longitudes, double longitude_deg) {
+void move_seam(CfAxis& longitudes, double longitude_deg) {
   std::vector<double>& values = longitudes.values;
   if (values.size() < 2) return;
   constexpr double kClosed = 1e-3;  // share of a step, for the rounding of axes

@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 5> kKindNames{"time", "depth", "latitude"
 std::size_t index_of(AxisKind kind) { return static_cast<std::size_t>(kind); }
 
 // Returns the first index of an axis along its dimension, and the number of indices up to its last.
-std::pair<std::size_t, std::size_t> span_of(const Axis& axis) {
+std::pair<std::size_t, std::size_t> span_of(const CfAxis& axis) {
   const auto [least, greatest] = std::minmax_element(axis.places.begin(), axis.places.end());
   return {*least, *greatest - *least + 1};
 }
@@ -40,8 +40,8 @@ CfGrid::CfGrid(const NetcdfFile& file, const std::string& variable, double latit
 
 // Adds an axis. A second axis of one kind is accepted if one of the two has a single value, such as the start
 // time of a forecast: it does not locate the values and is dropped.
-void CfGrid::add(AxisKind kind, Axis found) {
-  Axis& known = axis(kind);
+void CfGrid::add(AxisKind kind, CfAxis found) {
+  CfAxis& known = axis(kind);
   if (!known.name.empty() && known.values.size() > 1 && found.values.size() > 1)
     file_.refuse(found.name, "is a second axis of " + std::string(kKindNames[index_of(kind)]) + " beside " +
                                  known.name + "; allowed is one");
@@ -106,7 +106,7 @@ std::vector<AxisKind> CfGrid::kinds_in(const std::string& variable) const {
   std::vector<AxisKind> kinds;
   for (const std::string& dimension : file_.dimensions_of(variable)) {
     const auto* found = std::find_if(axes_.begin(), axes_.end(),
-                                     [&](const Axis& axis) { return axis.dimension == dimension; });
+                                     [&](const CfAxis& axis) { return axis.dimension == dimension; });
     if (found == axes_.end() && file_.length_of(dimension) != 1) refuse_other_grid(variable);
     kinds.push_back(static_cast<AxisKind>(found - axes_.begin()));
   }

@@ -31,7 +31,7 @@ class CfGrid {
   // `latitude_deg` and `longitude_deg` are those of the place of interest. Throws InvalidArgument.
   CfGrid(const NetcdfFile& file, const std::string& variable, double latitude_deg, double longitude_deg);
 
-  const Axis& at(AxisKind kind) const { return axes_[static_cast<std::size_t>(kind)]; }
+  const CfAxis& at(AxisKind kind) const { return axes_[static_cast<std::size_t>(kind)]; }
   double points() const;
   // Keeps only `count` values of an axis, from index `first` on.
   void keep(AxisKind kind, std::size_t first, std::size_t count);
@@ -47,8 +47,8 @@ class CfGrid {
     std::optional<std::size_t> time;              // index of the time dimension among them
     std::array<std::size_t, 5> steps{}, first{};  // stride in the box and first index, by AxisKind
   };
-  Axis& axis(AxisKind kind) { return axes_[static_cast<std::size_t>(kind)]; }
-  void add(AxisKind kind, Axis found);
+  CfAxis& axis(AxisKind kind) { return axes_[static_cast<std::size_t>(kind)]; }
+  void add(AxisKind kind, CfAxis found);
   void add_scalars(const std::string& variable, double latitude_deg);
   void require_complete(const std::string& variable) const;
   std::vector<AxisKind> kinds_in(const std::string& variable) const;
@@ -58,7 +58,7 @@ class CfGrid {
   [[noreturn]] void refuse_other_grid(const std::string& variable) const;
 
   const NetcdfFile& file_;
-  std::array<Axis, 4> axes_;  // indexed by AxisKind
+  std::array<CfAxis, 4> axes_;  // indexed by AxisKind
 };
 
 }  // namespace halocline::ocean

@@ -233,9 +233,9 @@ CfTimeAxis CfTimeAxis::parse(const std::string& units, const std::string& calend
               "366_day, 360_day");
   axis.calendar_ = known->second;
   const auto [unit, date] = split(units);
-  const std::optional<UnitFactor> seconds = unit_in(Quantity::kTime, unit);
+  const std::optional<UnitFactor> seconds = unit_in(QuantityKind::kTime, unit);
   require(seconds && !date.empty(),
-          "units are \"" + units + "\"; allowed are " + allowed_units(Quantity::kTime) +
+          "units are \"" + units + "\"; allowed are " + allowed_units(QuantityKind::kTime) +
               " since a date, as \"hours since 2000-01-01 00:00:00\"" +
               (lower_case(unit).starts_with("month") || lower_case(unit).starts_with("year")
                    ? ": months and years have no fixed length"

@@ -259,24 +259,24 @@ std::optional<UnitFactor> length_unit(std::string_view text) {
 
 }  // namespace
 
-std::optional<UnitFactor> unit_in(Quantity quantity, std::string_view text) {
+std::optional<UnitFactor> unit_in(QuantityKind quantity, std::string_view text) {
   const std::string unit = folded(text);
   switch (quantity) {
-    case Quantity::kTemperature:
+    case QuantityKind::kTemperature:
       return temperature_unit(text);
-    case Quantity::kSalinity:
+    case QuantityKind::kSalinity:
       return salinity_unit(text);
-    case Quantity::kAngle:
+    case QuantityKind::kAngle:
       return angle_unit(text);
-    case Quantity::kLength:
+    case QuantityKind::kLength:
       return length_unit(text);
-    case Quantity::kSpeed:  // the blank is often missing, and "ms-1" is not a speed by the grammar
+    case QuantityKind::kSpeed:  // the blank is often missing, and "ms-1" is not a speed by the grammar
       return unit == "ms-1" || unit == "ms^-1" || unit == "ms**-1"
                  ? UnitFactor{}
                  : parsed_as(lower_case(text), kMetrePerSecond);
-    case Quantity::kPressure:
+    case QuantityKind::kPressure:
       return unit == "db" ? UnitFactor{} : parsed_as(text, kPascal, kPascalPerDbar);
-    case Quantity::kTime:
+    case QuantityKind::kTime:
       return parsed_as(text, kSecond);
   }
   return std::nullopt;
@@ -288,21 +288,21 @@ Direction direction_in(std::string_view text) {
   return rest == "e" || rest == "east" ? Direction::kEast : Direction::kUnknown;
 }
 
-std::string allowed_units(Quantity quantity) {
+std::string allowed_units(QuantityKind quantity) {
   switch (quantity) {
-    case Quantity::kTemperature:
+    case QuantityKind::kTemperature:
       return "degC, K or degF";
-    case Quantity::kSpeed:
+    case QuantityKind::kSpeed:
       return "m s-1, cm s-1, knot or another unit of speed";
-    case Quantity::kSalinity:
+    case QuantityKind::kSalinity:
       return "psu, 1, 1e-3, g kg-1 or none";
-    case Quantity::kLength:
+    case QuantityKind::kLength:
       return "m, km, ft or another unit of length";
-    case Quantity::kPressure:
+    case QuantityKind::kPressure:
       return "dbar, Pa or another unit of pressure";
-    case Quantity::kTime:
+    case QuantityKind::kTime:
       return "seconds, minutes, hours, days or another unit of fixed length";
-    case Quantity::kAngle:
+    case QuantityKind::kAngle:
       return "degrees_north, degrees_east, degrees or radians";
   }
   return "";

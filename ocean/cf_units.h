@@ -7,7 +7,7 @@
 // salinity has no scale: "1", "1e-3" and "psu" all mean the number itself. Months and years are not units
 // here because their length depends on the calendar.
 //
-//   const auto unit = unit_in(Quantity::kLength, "km");  // {1000, 0}
+//   const auto unit = unit_in(QuantityKind::kLength, "km");  // {1000, 0}
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace halocline::ocean {
 
-enum class Quantity { kTemperature, kSpeed, kSalinity, kLength, kPressure, kTime, kAngle };
+enum class QuantityKind { kTemperature, kSpeed, kSalinity, kLength, kPressure, kTime, kAngle };
 
 // Conversion of a value of the file to value * factor + offset in degC, m/s, psu, m, dbar, s or degrees.
 struct UnitFactor {
@@ -26,13 +26,13 @@ struct UnitFactor {
 
 // Returns the conversion of a unit; empty when the text is not a unit of the quantity. An empty text is a
 // unit of salinity only.
-std::optional<UnitFactor> unit_in(Quantity quantity, std::string_view text);
+std::optional<UnitFactor> unit_in(QuantityKind quantity, std::string_view text);
 
 // Direction in which degrees count, as in "degrees_north" and "degreeE".
 enum class Direction { kUnknown, kNorth, kEast };
 Direction direction_in(std::string_view text);
 
 // Returns the allowed units for error messages: "m, km, ft and other units of length".
-std::string allowed_units(Quantity quantity);
+std::string allowed_units(QuantityKind quantity);
 
 }  // namespace halocline::ocean

@@ -18,7 +18,7 @@ namespace halocline::ocean {
 namespace {
 
 constexpr double kBeyondAnyValue = 1e30;  // netCDF's own fill values of real numbers are 9.97e36
-constexpr std::size_t kMostRead = std::size_t{1} << 28;  // values at once: 2 GB
+constexpr std::size_t kMaxRead = std::size_t{1} << 28;  // values at once: 2 GB
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Returns the fill value of a variable without the attribute; NaN: none, as for bytes.
@@ -203,8 +203,8 @@ std::vector<double> NetcdfFile::values(const std::string& variable, const std::v
                                        const std::vector<std::size_t>& counts) const {
   std::size_t total = 1;
   for (const std::size_t count : counts) {
-    if (count > kMostRead / std::max<std::size_t>(total, 1))
-      refuse(variable, "has more than " + std::to_string(kMostRead) + " values to be read at once");
+    if (count > kMaxRead / std::max<std::size_t>(total, 1))
+      refuse(variable, "has more than " + std::to_string(kMaxRead) + " values to be read at once");
     total *= count;
   }
   std::vector<double> values(total);

@@ -19,10 +19,10 @@ namespace {
 
 using Number = std::uint64_t;
 constexpr std::string_view kHdf5Signature("\x89HDF\r\n\x1a\n", 8);
-constexpr Number kMostEntries = 1'000'000;  // longer lists are damaged; netCDF allows 8192
+constexpr Number kMaxEntries = 1'000'000;  // longer lists are damaged; netCDF allows 8192
 constexpr std::array<Number, 12> kTypeBytes{0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};  // for types 1 to 11
 constexpr Number kDimensions = 10, kVariables = 11, kAttributes = 12;             // list tags
-constexpr Number kLeastDimension = 8, kLeastVariable = 28, kLeastAttribute = 12, kLeastIndex = 4;  // in bytes
+constexpr Number kMinDimension = 8, kMinVariable = 28, kMinAttribute = 12, kMinIndex = 4;  // in bytes
 
 Number padded(Number bytes) { return (bytes + 3) / 4 * 4; }
 
@@ -103,7 +103,7 @@ class ClassicHeader {
     records_ = count();
     read_dimensions();
     skip_attributes();
-    for (Number n = list(kVariables, kLeastVariable); n > 0; --n) variables_.push_back(read_variable());
+    for (Number n = list(kVariables, kMinVariable); n > 0; --n) variables_.push_back(read_variable());
   }
 
   void require_whole() const {
@@ -130,7 +130,7 @@ class ClassicHeader {
   Number list(Number tag, Number least_bytes) {
     const Number found = in_.big_endian(4), entries = count();
     if (found != tag && (found != 0 || entries != 0)) in_.damaged("a list has another kind");
-    if (entries > kMostEntries) in_.damaged("a list has " + std::to_string(entries) + " entries");
+    if (entries > kMaxEntries) in_.damaged("a list has " + std::to_string(entries) + " entries");
     return in_.bounded(entries, least_bytes);
   }
 
@@ -144,7 +144,7 @@ class ClassicHeader {
   }
 
   void read_dimensions() {
-    for (Number n = list(kDimensions, kLeastDimension); n > 0; --n) {
+    for (Number n = list(kDimensions, kMinDimension); n > 0; --n) {
       name();
       lengths_.push_back(count());
     }
@@ -159,7 +159,7 @@ class ClassicHeader {
   }
 
   void skip_attributes() {
-    for (Number n = list(kAttributes, kLeastAttribute); n > 0; --n) {
+    for (Number n = list(kAttributes, kMinAttribute); n > 0; --n) {
       name();
       const Number bytes = type_bytes();
       in_.skip(padded(in_.bounded(count(), bytes) * bytes));
@@ -168,7 +168,7 @@ class ClassicHeader {
 
   Variable read_variable() {
     Variable variable{name()};
-    std::vector<Number> dimensions(in_.bounded(count(), kLeastIndex));
+    std::vector<Number> dimensions(in_.bounded(count(), kMinIndex));
     for (Number& dimension : dimensions) {
       dimension = count();
       if (dimension >= lengths_.size()) in_.damaged(variable.name + " has a dimension that is not there");
@@ -193,15 +193,15 @@ class ClassicHeader {
       if (!variable.has_records) continue;
       ++with_records;
       only = variable.bytes;
-      total = sum(total, padded(std::min(variable.bytes, kMost)));
+      total = sum(total, padded(std::min(variable.bytes, kMax)));
     }
     return with_records == 1 ? only : total;
   }
 
   // Sums and products saturate here, beyond the size of any file.
-  static constexpr Number kMost = Number{1} << 62;
-  static Number product(Number a, Number b) { return b != 0 && a > kMost / b ? kMost : a * b; }
-  static Number sum(Number a, Number b) { return std::min(kMost, std::min(a, kMost) + std::min(b, kMost)); }
+  static constexpr Number kMax = Number{1} << 62;
+  static Number product(Number a, Number b) { return b != 0 && a > kMax / b ? kMax : a * b; }
+  static Number sum(Number a, Number b) { return std::min(kMax, std::min(a, kMax) + std::min(b, kMax)); }
 
   Cursor& in_;
   Number version_ = 1, records_ = 0;

@@ -27,20 +27,20 @@
 namespace halocline::ocean {
 namespace {
 
-constexpr double kMostValues = 1e8;           // limit for a variable, 0.4 GB
-constexpr double kMostValuesOfAByte = 300;    // deflate packs 1032 bytes into one; more was never written
+constexpr double kMaxValues = 1e8;            // limit for a variable, 0.4 GB
+constexpr double kMaxValuesPerByte = 300;     // deflate packs 1032 bytes into one; more was never written
 constexpr double kEarthRadius = 6'371'008.8;  // m, mean (IUGG)
 constexpr double kTurn = 360;                 // degrees
 
 void require_size(const NetcdfFile& file, const CfGrid& grid) {
   const auto bytes = std::filesystem::file_size(file.path());
-  require(grid.points() <= std::min(kMostValues, kMostValuesOfAByte * static_cast<double>(bytes)),
+  require(grid.points() <= std::min(kMaxValues, kMaxValuesPerByte * static_cast<double>(bytes)),
           file.path() + ": has " + fmt::format("{:.0f}", grid.points()) + " values a variable in " +
               std::to_string(bytes) + " bytes; allowed are 100000000, and 300 a byte: cut out a region");
 }
 
 // Returns the times relative to the start, s.
-std::vector<double> times_from(const NetcdfFile& file, const Axis& axis, const std::string& start_date) {
+std::vector<double> times_from(const NetcdfFile& file, const CfAxis& axis, const std::string& start_date) {
   const std::string units = axis.name.empty() ? "" : file.text(axis.name, "units");
   const bool is_undated = axis.name.empty() || (axis.values.size() == 1 && start_date.empty());
   if (is_undated) {

@@ -105,18 +105,18 @@ std::optional<SalinityVariable> find_salinity(const NetcdfFile& file) {
 }
 
 std::vector<float> read_speed(const CfGrid& grid, const NetcdfFile& file, const std::string& variable) {
-  return grid.read(variable, unit_of(file, variable, Quantity::kSpeed));
+  return grid.read(variable, unit_of(file, variable, QuantityKind::kSpeed));
 }
 
 std::vector<float> read_salinity(const CfGrid& grid, const NetcdfFile& file,
                                  const SalinityVariable& salinity) {
-  UnitFactor unit = unit_of(file, salinity.variable, Quantity::kSalinity);
+  UnitFactor unit = unit_of(file, salinity.variable, QuantityKind::kSalinity);
   if (salinity.is_absolute) unit.factor *= kPracticalOfAbsolute;
   std::vector<float> values = grid.read(salinity.variable, unit);
-  constexpr float kLeastPlausible = 0.1F;  // psu; the ocean has 0.03 to 0.04 kg/kg
+  constexpr float kMinPlausible = 0.1F;  // psu; the ocean has 0.03 to 0.04 kg/kg
   float most = 0;
   for (const float value : values) most = std::isnan(value) ? most : std::max(most, value);
-  if (most > 0 && most < kLeastPlausible)
+  if (most > 0 && most < kMinPlausible)
     file.refuse(salinity.variable, "no value is above " + std::to_string(most) +
                                        ", as if it were kg/kg; allowed is practical salinity, or g/kg");
   return values;
@@ -124,7 +124,7 @@ std::vector<float> read_salinity(const CfGrid& grid, const NetcdfFile& file,
 
 std::vector<float> read_temperature(const CfGrid& grid, const NetcdfFile& file,
                                     const TemperatureVariable& temperature) {
-  return grid.read(temperature.variable, unit_of(file, temperature.variable, Quantity::kTemperature));
+  return grid.read(temperature.variable, unit_of(file, temperature.variable, QuantityKind::kTemperature));
 }
 
 void make_in_situ(const OceanGrid& grid, OceanValues& values) {

@@ -17,7 +17,7 @@
 #include "channel_server/channel_server_config.h"
 #include "channel_server/link_table_publisher.h"
 #include "channel_server/links/link_predictor.h"
-#include "channel_server/packets/vehicle_sounds.h"
+#include "channel_server/packets/platform_noise.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
@@ -73,8 +73,8 @@ class LinkSurveyor {
   std::optional<channel_server::RayPropagation> rays_;  // in the same water; empty: straight paths
   channel_server::VehicleRegistry fleet_;
   channel_server::ReachModel reach_;
-  channel_server::VehicleSounds sounds_;
-  channel_server::SoundsAtReceivers noise_;
+  channel_server::PlatformNoise sounds_;
+  channel_server::PlatformReceiverNoise noise_;
   channel_server::LinkPredictor predictor_;
 };
 

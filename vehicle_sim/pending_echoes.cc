@@ -24,7 +24,7 @@ std::optional<SensorTick> PendingEchoes::take(SimTime steady) {
   if (waiting_.empty()) return {};
   PendingQuery& oldest = waiting_.front();
   if (!oldest.answered && steady < oldest.deadline) return {};
-  if (!oldest.answered) ++given_up_;
+  if (!oldest.answered) ++expired_;
   SensorTick tick = std::move(oldest.tick);
   waiting_.pop_front();
   return tick;

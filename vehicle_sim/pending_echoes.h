@@ -30,7 +30,7 @@ class PendingEchoes {
   bool has_complete() const { return !waiting_.empty() && waiting_.front().answered; }
   // Deadline of the oldest tick; never() when none waits.
   SimTime next_deadline() const { return waiting_.empty() ? SimTime::never() : waiting_.front().deadline; }
-  std::int64_t given_up() const { return given_up_; }
+  std::int64_t expired() const { return expired_; }
   void clear() { waiting_.clear(); }
 
  private:
@@ -41,7 +41,7 @@ class PendingEchoes {
     bool answered = false;
   };
   std::deque<PendingQuery> waiting_;
-  std::int64_t given_up_ = 0;  // ticks released unanswered
+  std::int64_t expired_ = 0;  // ticks released unanswered
 };
 
 }  // namespace halocline::vehicle_sim

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle_sim/state_selection.h"
 
-#include "core/dead_reckoning.h"
+#include "core/state_extrapolation.h"
 
 namespace halocline::vehicle_sim {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Selection of the vehicle states to publish when receivers extrapolate between them (core/dead_reckoning.h):
-// by deviation thresholds and a heartbeat, as in IEEE 1278.1.
+// Selection of the vehicle states to publish when receivers extrapolate between them
+// (core/state_extrapolation.h): by deviation thresholds and a heartbeat, as in IEEE 1278.1.
 //
 // At a tick of the state grid, a state is published when the extrapolation of the last published one differs
 // from it by more than a bound, in position or in attitude, or when the next tick would otherwise be more

@@ -15,8 +15,8 @@
 
 #include "bus/runtime/node_process.h"
 #include "core/check.h"
-#include "runs/timeline/mission_store.h"
-#include "viewer/pages/frames.h"
+#include "runs/timeline/run_timeline.h"
+#include "viewer/pages/binary_messages.h"
 #include "viewer/pages/link_view.h"
 #include "viewer/pages/mission_json.h"
 #include "viewer/pages/request_fields.h"
@@ -77,14 +77,14 @@ void Monitor::tick() {
   for (const BusMessage& reply : source_->take_replies()) queries_.take(reply);
   queries_.tick(now_s);
   request_overview(now_s);
-  commands_.tick(now_s, source_->mission(), source_->now());
+  commands_.tick(now_s, source_->timeline(), source_->now());
   tick_pages(now_s);
   tick_foxgloves(now_s);
 }
 
 void Monitor::request_overview(double now_s) {
   constexpr double kPause_s = QueryDesk::kPatience_s + 2;
-  const bool is_wanted = !source_->is_log() && !source_->mission().terrain() && now_s >= overview_due_s_;
+  const bool is_wanted = !source_->is_log() && !source_->timeline().terrain() && now_s >= overview_due_s_;
   if (!is_wanted || !source_->state().bathymetry) return;
   overview_due_s_ = now_s + kPause_s;
   collect_overview(queries_, [this, run = run_](const terrain_tile_t& overview) {
@@ -97,10 +97,10 @@ void Monitor::tick_pages(double now_s) {
 }
 
 void Monitor::tick_foxgloves(double now_s) {
-  const clients::MissionStore& mission = source_->mission();
+  const clients::RunTimeline& timeline = source_->timeline();
   for (auto& [id, client] : foxgloves_) {
-    client.playback.advance(now_s, mission.begin(), source_->now());
-    client.session.tick(now_s, server_->is_idle(id), mission, client.playback.at());
+    client.playback.advance(now_s, timeline.begin(), source_->now());
+    client.session.tick(now_s, server_->is_idle(id), timeline, client.playback.at());
   }
 }
 
@@ -122,7 +122,7 @@ void Monitor::open(ConnectionId id, WebProtocol protocol) {
   }
   Foxglove client{clients::FoxgloveSession("Halocline: " + source_->name(), send),
                   Playback(!source_->is_log())};
-  client.playback.play(source_->mission().begin(), source_->now());
+  client.playback.play(source_->timeline().begin(), source_->now());
   foxgloves_.emplace(id, std::move(client));
 }
 
@@ -143,7 +143,7 @@ void Monitor::answer(ConnectionId id, PageSession& session, std::string_view mes
     const json request = json::parse(message);
     reply["id"] = request_id(request);
     if (begin(id, session, request)) return;
-    if (!session.take(request)) reply.update(answer_request(source_->mission(), packets_, request));
+    if (!session.take(request)) reply.update(answer_request(source_->timeline(), packets_, request));
   } catch (const std::exception& problem) {
     reply["ok"] = false;
     reply["error"] = problem.what();
@@ -169,7 +169,7 @@ void Monitor::finish(ConnectionId id, json reply) {
 
 void Monitor::begin_terrain(ConnectionId id, PageSession& session, const json& request) {
   if (!request.contains("rows")) {
-    const auto grid = overview_grid(source_->mission());
+    const auto grid = overview_grid(source_->timeline());
     require(grid.has_value(), "no terrain is known: the bathymetry service has not answered");
     session.send({{"type", "reply"}, {"id", request["id"]}, {"ok", true}});
     return session.send_binary(terrain_frame(*grid, request["id"]));
@@ -189,36 +189,36 @@ void Monitor::begin_command(ConnectionId id, const json& request) {
   require(may_command_, "commands are not allowed: start halocline-monitor with --allow-commands");
   const json number = request["id"];
   if (request["ask"] == "command") {
-    commands_.command(source_->mission(), request);
+    commands_.command(source_->timeline(), request);
     return finish(id, {{"id", number}});
   }
-  commands_.send(source_->mission(), request, source_->now(), [this, id, number](const std::string& key) {
+  commands_.send(source_->timeline(), request, source_->now(), [this, id, number](const std::string& key) {
     finish(id, {{"id", number}, {"key", key.empty() ? json() : json(key)}});
   });
 }
 
 void Monitor::begin_link(ConnectionId id, const json& request) {
-  const clients::MissionStore& mission = source_->mission();
-  const std::size_t from = vehicle_in(mission, request, "from").index,
-                    to = vehicle_in(mission, request, "to").index;
+  const clients::RunTimeline& timeline = source_->timeline();
+  const std::size_t from = vehicle_in(timeline, request, "from").index,
+                    to = vehicle_in(timeline, request, "to").index;
   require(from != to, "from and to are one vehicle");
   const SimTime at = SimTime::from_seconds(number_in(request, "time_s", -9e9, 9e9));
   const auto finish_link = [this, id, from, to, at, number = request["id"], run = run_](
                                const link_reply_t* reply, const std::string& problem) {
-    const auto& vehicles = source_->mission().vehicles();
+    const auto& vehicles = source_->timeline().vehicles();
     if (run != run_ || std::max(from, to) >= vehicles.size()) return;
     const auto& modem = vehicles[from].modem;
     const LinkSubject link{vehicles[from], vehicles[to], at,
                            modem ? source_->threshold_db(*modem) : std::nullopt};
-    json view = link_view_json(source_->mission(), packets_, link, reply, problem);
+    json view = link_view_json(source_->timeline(), packets_, link, reply, problem);
     view["id"] = number;
     finish(id, std::move(view));
   };
-  auto query = link_query({mission.vehicles()[from], mission.vehicles()[to], at});
+  auto query = link_query({timeline.vehicles()[from], timeline.vehicles()[to], at});
   if (!query) return finish_link(nullptr, "One of the two had no state at that time.");
   if (const auto limits = source_->limits(); !limits.empty()) return finish_link(nullptr, limits.front());
   const bool is_past = source_->now() - at > SimDuration::from_milliseconds(2000);
-  if (source_->names_stand_for_now() && is_past) use_positions(mission, *query);
+  if (source_->names_stand_for_now() && is_past) use_positions(timeline, *query);
   queries_.ask(std::move(*query), finish_link);
 }
 

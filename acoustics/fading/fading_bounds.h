@@ -34,10 +34,10 @@ double most_over_fading(const FadingModel& model, double mean_sinr, Chance chanc
   if (!model.enabled) return chance(mean_sinr);
   if (!(model.large_scale_db > 0)) return most_over_rayleigh_fading(mean_sinr, chance);
   // Step and limit in standard deviations; `chance` counts as 1 beyond them (probability 3e-7).
-  constexpr double kStep = 0.25, kMost = 5;
+  constexpr double kStep = 0.25, kMax = 5;
   const double deviation = std::numbers::ln10 / 10 * model.large_scale_db;
-  double most = 1 - normal_probability(kMost), below = 0;
-  for (double z = -kMost + kStep; z <= kMost; z += kStep) {
+  double most = 1 - normal_probability(kMax), below = 0;
+  for (double z = -kMax + kStep; z <= kMax; z += kStep) {
     const double louder = elementary::exp(deviation * z - deviation * deviation / 2);
     most += (normal_probability(z) - below) * most_over_rayleigh_fading(mean_sinr * louder, chance);
     below = normal_probability(z);

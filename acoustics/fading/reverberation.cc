@@ -14,7 +14,7 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kSoundSpeedMps = 1500;
-constexpr double kLeastDecay = 7;  // nepers of power: the tail ends 30 dB down
+constexpr double kMinDecay = 7;  // nepers of power: the tail ends 30 dB down
 // First identity of the tail's paths; no traced path has such an identity, for it would bounce 16 383 times.
 constexpr std::uint64_t kTailIdentity = ~std::uint64_t{0} - kTailPaths;
 
@@ -58,7 +58,7 @@ std::vector<SoundPath> with_reverberation(const Reverberation& reverberation, co
   if (!(fed > 0)) return paths;
   tail.diffuse = false;
   const double begin_s = tail.delay_s, x = tail_decay_per_s(reverberation, duct) * begin_s;
-  const double step = elementary::acosh(1 + kLeastDecay / x) / kTailPaths;
+  const double step = elementary::acosh(1 + kMinDecay / x) / kTailPaths;
   tail.fading = {.scattered = 1, .doppler_spread_hz = spread_hz};
   for (std::size_t k = 0; k < kTailPaths; ++k) {
     // The power of a tail path, by the midpoint rule over equal steps of u, where t = t0 cosh u:

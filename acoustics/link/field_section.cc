@@ -21,8 +21,8 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kSameSpeed = 1e-6;     // m/s, difference below which columns are equal
-constexpr double kLeastStrip = 20;      // m, least distance of columns
-constexpr double kMostStrips = 512;     // greatest number of columns along a line
+constexpr double kMinStrip = 20;        // m, least distance of columns
+constexpr double kMaxStrips = 512;      // greatest number of columns along a line
 constexpr int kStripsPerCell = 4;       // between two crossings of the grid
 constexpr double kDeepestProbe = 5000;  // m, as in ray_water()
 
@@ -69,7 +69,7 @@ class FieldColumn {
 // Ranges of the columns along the line, m from the first place.
 std::vector<double> ranges_of(const ocean::OceanField& field, const Vec3& from, const Vec3& way) {
   const double length = elementary::hypot(way.x(), way.y());
-  const double least = std::max(kLeastStrip, length / kMostStrips);
+  const double least = std::max(kMinStrip, length / kMaxStrips);
   std::vector<double> crossed{0};
   for (const double share : field.crossings(from, from + way)) {
     const double range = share * length;
@@ -94,7 +94,7 @@ std::vector<double> knots_of(const ocean::OceanField& field, double deepest_m) {
     if (depth > 0) depths.push_back(depth);
     if (depth > deepest_m) break;
   }
-  double step = depths.size() > 1 ? depths.back() - depths[depths.size() - 2] : kLeastStrip;
+  double step = depths.size() > 1 ? depths.back() - depths[depths.size() - 2] : kMinStrip;
   while (depths.back() + 4 * step < kDeepestProbe) {
     step *= 2;
     depths.push_back(depths.back() + step);

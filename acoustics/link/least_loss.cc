@@ -105,7 +105,7 @@ LeastLoss LeastLoss::of_straight_path(const Environment& environment, double fre
 }
 
 LeastLoss LeastLoss::of_rays(const Environment& environment, double frequency_hz, double deepest_end_m,
-                             Decibels gain, const WaterColumn& column) {
+                             Decibels gain, const WaterLimits& column) {
   LeastLoss loss;
   loss.gain_ = kFocusingGain + gain;
   const double khz = frequency_hz / 1000;
@@ -155,9 +155,9 @@ double LeastLoss::greatest_intensity(double r) const {
 
 // Bisection in the logarithm of the range, to a relative 1e-6.
 double LeastLoss::range_of(Decibels loss) const {
-  if (at(kGreatestBoundedRange) <= loss) return kGreatestBoundedRange;
+  if (at(kMaxBoundedRange) <= loss) return kMaxBoundedRange;
   if (at(1) > loss) return 0;
-  double low = 1, high = kGreatestBoundedRange;
+  double low = 1, high = kMaxBoundedRange;
   while (high > low * (1 + 1e-6)) {
     const double middle = std::sqrt(low * high);
     (at(middle) <= loss ? low : high) = middle;

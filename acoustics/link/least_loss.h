@@ -51,11 +51,11 @@ namespace halocline::acoustics {
 inline constexpr double kChannelThickness = 50;  // H, m
 inline constexpr Decibels kFocusingGain{3};      // for all rays together, our choice
 // Once around the Earth, m; greater ranges are not bounded.
-inline constexpr double kGreatestBoundedRange = 4e7;
+inline constexpr double kMaxBoundedRange = 4e7;
 
 // Known limits of the water at every place: the least and the greatest depth, m, and the bottom, which is
 // used when `least_depth_m` is above 0.
-struct WaterColumn {
+struct WaterLimits {
   double least_depth_m = 0, greatest_depth_m = kDeepestWater;  // 0..kDeepestWater, ascending
   FluidBottom bottom = {};
 };
@@ -68,11 +68,11 @@ class LeastLoss {
                                     double deepest_end_m);
   // Bound for all rays together. `gain` >= 0 is added to that of focusing.
   static LeastLoss of_rays(const Environment& environment, double frequency_hz, double deepest_end_m,
-                           Decibels gain, const WaterColumn& column = {});
+                           Decibels gain, const WaterLimits& column = {});
 
   // Bound at `range_m` > 0; below 1 m that of 1 m. It may be negative, down to minus the gain and 8 dB.
   Decibels at(double range_m) const;
-  // The range beyond which every link loses more than `loss`; 0..kGreatestBoundedRange.
+  // The range beyond which every link loses more than `loss`; 0..kMaxBoundedRange.
   double range_of(Decibels loss) const;
 
  private:

@@ -13,13 +13,13 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kLeastTime = 1e-13;  // s: rounding error of a delay
+constexpr double kMinTime = 1e-13;  // s: rounding error of a delay
 
 }  // namespace
 
 double fold_place(double time_s, double frequency_hz) {
   // x = (3/4 omega dt)^(2/3) (fold_field.h).
-  return elementary::pow(0.75 * 2 * pi * frequency_hz * std::max(time_s, kLeastTime), 2.0 / 3);
+  return elementary::pow(0.75 * 2 * pi * frequency_hz * std::max(time_s, kMinTime), 2.0 / 3);
 }
 
 FoldShare fold_share(double x) {

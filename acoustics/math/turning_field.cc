@@ -67,10 +67,10 @@ TurningShare turning_at_knot(double x) {
 double knot_widening(double change) {
   // The phase at x = 0 is 16 / 105 2^(3/2) = 0.431 times `change`, and it grows with the power 3/2 of the
   // width.
-  constexpr double kMostPhase = 0.05, kPhase = 0.431;  // rad
+  constexpr double kMaxPhase = 0.05, kPhase = 0.431;  // rad
   const double widest = 10;
   return change > 0
-             ? std::clamp(elementary::cbrt(elementary::pow(kMostPhase / (kPhase * change), 2)), 1.0, widest)
+             ? std::clamp(elementary::cbrt(elementary::pow(kMaxPhase / (kPhase * change), 2)), 1.0, widest)
              : 1;
 }
 

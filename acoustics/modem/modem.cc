@@ -13,7 +13,7 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kMaxBits = 1e6;
-constexpr double kLeastShare = 1e-30;  // least share of a band in band_loss()
+constexpr double kMinShare = 1e-30;  // least share of a band in band_loss()
 
 void validate(const FrameLayout& layout) {
   require_in_range(layout.header_bits, 0, kMaxBits, "header", "bits");
@@ -111,7 +111,7 @@ bool same_family(const Modem& sender, const Modem& receiver) { return sender.fam
 
 Decibels band_loss(const Modem& sender, const Modem& receiver) {
   const double share = band_share(sender.band(), receiver.band());
-  return share == 1 ? Decibels{} : -to_decibels(PowerRatio{std::max(share, kLeastShare)});
+  return share == 1 ? Decibels{} : -to_decibels(PowerRatio{std::max(share, kMinShare)});
 }
 
 }  // namespace halocline::acoustics

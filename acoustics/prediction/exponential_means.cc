@@ -17,7 +17,7 @@ constexpr double kDbPerNeper = 10 / std::numbers::ln10;
 constexpr double kMaxExponent = 300;
 // Share of the cross terms of coherent paths that counts for errors of uncoded bits: our fit to simulated
 // packets (tests/channel_server/packets/link_prediction_test.cc).
-constexpr double kBeatShare = 1;
+constexpr double kCrossTermShare = 1;
 
 using Frequencies = std::array<double, kFrequencies>;
 
@@ -37,12 +37,12 @@ double mean_of(const std::array<double, kFrequencies>& values) {
 //   E exp(-x) = exp(-c / (1 + d)) / (1 + d).
 // The loops over the frequencies have no sums, so that compilers vectorise them.
 HALOCLINE_VECTOR_CLONES
-Exponentials of_rician(const SlowSound& slow, double scale, double fast) {
+Exponentials of_rician(const BlockFading& block_fading, double scale, double fast) {
   Exponentials made;
   Frequencies c, b, losses, inverses;
   for (std::size_t m = 0; m < kFrequencies; ++m) {
-    c[m] = scale * slow.steady[m];
-    b[m] = scale * fast + scale * slow.varying[m];
+    c[m] = scale * block_fading.steady[m];
+    b[m] = scale * fast + scale * block_fading.varying[m];
     inverses[m] = 1 / (1 + b[m]);
     losses[m] = c[m] * inverses[m];
   }
@@ -60,14 +60,16 @@ Exponentials of_rician(const SlowSound& slow, double scale, double fast) {
 
 // Corrects the means for uncoded bits: coherent paths interfere within a part of the band, and a bit is
 // received at one frequency of the part. The power is taken to be S + sqrt(V) or S - sqrt(V) with equal
-// probability, S^2 - V = constant^2; kBeatShare of the deviation counts (our fit).
+// probability, S^2 - V = constant^2; kCrossTermShare of the deviation counts (our fit).
 HALOCLINE_VECTOR_CLONES
-void take_beats(const SlowSound& slow, double scale, double fast, Exponentials& made) {
+void add_cross_terms(const BlockFading& block_fading, double scale, double fast, Exponentials& made) {
   const double d = scale * fast, slower = scale / (1 + d);
   for (std::size_t m = 0; m < kFrequencies; ++m) {
-    const double constant = slow.steady[m], varying = slow.varying[m] > 0 ? slow.varying[m] : 0;
-    const double mean = slower * (constant + slow.varying[m]),
-                 beat = kBeatShare * slower * std::sqrt(varying * (2 * constant + slow.varying[m])),
+    const double constant = block_fading.steady[m],
+                 varying = block_fading.varying[m] > 0 ? block_fading.varying[m] : 0;
+    const double mean = slower * (constant + block_fading.varying[m]),
+                 beat =
+                     kCrossTermShare * slower * std::sqrt(varying * (2 * constant + block_fading.varying[m])),
                  swing = beat < mean ? beat : mean;
     const double old = made.means[m];
     made.means[m] = (fast_exp(made.least - mean - swing) + fast_exp(made.least - mean + swing)) / 2 / (1 + d);
@@ -75,16 +77,17 @@ void take_beats(const SlowSound& slow, double scale, double fast, Exponentials& 
   }
 }
 
-// Turns means and variances at single instants into those of the mean over a packet; `own` and `beats` are
-// the variance of its mean power. The fades that dominate the mean are deep, hence shorter than the coherence
-// of the power in time and in frequency, which reduces the variance further (`shorter`).
+// Turns means and variances at single instants into those of the mean over a packet; `own` and `cross_terms`
+// are the variance of its mean power. The fades that dominate the mean are deep, hence shorter than the
+// coherence of the power in time and in frequency, which reduces the variance further (`shorter`).
 HALOCLINE_VECTOR_CLONES
 void finish_cells(const ExponentialMeans::Fast& fast, ExponentialMeans::Cells& cells) {
   const std::size_t count = cells.count;
-  const double power = fast.power, own = fast.own, beats = fast.beats;
+  const double power = fast.power, own = fast.own, cross_terms = fast.cross_terms;
   for (std::size_t i = 0; i < count; ++i) {
-    const double scale = cells.scale[i], slow = cells.slow_power[i], d = scale * power;
-    const double single = d * d + 2 * d * scale * slow, kept = scale * scale * (own + beats * slow);
+    const double scale = cells.scale[i], block_fading = cells.block_power[i], d = scale * power;
+    const double single = d * d + 2 * d * scale * block_fading,
+                 kept = scale * scale * (own + cross_terms * block_fading);
     const double shorter = fast_exp(2.0 / 3 * fast_log((1 + 2 * d) / ((1 + d) * (1 + d))));
     const double of_mean = single > 0 ? kept / (single > 0 ? single : 1) : 0;
     cells.variance[i] *= of_mean * shorter / (cells.mean[i] * cells.mean[i]);
@@ -105,12 +108,12 @@ void effective_ratios(const ExponentialMeans::Cells& cells, ExponentialMeans::Ra
 
 }  // namespace
 
-void ExponentialMeans::add(const SlowSound& slow, double scale) {
-  Exponentials all = of_rician(slow, scale, fast_.power);
-  if (fast_.beats_within_parts) take_beats(slow, scale, fast_.power, all);
+void ExponentialMeans::add(const BlockFading& block_fading, double scale) {
+  Exponentials all = of_rician(block_fading, scale, fast_.power);
+  if (fast_.cross_terms_within_parts) add_cross_terms(block_fading, scale, fast_.power, all);
   const std::size_t i = cells_.count++;
   cells_.scale[i] = scale;
-  cells_.slow_power[i] = slow.slow_power;
+  cells_.block_power[i] = block_fading.block_power;
   cells_.least[i] = all.least;
   cells_.mean[i] = mean_of(all.means);
   cells_.variance[i] = mean_of(all.variances);

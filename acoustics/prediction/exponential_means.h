@@ -18,17 +18,17 @@ class ExponentialMeans {
   using Values = std::array<double, kMax>;
 
   // The power that fades within a packet: its mean, and the variance of its mean over the bits, by itself
-  // (`own`) and by cross terms per unit of block-fading power (`beats`). With `beats_within_parts`, coherent
-  // paths interfere within each part of the band: an uncoded bit is received at one frequency of each part
-  // and is exposed to that interference.
+  // (`own`) and by cross terms per unit of block-fading power (`cross_terms`). With
+  // `cross_terms_within_parts`, coherent paths interfere within each part of the band: an uncoded bit is
+  // received at one frequency of each part and is exposed to that interference.
   struct Fast {
-    double power = 0, own = 0, beats = 0;
-    bool beats_within_parts = false;
+    double power = 0, own = 0, cross_terms = 0;
+    bool cross_terms_within_parts = false;
   };
   explicit ExponentialMeans(const Fast& fast) : fast_(fast) {}
 
   // Adds a state, at most kMax of them, with the `scale` of its power; call finish() after the last.
-  void add(const SlowSound& slow, double scale);
+  void add(const BlockFading& block_fading, double scale);
   void finish();
 
   // The negative logarithm of the mean, and its relative variance over the fast fading; `i` counts the states
@@ -44,7 +44,7 @@ class ExponentialMeans {
   // Intermediate results, one entry for each state.
   struct Cells {
     std::size_t count = 0;
-    Values scale, slow_power, least, mean, variance, nepers;
+    Values scale, block_power, least, mean, variance, nepers;
   };
 
  private:

@@ -11,11 +11,11 @@
 #include "acoustics/math/delay_profile.h"
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
-#include "acoustics/prediction/mean_sound.h"
+#include "acoustics/prediction/gamma_power.h"
 #include "acoustics/prediction/medium_states.h"
 #include "acoustics/prediction/packet_levels.h"
-#include "acoustics/prediction/power_law.h"
-#include "acoustics/prediction/strata_mean.h"
+#include "acoustics/prediction/reception_statistics.h"
+#include "acoustics/prediction/stratified_average.h"
 #include "acoustics/reception/guard_window.h"
 #include "core/elementary.h"
 #include "core/random.h"
@@ -28,12 +28,12 @@ constexpr std::size_t kPowers = 8, kPatterns = kMediumStates;
 constexpr double kAlike = 0.03;  // block fading below this share of the signal counts as none
 
 // States of the medium: normal scores of the block-fading power, and normal variables for its pressures.
-struct SlowStates {
+struct BlockFadingStates {
   std::array<double, kPowers> powers = normal_strata<kPowers>();
   std::array<double, kPatterns> pattern_powers = normal_strata<kPatterns>();
   MediumNormals patterns{};
 
-  SlowStates() {
+  BlockFadingStates() {
     for (std::size_t c = 0; c < 2 * kSignalFrequencies; ++c) add_coordinate(c);
   }
   // Fills coordinate `c` of the normal variables: each stratum once, in the order, of many random ones, whose
@@ -69,24 +69,24 @@ struct SlowStates {
   }
 };
 
-const SlowStates& slow_states() {
-  static const SlowStates states;
+const BlockFadingStates& block_fading_states() {
+  static const BlockFadingStates states;
   return states;
 }
 
 // States of the medium over the band in order of ascending power, scaled to the strata of the block-fading
 // power.
-std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
-  const std::array<SlowSound, kPatterns> states = medium_states(sound, slow_states().patterns);
-  std::array<SlowSound, kPatterns> patterns;
+std::array<BlockFading, kPatterns> patterns_of(const ReceptionStatistics& sound) {
+  const std::array<BlockFading, kPatterns> states = medium_states(sound, block_fading_states().patterns);
+  std::array<BlockFading, kPatterns> patterns;
   std::array<std::size_t, kPatterns> order;
   for (std::size_t i = 0; i < kPatterns; ++i) order[i] = i;
   std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return states[a].slow_power < states[b].slow_power; });
-  const std::array<double, kPatterns> powers = sound.slow.at(slow_states().pattern_powers);
+            [&](std::size_t a, std::size_t b) { return states[a].block_power < states[b].block_power; });
+  const std::array<double, kPatterns> powers = sound.block_fading.at(block_fading_states().pattern_powers);
   for (std::size_t i = 0; i < kPatterns; ++i) {
     patterns[i] = states[order[i]];
-    if (patterns[i].slow_power > 0) patterns[i].scale(std::max(powers[i], 0.0) / patterns[i].slow_power);
+    if (patterns[i].block_power > 0) patterns[i].scale(std::max(powers[i], 0.0) / patterns[i].block_power);
   }
   return patterns;
 }
@@ -94,11 +94,12 @@ std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
 // Phase-shift keying: levels for each block-fading power, in ascending order. They are computed at the least,
 // the median and the greatest power; between them the ratio to the mean power lies on the parabola through
 // those three. If the strongest state is lost, or the weakest decoded, so are all.
-std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, const StrataMean& mean,
-                                                  const std::array<double, kPowers>& powers, double median,
-                                                  double fast) {
+std::array<StratifiedAverage::Levels, kPowers> levels_of(const PacketLevels& packet,
+                                                         const StratifiedAverage& mean,
+                                                         const std::array<double, kPowers>& powers,
+                                                         double median, double fast) {
   // Parts of a packet: the guess is the result for the previous power, or else for the previous level.
-  std::array<double, StrataMean::kLevels> parts{};
+  std::array<double, StratifiedAverage::kLevels> parts{};
   double last = 0;
   const auto levels_at = [&](double power) {
     const FadingSignal fading = packet.fading_signal(power);
@@ -109,25 +110,27 @@ std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, co
       return bits;
     });
   };
-  std::array<StrataMean::Levels, kPowers> levels;
+  std::array<StratifiedAverage::Levels, kPowers> levels;
   const auto in_db = [&](double power) { return fast_decibels(std::max(power + fast, 1e-30)); };
-  const auto are_lost = [&](const StrataMean::Levels& of_loudest) { return mean.loses(of_loudest.back()); };
-  // An upper bound of the level: fading does not improve the bits by more than kMostGainDb.
-  StrataMean::Levels most{};
+  const auto are_lost = [&](const StratifiedAverage::Levels& of_loudest) {
+    return mean.loses(of_loudest.back());
+  };
+  // An upper bound of the level: fading does not improve the bits by more than kMaxGainDb.
+  StratifiedAverage::Levels most{};
   most.back().median_db =
-      in_db(powers.back()) - fast_decibels(mean.noise(most.size() - 1)) + PacketLevels::kMostGainDb;
+      in_db(powers.back()) - fast_decibels(mean.noise(most.size() - 1)) + PacketLevels::kMaxGainDb;
   if (are_lost(most)) {
     levels.fill(mean.spread(most, most.size() - 1, 0, most.size() - 1));
     return levels;
   }
   // Evaluates the more likely outcome first: the other end is then rarely needed.
-  const bool likely_lost = packet.is_likely_lost(median, mean.noise(StrataMean::kLevels / 2));
-  StrataMean::Levels loud;
+  const bool likely_lost = packet.is_likely_lost(median, mean.noise(StratifiedAverage::kLevels / 2));
+  StratifiedAverage::Levels loud;
   if (likely_lost) {
     levels.fill(loud = levels_at(powers.back()));
     if (are_lost(loud)) return levels;
   }
-  const StrataMean::Levels quiet = levels_at(powers.front());
+  const StratifiedAverage::Levels quiet = levels_at(powers.front());
   levels.fill(quiet);
   if (!(powers.back() > powers.front()) || mean.decodes(quiet.front())) return levels;
   if (!likely_lost) {
@@ -137,12 +140,12 @@ std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, co
       return levels;
     }
   }
-  const StrataMean::Levels middle = levels_at(median);
-  const auto& scores = slow_states().powers;
+  const StratifiedAverage::Levels middle = levels_at(median);
+  const auto& scores = block_fading_states().powers;
   const double quiet_db = in_db(powers.front()), middle_db = in_db(median), loud_db = in_db(powers.back());
   for (std::size_t i = 1; i < kPowers; ++i) {
     const double here_db = in_db(powers[i]);
-    for (std::size_t k = 0; k < StrataMean::kLevels; ++k) {
+    for (std::size_t k = 0; k < StratifiedAverage::kLevels; ++k) {
       levels[i][k].median_db =
           here_db + on_parabola(quiet[k].median_db - quiet_db, middle[k].median_db - middle_db,
                                 loud[k].median_db - loud_db, scores[i] / scores.back());
@@ -151,13 +154,13 @@ std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, co
   return levels;
 }
 
-void add_powers(const PacketLevels& packet, const MeanSound& sound, StrataMean& mean) {
-  PowerLaw slow = sound.slow;
-  const bool alike = slow.variance < squared(kAlike * (slow.mean + sound.fast));
-  if (alike) slow = {slow.mean};
-  std::array<double, kPowers> powers = slow.at(slow_states().powers);
+void add_powers(const PacketLevels& packet, const ReceptionStatistics& sound, StratifiedAverage& mean) {
+  GammaPower block_fading = sound.block_fading;
+  const bool alike = block_fading.variance < squared(kAlike * (block_fading.mean + sound.fast));
+  if (alike) block_fading = {block_fading.mean};
+  std::array<double, kPowers> powers = block_fading.at(block_fading_states().powers);
   for (double& power : powers) power = std::max(power, 0.0);
-  const auto levels = levels_of(packet, mean, powers, std::max(slow.at(0), 0.0), sound.fast);
+  const auto levels = levels_of(packet, mean, powers, std::max(block_fading.at(0), 0.0), sound.fast);
   Level preamble;
   for (std::size_t i = 0; i < kPowers; ++i) {
     if (i == 0 || (!alike && !mean.finds(preamble))) {
@@ -170,11 +173,11 @@ void add_powers(const PacketLevels& packet, const MeanSound& sound, StrataMean& 
 // Frequency-shift keying: levels of the bits, computed for many states together.
 class StateLevels {
  public:
-  StateLevels(const PacketLevels& packet, const StrataMean& mean,
-              const std::array<SlowSound, kPatterns>& states)
+  StateLevels(const PacketLevels& packet, const StratifiedAverage& mean,
+              const std::array<BlockFading, kPatterns>& states)
       : packet_(packet), mean_(mean), states_(states) {}
 
-  std::array<StrataMean::Levels, kPatterns> levels{};
+  std::array<StratifiedAverage::Levels, kPatterns> levels{};
 
   // Computes level `k` of these states.
   void compute(std::span<const std::size_t> states, std::size_t k) {
@@ -187,7 +190,7 @@ class StateLevels {
   // Computes all levels of state `i`: from level `k` when that is certain, otherwise one by one.
   void compute_unless(bool certain, std::size_t i, std::size_t k) {
     if (certain) {
-      mean_.spread(levels[i], k, 0, StrataMean::kLevels);
+      mean_.spread(levels[i], k, 0, StratifiedAverage::kLevels);
     } else {
       levels[i] = mean_.levels([&](std::size_t at) { return packet_.bits(states_[i], mean_.noise(at)); });
     }
@@ -195,16 +198,18 @@ class StateLevels {
 
  private:
   const PacketLevels& packet_;
-  const StrataMean& mean_;
-  const std::array<SlowSound, kPatterns>& states_;
+  const StratifiedAverage& mean_;
+  const std::array<BlockFading, kPatterns>& states_;
 };
 
 // Frequency-shift keying: the middle level is computed for each state. The levels on both sides of it differ
 // from it as in the nearest of four states of which all are computed, interpolated by index. If levels of all
 // four are certain to be decoded or lost, each state is computed on its own.
-std::array<StrataMean::Levels, kPatterns> levels_of(const PacketLevels& packet, const StrataMean& mean,
-                                                    const std::array<SlowSound, kPatterns>& patterns) {
-  constexpr std::size_t kMiddle = StrataMean::kLevels / 2, kLast = StrataMean::kLevels - 1, kApart = 5;
+std::array<StratifiedAverage::Levels, kPatterns> levels_of(
+    const PacketLevels& packet, const StratifiedAverage& mean,
+    const std::array<BlockFading, kPatterns>& patterns) {
+  constexpr std::size_t kMiddle = StratifiedAverage::kLevels / 2, kLast = StratifiedAverage::kLevels - 1,
+                        kApart = 5;
   constexpr std::array<std::size_t, 4> kComputed{0, 5, 10, 15};
   constexpr std::array<std::size_t, 12> kOthers{1, 2, 3, 4, 6, 7, 8, 9, 11, 12, 13, 14};
   StateLevels all(packet, mean, patterns);
@@ -237,13 +242,13 @@ std::array<StrataMean::Levels, kPatterns> levels_of(const PacketLevels& packet, 
   for (const std::size_t k : {std::size_t{1}, kLast - 1}) all.compute(std::span(bent).first(bent_count), k);
   for (std::size_t i = 0; i < bent_count; ++i) mean.fill_quartic(levels[bent[i]]);
   for (const std::size_t i : kOthers) {
-    const StrataMean::Levels &low = levels[i - i % kApart], &high = levels[i - i % kApart + kApart];
+    const StratifiedAverage::Levels &low = levels[i - i % kApart], &high = levels[i - i % kApart + kApart];
     const double part = static_cast<double>(i % kApart) / kApart;
     const Level middle = levels[i][kMiddle];
     const auto beside = [&](double one, double one_middle, double other, double other_middle) {
       return (1 - part) * (one - one_middle) + part * (other - other_middle);
     };
-    for (std::size_t k = 0; k < StrataMean::kLevels; ++k) {
+    for (std::size_t k = 0; k < StratifiedAverage::kLevels; ++k) {
       levels[i][k] = {middle.median_db + beside(low[k].median_db, low[kMiddle].median_db, high[k].median_db,
                                                 high[kMiddle].median_db),
                       middle.deviation_db + beside(low[k].deviation_db, low[kMiddle].deviation_db,
@@ -253,27 +258,27 @@ std::array<StrataMean::Levels, kPatterns> levels_of(const PacketLevels& packet, 
   return levels;
 }
 
-void add_patterns(const PacketLevels& packet, const MeanSound& sound, StrataMean& mean) {
+void add_patterns(const PacketLevels& packet, const ReceptionStatistics& sound, StratifiedAverage& mean) {
   const auto patterns = patterns_of(sound);
   const auto levels = levels_of(packet, mean, patterns);
   Level preamble;
   for (std::size_t i = 0; i < kPatterns; ++i) {
-    if (i == 0 || !mean.finds(preamble)) preamble = packet.preamble(patterns[i].slow_power);
+    if (i == 0 || !mean.finds(preamble)) preamble = packet.preamble(patterns[i].block_power);
     mean.add(preamble, levels[i], i, 1.0 / kPatterns);
   }
 }
 
-double sinr_of(const MeanSound& sound, double noise) {
-  const double signal = sound.slow.mean + sound.fast;
+double sinr_of(const ReceptionStatistics& sound, double noise) {
+  const double signal = sound.block_fading.mean + sound.fast;
   return signal / (noise + sound.bits_echoes + sound.untracked * signal);
 }
 
 // Prediction without fading: only the set of echoes present varies.
-LinkPrediction predict_still(const std::vector<SoundPath>& paths, const Lock& lock, double noise,
+LinkPrediction predict_still(const std::vector<SoundPath>& paths, const Synchronisation& sync, double noise,
                              const ReceptionCurves& curves) {
   const double preamble_s = curves.timing().preamble.seconds(), end_s = curves.timing().duration.seconds();
-  const SignalHistory history = still_history(paths, lock, {preamble_s, end_s});
-  const double signal = mean_signal(paths, lock.window);
+  const SignalHistory history = still_history(paths, sync, {preamble_s, end_s});
+  const double signal = mean_signal(paths, sync.window);
   double preamble_echoes = 0, bits_echoes = 0, log_success = 0;
   for (std::size_t i = 0; i < history.stretches(); ++i) {
     const double seconds = history.edges_s[i + 1] - history.edges_s[i];
@@ -302,16 +307,17 @@ double rms_delay_spread_s(const std::vector<SoundPath>& paths) {
   return delay_moments(delays).spread_s;
 }
 
-LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths, const Lock& lock,
-                            const Band& band, double noise, const ReceptionCurves& curves) {
+LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths,
+                            const Synchronisation& sync, const Band& band, double noise,
+                            const ReceptionCurves& curves) {
   if (paths.empty()) return {};
-  if (!model.enabled) return predict_still(paths, lock, noise, curves);
-  const MeanSound sound = mean_sound(paths, lock, band, curves.timing());
+  if (!model.enabled) return predict_still(paths, sync, noise, curves);
+  const ReceptionStatistics sound = reception_statistics(paths, sync, band, curves.timing());
   const PacketLevels packet(curves, sound);
   // Platform jitter is constant through a packet, so its variance adds to that of large-scale fading.
   const double deviation = elementary::hypot(std::numbers::ln10 / 10 * model.large_scale_db,
-                                             std::sqrt(elementary::log1p(sound.sway_variance)));
-  StrataMean mean(deviation, curves, sound, noise);
+                                             std::sqrt(elementary::log1p(sound.jitter_variance)));
+  StratifiedAverage mean(deviation, curves, sound, noise);
   if (packet.collects_band()) {
     add_powers(packet, sound, mean);
   } else {
@@ -325,8 +331,8 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
                             double noise, const ReceptionCurves& curves) {
   LinkPrediction mean;
   for (const LikelyWindow& likely : windows) {
-    const Lock lock{&receiver, likely.window};
-    const LinkPrediction one = predict_link(model, paths, lock, band, noise, curves);
+    const Synchronisation sync{&receiver, likely.window};
+    const LinkPrediction one = predict_link(model, paths, sync, band, noise, curves);
     if (!model.enabled) return one;
     mean.sinr += likely.probability * one.sinr;
     mean.acquisition_probability += likely.probability * one.acquisition_probability;
@@ -342,7 +348,7 @@ double predicted_sinr(const FadingModel& model, const std::vector<SoundPath>& pa
   double mean = 0;
   for (const LikelyWindow& likely : windows) {
     mean += likely.probability *
-            sinr_of(mean_sound(paths, {&receiver, likely.window}, band, curves.timing()), noise);
+            sinr_of(reception_statistics(paths, {&receiver, likely.window}, band, curves.timing()), noise);
   }
   return mean;
 }

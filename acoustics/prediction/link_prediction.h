@@ -5,11 +5,11 @@
 // Model.
 // - Block fading (constant through a packet): large-scale fading, platform jitter, and the medium together
 //   with scattering that is slower than a packet. The power of the medium and the slow scattering takes 8 or
-//   16 strata of its distribution (power_law.h). In each stratum a packet is represented by the constant
+//   16 strata of its distribution (gamma_power.h). In each stratum a packet is represented by the constant
 //   ratio of signal to disturbance that has the same outcome. This ratio is needed at 7 levels of large-scale
 //   fading and averaged over 32 strata of it (in phase-shift keying over 16 of them, alternating between
-//   states). Few of these ratios are computed, the others interpolated (strata_mean.h, link_prediction.cc);
-//   none when every packet is certain to arrive or certain to be lost.
+//   states). Few of these ratios are computed, the others interpolated (stratified_average.h,
+//   link_prediction.cc); none when every packet is certain to arrive or certain to be lost.
 // - Late echoes: the power of each fades independently; their sum is gamma distributed. In phase-shift keying
 //   this is their block-fading part, during the part of the bits in which they are present.
 // - Preamble: the power over the band, with the variance that remains after averaging over the preamble.
@@ -18,9 +18,10 @@
 //   and scattered pressures D_m. For a Rician gamma of the steady part c and the diffuse part d
 //     E exp(-gamma / beta) = exp(-(c / beta) / (1 + d / beta)) / (1 + d / beta);
 //   the mean over the finite length of a block is log-normal about it.
-// - Phase-shift keying: the mean power over the band (collected_sound.h), the distribution of signal over
-//   noise and interference within a packet and the duration of its fades (band_law.h). The packet divides
-//   into parts that fade independently, each with its share of the bits; all have to be correct.
+// - Phase-shift keying: the mean power over the band (equalizer_statistics.h), the distribution of signal
+// over
+//   noise and interference within a packet and the duration of its fades (fade_statistics.h). The packet
+//   divides into parts that fade independently, each with its share of the bits; all have to be correct.
 // - Uncoded frequency-shift keying: independent bit errors, Rician fading at each frequency.
 // The same strata and normal variates serve every link, so that predictions vary smoothly with its
 // parameters.
@@ -53,10 +54,11 @@ struct LinkPrediction {
 };
 
 // Prediction for one window. `noise` is the power over the band, uPa^2, less the receiver's directivity
-// index. The receiver's modem is that of `lock`; `curves` belong to the packet's modem and payload. Without
+// index. The receiver's modem is that of `sync`; `curves` belong to the packet's modem and payload. Without
 // paths all results are 0.
-LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths, const Lock& lock,
-                            const Band& band, double noise, const ReceptionCurves& curves);
+LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths,
+                            const Synchronisation& sync, const Band& band, double noise,
+                            const ReceptionCurves& curves);
 
 // Mean of the predictions over the windows that the receiver may choose; without fading the prediction for
 // the best window.

@@ -20,10 +20,10 @@ Complex product(Complex a, Complex b) {
 
 }  // namespace
 
-void SlowSound::scale(double factor) {
+void BlockFading::scale(double factor) {
   for (double& power : steady) power *= factor;
   for (double& power : varying) power *= factor;
-  slow_power *= factor;
+  block_power *= factor;
 }
 
 namespace {
@@ -62,9 +62,10 @@ void add_product(Complex factor, const States& re, const States& im, States& sum
 
 }  // namespace
 
-std::array<SlowSound, kMediumStates> medium_states(const MeanSound& sound, const MediumNormals& normals) {
+std::array<BlockFading, kMediumStates> medium_states(const ReceptionStatistics& sound,
+                                                     const MediumNormals& normals) {
   const Root root = root_of(sound.medium);
-  std::array<SlowSound, kMediumStates> states;
+  std::array<BlockFading, kMediumStates> states;
   for (std::size_t m = 0; m < kFrequencies; ++m) {
     States re, im;
     re.fill(sound.steady[m].real());
@@ -75,7 +76,7 @@ std::array<SlowSound, kMediumStates> medium_states(const MeanSound& sound, const
     for (std::size_t i = 0; i < kMediumStates; ++i) {
       states[i].steady[m] = re[i] * re[i] + im[i] * im[i];
       states[i].varying[m] = sound.varying[m];
-      states[i].slow_power += (states[i].steady[m] + states[i].varying[m]) / kFrequencies;
+      states[i].block_power += (states[i].steady[m] + states[i].varying[m]) / kFrequencies;
     }
   }
   return states;

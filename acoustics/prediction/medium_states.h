@@ -6,15 +6,15 @@
 #include <array>
 #include <cstddef>
 
-#include "acoustics/prediction/mean_sound.h"
+#include "acoustics/prediction/reception_statistics.h"
 #include "acoustics/reception/signal_history.h"
 
 namespace halocline::acoustics {
 
 // Powers at each frequency, uPa^2, for one realisation of the block fading.
-struct SlowSound {
+struct BlockFading {
   std::array<double, kSignalFrequencies> steady{}, varying{};
-  double slow_power = 0;  // mean over the band, without the power that fades within a packet
+  double block_power = 0;  // mean over the band, without the power that fades within a packet
 
   void scale(double factor);
 };
@@ -26,6 +26,7 @@ struct MediumNormals {
   using States = std::array<double, kMediumStates>;
   std::array<States, kSignalFrequencies> re{}, im{};
 };
-std::array<SlowSound, kMediumStates> medium_states(const MeanSound& sound, const MediumNormals& normals);
+std::array<BlockFading, kMediumStates> medium_states(const ReceptionStatistics& sound,
+                                                     const MediumNormals& normals);
 
 }  // namespace halocline::acoustics

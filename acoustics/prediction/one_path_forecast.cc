@@ -31,9 +31,9 @@ OnePathForecast::OnePathForecast(const acoustics::FadingModel& fading,
   const std::vector<acoustics::SoundPath> paths{path};
   const acoustics::Modem& modem = curves.modem();
   const acoustics::GuardWindow window = best_window(paths, modem);
-  const int steps = static_cast<int>(std::lround((kMostDb - kLeastDb) / kStepDb));
+  const int steps = static_cast<int>(std::lround((kMaxDb - kMinDb) / kStepDb));
   for (int i = -1; i <= steps + 1; ++i) {
-    const double noise = elementary::exp10(-(kLeastDb + i * kStepDb) / 10);
+    const double noise = elementary::exp10(-(kMinDb + i * kStepDb) / 10);
     const acoustics::LinkPrediction one =
         predict_link(fading, paths, {&modem, window}, modem.band(), noise, curves);
     // For a signal of power 1, 1 / SINR = noise + own_share.
@@ -45,7 +45,7 @@ std::optional<acoustics::LinkPrediction> OnePathForecast::at(const std::vector<a
                                                              double noise) const {
   if (rows_.empty() || paths.size() != 1 || !(paths.front().fading == of_path_)) return std::nullopt;
   const double ratio = acoustics::fast_power(paths.front().level.value) / noise;
-  const double place = (10 * elementary::log10(ratio) - kLeastDb) / kStepDb;
+  const double place = (10 * elementary::log10(ratio) - kMinDb) / kStepDb;
   if (!(place >= 0 && place < static_cast<double>(rows_.size() - 3))) return std::nullopt;
   const auto i = static_cast<std::size_t>(place);  // the ratio lies between rows i + 1 and i + 2
   const double t = place - static_cast<double>(i);

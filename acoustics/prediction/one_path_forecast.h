@@ -21,7 +21,7 @@ namespace halocline::channel_server {
 
 class OnePathForecast {
  public:
-  static constexpr double kLeastDb = -30, kMostDb = 50, kStepDb = 0.2;
+  static constexpr double kMinDb = -30, kMaxDb = 50, kStepDb = 0.2;
 
   // Builds the table for packets with these curves, over the band of their modem. The table is empty without
   // fading.

@@ -7,7 +7,7 @@
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
-#include "acoustics/prediction/collected_sound.h"
+#include "acoustics/prediction/equalizer_statistics.h"
 #include "acoustics/prediction/exponential_means.h"
 #include "acoustics/reception/decoding.h"
 #include "core/elementary.h"
@@ -16,10 +16,10 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kMostScore = 6;
-constexpr double kLeastLoss = 1e-6;  // probability of losing a packet
-constexpr double kAlike = 0.02;      // share of the variance that has no effect
-constexpr double kNoLoss = -5.5;     // normal score below which nothing is lost
+constexpr double kMaxScore = 6;
+constexpr double kMinLoss = 1e-6;  // probability of losing a packet
+constexpr double kAlike = 0.02;    // share of the variance that has no effect
+constexpr double kNoLoss = -5.5;   // normal score below which nothing is lost
 constexpr int kRounds = 3, kRoundsOfGuess = 2;
 constexpr double kSettled = 0.03;  // relative change of the parts at which the iteration stops
 // Deviation over mean, 0.65 dB: fading below this is narrower than the steps of the reception curve.
@@ -36,19 +36,19 @@ double decibels(double power) { return fast_decibels(std::max(power, 1e-30)); }
 
 }  // namespace
 
-FadingSignal::FadingSignal(const BandTerms& high, const std::optional<BandTerms>& low, double slow_power,
+FadingSignal::FadingSignal(const BandTerms& high, const std::optional<BandTerms>& low, double block_power,
                            const Stretches& stretches) {
-  alike_ = !low || high.interference_share(slow_power) < kAlike;
-  const BandLaw law(high, slow_power);
+  alike_ = !low || high.interference_share(block_power) < kAlike;
+  const FadeStatistics law(high, block_power);
   mean_ = law.mean();
   sides_.back() = Side(high.threshold(), law, stretches);
-  if (!alike_) sides_.front() = Side(low->threshold(), {*low, slow_power}, stretches);
+  if (!alike_) sides_.front() = Side(low->threshold(), {*low, block_power}, stretches);
   narrow_parts_ = fast_exp(std::max(sides_.back().log_parts_at(std::max(mean_ - deviation(), 0.0)), 0.0));
 }
 
-FadingSignal::Side::Side(double at_threshold, const BandLaw& law, const Stretches& stretches)
+FadingSignal::Side::Side(double at_threshold, const FadeStatistics& law, const Stretches& stretches)
     : threshold(at_threshold), deviation(std::sqrt(law.variance())), points(law.points(stretches)) {
-  const BandLaw::Values& powers = points.powers;
+  const FadeStatistics::Values& powers = points.powers;
   for (std::size_t k = 0; k < kPoints; ++k) logs[k] = fast_log(powers[k] > 1e-300 ? powers[k] : 1);
   for (std::size_t k = 1; k < kPoints; ++k) {
     const double rise = powers[k - 1] > 0 ? logs[k] - logs[k - 1] : powers[k] - powers[k - 1];
@@ -59,7 +59,7 @@ FadingSignal::Side::Side(double at_threshold, const BandLaw& law, const Stretche
 // `above` holds a guess of the first point of greater power on entry, that point on return.
 FadingSignal::Side::Place FadingSignal::Side::place(double power, double log_power,
                                                     std::size_t& above) const {
-  const BandLaw::Values& powers = points.powers;
+  const FadeStatistics::Values& powers = points.powers;
   while (above < kPoints && powers[above] <= power) ++above;
   while (above > 0 && powers[above - 1] > power) --above;
   if (above == 0) return {0, 0, 0};
@@ -76,8 +76,8 @@ void FadingSignal::Side::at(const Thresholds& powers, States& states) const {
   for (std::size_t k = 0; k < kThresholds; ++k) {
     const auto [low, high, part] = place(powers[k], log_powers[k], above);
     const double from = points.scores[low], parts = points.log_parts[low];
-    states.scores[k] = above == 0         ? -kMostScore
-                       : above == kPoints ? kMostScore
+    states.scores[k] = above == 0         ? -kMaxScore
+                       : above == kPoints ? kMaxScore
                                           : from + part * (points.scores[high] - from);
     states.parts[k] = parts + part * (points.log_parts[high] - parts);
   }
@@ -122,7 +122,7 @@ FadingSignal::States FadingSignal::at(const ReceptionCurves::Thresholds& thresho
   return states;
 }
 
-PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound)
+PacketLevels::PacketLevels(const ReceptionCurves& curves, const ReceptionStatistics& sound)
     : curves_(curves),
       sound_(sound),
       chip_(chip_energy(curves.modem()) / kEffectiveRatioBeta),
@@ -131,14 +131,14 @@ PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound
       coded_(is_coded_frequency_shift_keying(curves.modem().error_model)),
       collects_band_(!is_frequency_shift_keying(curves.modem().error_model)),
       own_(sound.bits_variance * sound.own),
-      beats_(kept_of_longer(sound.bits_variance) * sound.beats) {
+      cross_terms_(reduction_of_longer(sound.bits_variance) * sound.cross_terms) {
   // Number of stretches of the bits, as in signal_history.h.
   stretches_ = std::clamp(std::ceil(4 * bits_s_ / coherence_time_of(sound.window_spread_hz)), 8.0, 64.0);
   const auto ratio_db = [&](double loss) { return curves.ratio_db_of(-loss / bits_); };
   if (collects_band_) {
-    high_.emplace(sound.collected, elementary::exp(curves.parts()[1].logs[4]));
+    high_.emplace(sound.equalizer, elementary::exp(curves.parts()[1].logs[4]));
     if (high_->most_interference_share() >= kAlike) {
-      low_.emplace(sound.collected, elementary::exp(curves.parts()[5].logs[4]));
+      low_.emplace(sound.equalizer, elementary::exp(curves.parts()[5].logs[4]));
     }
     // Uncoded: -ln(1 - BER)^bits is fitted by a exp(-slope ratio) through losses of 4 and 0.2.
   } else if (!coded_) {
@@ -148,15 +148,15 @@ PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound
   }
 }
 
-Level PacketLevels::preamble(double slow_power) const {
-  const PowerLaw law = sound_.power(slow_power, sound_.preamble_variance);
+Level PacketLevels::preamble(double block_power) const {
+  const GammaPower law = sound_.power(block_power, sound_.preamble_variance);
   const std::array<double, 3> powers = law.at(std::array{-1.5, 0.0, 1.5});
   const double low = decibels(powers[0]), middle = decibels(powers[1]), high = decibels(powers[2]);
   return {middle, (high - low) / 3, (high + low - 2 * middle) / 4.5};
 }
 
-FadingSignal PacketLevels::fading_signal(double slow_power) const {
-  return {*high_, low_, slow_power, {stretches_, bits_s_ / stretches_}};
+FadingSignal PacketLevels::fading_signal(double block_power) const {
+  return {*high_, low_, block_power, {stretches_, bits_s_ / stretches_}};
 }
 
 // Negative logarithm of the probability of all bits when fading is narrower than the steps of
@@ -184,28 +184,28 @@ double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance)
 double PacketLevels::loss(const FadingSignal& signal, double disturbance, double& parts) const {
   // Blends narrow_loss() and wide_loss() so that there is no step between them.
   const double narrow = std::clamp(2 - signal.deviation() / (kNarrow * signal.mean()), 0.0, 1.0);
-  if (!(narrow > 0)) return std::max(wide_loss(signal, disturbance, parts), kLeastLoss);
-  double loss_db = narrow * decibels(std::max(narrow_loss(signal, disturbance), kLeastLoss));
+  if (!(narrow > 0)) return std::max(wide_loss(signal, disturbance, parts), kMinLoss);
+  double loss_db = narrow * decibels(std::max(narrow_loss(signal, disturbance), kMinLoss));
   if (narrow < 1)
-    loss_db += (1 - narrow) * decibels(std::max(wide_loss(signal, disturbance, parts), kLeastLoss));
+    loss_db += (1 - narrow) * decibels(std::max(wide_loss(signal, disturbance, parts), kMinLoss));
   return fast_power(loss_db);
 }
 
 Level PacketLevels::bits(const FadingSignal& signal, double disturbance, double& parts) const {
-  constexpr double kLeastLate = 0.05;
+  constexpr double kMinLate = 0.05;
   double all = loss(signal, disturbance, parts);
   // The bits that precede the late echoes are free of their interference.
   const double late = sound_.late_echoes, before = (1 - sound_.late_share);
-  if (before * late > kLeastLate * disturbance) {
-    const double alone = std::max(disturbance - late, kLeastLate * disturbance);
+  if (before * late > kMinLate * disturbance) {
+    const double alone = std::max(disturbance - late, kMinLate * disturbance);
     all = sound_.late_share * all + before * loss(signal, alone, parts);
   }
   const double ratio_db = curves_.ratio_db_of(-all / bits_);
-  return {std::min(ratio_db, decibels(signal.mean() / disturbance) + kMostGainDb)};
+  return {std::min(ratio_db, decibels(signal.mean() / disturbance) + kMaxGainDb)};
 }
 
-bool PacketLevels::is_likely_lost(double slow_power, double disturbance) const {
-  return decibels((slow_power + sound_.fast) / disturbance) < curves_.bits_flank().high_db;
+bool PacketLevels::is_likely_lost(double block_power, double disturbance) const {
+  return decibels((block_power + sound_.fast) / disturbance) < curves_.bits_flank().high_db;
 }
 
 // Negative logarithm of the probability of all bits when fading is wide: iterates the number of independent
@@ -245,22 +245,22 @@ ReceptionCurves::Thresholds PacketLevels::thresholds(double parts) const {
   return between;
 }
 
-Level PacketLevels::bits(const SlowSound& slow, double noise) const {
-  const StateAndNoise state{&slow, noise};
+Level PacketLevels::bits(const BlockFading& block_fading, double noise) const {
+  const StateAndNoise state{&block_fading, noise};
   Level level;
   bits({&state, 1}, {&level, 1});
   return level;
 }
 
 void PacketLevels::bits(std::span<const StateAndNoise> states, std::span<Level> levels) const {
-  ExponentialMeans cells({sound_.fast, own_, beats_, !coded_});
+  ExponentialMeans cells({sound_.fast, own_, cross_terms_, !coded_});
   std::array<double, ExponentialMeans::kMax> ratios;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const SlowSound& slow = *states[i].slow;
-    const double power = slow.slow_power + sound_.fast;
+    const BlockFading& block_fading = *states[i].block_fading;
+    const double power = block_fading.block_power + sound_.fast;
     const double disturbance = states[i].noise + sound_.bits_echoes + sound_.untracked * power;
     ratios[i] = power / disturbance;
-    cells.add(slow, (coded_ ? chip_ : slope_) / disturbance);
+    cells.add(block_fading, (coded_ ? chip_ : slope_) / disturbance);
   }
   cells.finish();
   if (coded_) {

@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "acoustics/prediction/band_law.h"
-#include "acoustics/prediction/collected_sound.h"
-#include "acoustics/prediction/mean_sound.h"
+#include "acoustics/prediction/equalizer_statistics.h"
+#include "acoustics/prediction/fade_statistics.h"
+#include "acoustics/prediction/gamma_power.h"
 #include "acoustics/prediction/medium_states.h"
-#include "acoustics/prediction/power_law.h"
+#include "acoustics/prediction/reception_statistics.h"
 #include "acoustics/reception/reception_curves.h"
 
 namespace halocline::acoustics {
@@ -31,7 +31,7 @@ class FadingSignal {
  public:
   FadingSignal() = default;
   // Only `high` is used when `low` is absent: interference does not matter then.
-  FadingSignal(const BandTerms& high, const std::optional<BandTerms>& low, double slow_power,
+  FadingSignal(const BandTerms& high, const std::optional<BandTerms>& low, double block_power,
                const Stretches& stretches);
 
   // State of the signal where its ratio to a disturbance equals each of the thresholds, which descend.
@@ -49,17 +49,17 @@ class FadingSignal {
   double narrow_parts() const { return narrow_parts_; }
 
  private:
-  static constexpr std::size_t kPoints = BandLaw::kPoints, kThresholds = ReceptionCurves::kThresholds;
+  static constexpr std::size_t kPoints = FadeStatistics::kPoints, kThresholds = ReceptionCurves::kThresholds;
   using Thresholds = std::array<double, kThresholds>;
   // Distribution at one of the two thresholds.
   struct Side {
     double threshold = 0, deviation = 0;
-    BandLaw::Points points{};
-    BandLaw::Values logs{};  // logarithms of the powers; unused for powers below 0
+    FadeStatistics::Points points{};
+    FadeStatistics::Values logs{};  // logarithms of the powers; unused for powers below 0
     // Reciprocal of the rise to the point: of the logarithm, or of the power where a power is not positive.
-    BandLaw::Values rises{};
+    FadeStatistics::Values rises{};
     Side() = default;
-    Side(double at_threshold, const BandLaw& law, const Stretches& stretches);
+    Side(double at_threshold, const FadeStatistics& law, const Stretches& stretches);
     // Looks up `powers`, fastest when they descend; `states.parts` are logarithms.
     void at(const Thresholds& powers, States& states) const;
     double log_parts_at(double power) const;
@@ -80,32 +80,32 @@ class FadingSignal {
 class PacketLevels {
  public:
   // `curves` and `sound` must outlive it.
-  PacketLevels(const ReceptionCurves& curves, const MeanSound& sound);
+  PacketLevels(const ReceptionCurves& curves, const ReceptionStatistics& sound);
 
   // True when the receiver combines the whole band before it decides on bits, as an equaliser does:
   // phase-shift keying.
   bool collects_band() const { return collects_band_; }
 
-  // Level of the mean signal over the preamble while the block-fading power is `slow_power`, dB re 1 uPa.
-  Level preamble(double slow_power) const;
-  // Phase-shift keying: fading of the signal within a packet while the block-fading power is `slow_power`.
-  FadingSignal fading_signal(double slow_power) const;
+  // Level of the mean signal over the preamble while the block-fading power is `block_power`, dB re 1 uPa.
+  Level preamble(double block_power) const;
+  // Phase-shift keying: fading of the signal within a packet while the block-fading power is `block_power`.
+  FadingSignal fading_signal(double block_power) const;
   // Equivalent ratio of signal to noise and interference for the bits, dB. `disturbance` is the noise and
   // mean interference over the band, uPa^2. `parts` is the number of parts of the packet that fade
   // independently: a guess on entry, 0 for none, and the result on return.
   Level bits(const FadingSignal& signal, double disturbance, double& parts) const;
   // True when all bits of a packet with these powers are more likely lost than correct.
-  bool is_likely_lost(double slow_power, double disturbance) const;
+  bool is_likely_lost(double block_power, double disturbance) const;
   struct StateAndNoise {
-    const SlowSound* slow;
+    const BlockFading* block_fading;
     double noise;
   };
   // Upper bound of the result over the ratio to the mean signal.
-  static constexpr double kMostGainDb = 3;
+  static constexpr double kMaxGainDb = 3;
   // Frequency-shift keying: equivalent ratios for at most ExponentialMeans::kMax states, each with its noise,
   // uPa^2.
   void bits(std::span<const StateAndNoise> states, std::span<Level> levels) const;
-  Level bits(const SlowSound& slow, double noise) const;
+  Level bits(const BlockFading& block_fading, double noise) const;
 
  private:
   double loss(const FadingSignal& signal, double disturbance, double& parts) const;
@@ -114,13 +114,13 @@ class PacketLevels {
   // Thresholds of the ratio below which one of `parts` parts of the packet is lost.
   ReceptionCurves::Thresholds thresholds(double parts) const;
   const ReceptionCurves& curves_;
-  const MeanSound& sound_;
+  const ReceptionStatistics& sound_;
   double chip_, bits_, bits_s_;
   bool coded_, collects_band_;
   double stretches_ = 1;
   std::optional<BandTerms> high_, low_;    // phase-shift keying: the terms of FadingSignal
   double slope_ = 0, errors_at_zero_ = 0;  // frequency-shift keying: fit of -ln(1 - BER) over the ratio
-  double own_, beats_;                     // variances of MeanSound after averaging over the bits
+  double own_, cross_terms_;               // variances of ReceptionStatistics after averaging over the bits
 };
 
 }  // namespace halocline::acoustics

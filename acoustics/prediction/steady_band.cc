@@ -72,7 +72,7 @@ struct PairRule {
 //   change   = -I cos(phase) (1 - g)
 //   variance = I^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2,  cos(2 phase) = 2 cos(phase)^2 - 1.
 void add_pairs(const SteadyBand::Member& p, std::span<const SteadyBand::Member> before, const PairRule& rule,
-               SteadyBand::Sway& sway) {
+               SteadyBand::JitterEffect& jitter) {
   for (const SteadyBand::Member& q : before) {
     const double most = 2 * p.pressure * q.pressure;
     if (most < rule.least) continue;
@@ -81,8 +81,8 @@ void add_pairs(const SteadyBand::Member& p, std::span<const SteadyBand::Member> 
     const double sines = squared(p.launch_sine - q.launch_sine) + squared(p.arrival_sine - q.arrival_sine);
     const double kept = fast_exp(rule.exponent * sines), kept_squares = kept * kept,
                  interference = squared(most * sinc), here = 2 * (p.re * q.re + p.im * q.im) * sinc;
-    sway.change -= here * (1 - kept);
-    sway.variance +=
+    jitter.change -= here * (1 - kept);
+    jitter.variance +=
         (1 - kept_squares) * (interference - kept_squares * (2 * here * here - interference)) / 2;
   }
 }
@@ -150,7 +150,7 @@ Complex SteadyBand::add(const Path& path, const BandTurns& turns) {
   return product(low, turns.half);
 }
 
-std::array<SteadyBand::Part, kSignalFrequencies> SteadyBand::parts(const Sway& sway) const {
+std::array<SteadyBand::Part, kSignalFrequencies> SteadyBand::parts(const JitterEffect& jitter) const {
   std::array<Part, kSignalFrequencies> parts;
   const auto count = static_cast<double>(samples_);
   Frequencies means{}, squares{};
@@ -161,34 +161,34 @@ std::array<SteadyBand::Part, kSignalFrequencies> SteadyBand::parts(const Sway& s
     parts[m].constant = std::sqrt(std::max(2 * mean * mean - squares[m] / count, 0.0));
     parts[m].varying = mean - parts[m].constant;
   }
-  add(sway, parts);
+  add(jitter, parts);
   return parts;
 }
 
 // Sums over the pairs that interfere less than kNearCycles times over the band; each has its phase at the
 // middle of the band. The wave number k is that at the centre.
-SteadyBand::Sway SteadyBand::sway() const {
+SteadyBand::JitterEffect SteadyBand::jitter() const {
   const double wave_number = 2 * pi * band_.centre_hz() / kSoundSpeedMps;
-  PairRule rule{.exponent = -squared(wave_number * kSwayM) / 2, .least = 0};
+  PairRule rule{.exponent = -squared(wave_number * kPlatformJitterM) / 2, .least = 0};
   for (const Member& member : members_) rule.least += kNegligible * squared(member.pressure);
-  Sway sway;
+  JitterEffect jitter;
   std::size_t from = 0;  // first path that is near enough
   for (std::size_t p = 0; p < members_.size(); ++p) {
     while (members_[p].half - members_[from].half >= pi * kNearCycles) ++from;
-    add_pairs(members_[p], std::span(members_).subspan(from, p - from), rule, sway);
+    add_pairs(members_[p], std::span(members_).subspan(from, p - from), rule, jitter);
   }
-  return sway;
+  return jitter;
 }
 
 // Distributes the change of the mean over the band to its parts. Jitter moves interference that alternates
 // over the band only between parts, so all parts change alike.
-void SteadyBand::add(const Sway& sway, std::array<Part, kSignalFrequencies>& parts) {
+void SteadyBand::add(const JitterEffect& jitter, std::array<Part, kSignalFrequencies>& parts) {
   for (Part& part : parts) {
     const double power = part.constant + part.varying;
-    if (sway.change >= 0) {
-      part.constant += sway.change;
+    if (jitter.change >= 0) {
+      part.constant += jitter.change;
     } else if (power > 0) {
-      const double left = std::max(power + sway.change, 0.0) / power;
+      const double left = std::max(power + jitter.change, 0.0) / power;
       part.constant *= left;
       part.varying *= left;
     }

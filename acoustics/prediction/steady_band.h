@@ -10,9 +10,10 @@
 // the steady and the diffuse part of a signal (Rice 1945) of the same S and V. For paths that interfere many
 // times over a part both follow the delays, not the phases: they do not change when a vehicle moves by a
 // wavelength. Paths that interfere less than kNearCycles times over the band do change, by their angles. Both
-// ends move vertically by kSwayM rms (our choice) from packet to packet: platform jitter. It reduces the mean
-// interference of two paths p, q by the factor
-//   g = exp(-(k kSwayM)^2 ((sin launch_p - sin launch_q)^2 + (sin arrival_p - sin arrival_q)^2) / 2)
+// ends move vertically by kPlatformJitterM rms (our choice) from packet to packet: platform jitter. It
+// reduces the mean interference of two paths p, q by the factor
+//   g = exp(-(k kPlatformJitterM)^2 ((sin launch_p - sin launch_q)^2 + (sin arrival_p - sin arrival_q)^2) /
+//   2)
 // relative to its value at the given positions, and 2 a_p a_q cos(phase) sinc(cycles) has the variance
 //   4 a_p^2 a_q^2 sinc(cycles)^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2.
 // All parts lose the same, since jitter moves interference that alternates over the band only between parts.
@@ -33,7 +34,7 @@ namespace halocline::acoustics {
 
 // Vertical platform jitter, m rms, and the number of interference cycles over the band below which a pair of
 // paths counts as near.
-inline constexpr double kSwayM = 0.2, kNearCycles = 4;
+inline constexpr double kPlatformJitterM = 0.2, kNearCycles = 4;
 
 // Phase factors exp(j 2 pi m turns), m = 0..7, and that of half a turn, exp(j pi turns).
 struct BandTurns {
@@ -69,22 +70,22 @@ class SteadyBand {
   // lowest part.
   std::complex<double> add(const Path& path, const BandTurns& turns);
   // Powers of the parts, from the low end of the band to the high.
-  std::array<Part, kSignalFrequencies> parts() const { return parts(sway()); }
+  std::array<Part, kSignalFrequencies> parts() const { return parts(jitter()); }
   // Variance of the mean power over the band by platform jitter, uPa^4.
-  double sway_variance() const { return sway().variance; }
+  double jitter_variance() const { return jitter().variance; }
 
   // Effect of platform jitter on the mean power over the band: the change of the mean, uPa^2, and the
   // variance, uPa^4. All pairs of paths are evaluated in one pass.
-  struct Sway {
+  struct JitterEffect {
     double change = 0, variance = 0;
   };
-  Sway sway() const;
-  std::array<Part, kSignalFrequencies> parts(const Sway& sway) const;
+  JitterEffect jitter() const;
+  std::array<Part, kSignalFrequencies> parts(const JitterEffect& jitter) const;
 
  private:
   static constexpr std::size_t kMaxSamples = 32;  // samples in a part
 
-  static void add(const Sway& sway, std::array<Part, kSignalFrequencies>& parts);
+  static void add(const JitterEffect& jitter, std::array<Part, kSignalFrequencies>& parts);
 
   Band band_;
   double part_hz_;

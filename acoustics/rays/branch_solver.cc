@@ -31,7 +31,7 @@ constexpr int kMaxTurnSteps = 40;
 BranchSolver::BranchSolver(const ArcTracer& tracer, FanTracer& fan)
     : tracer_(tracer),
       fan_(fan),
-      images_(tracer),
+      image_sources_(tracer),
       folds_(tracer),
       depth_(tracer.bottom_at_receiver_m()),
       faint_db_(kFaintDb - 20 * elementary::log10(tracer.sea().options.min_boundary_factor)) {}
@@ -79,7 +79,7 @@ bool BranchSolver::may_pass_image(const FanRay& a, const FanRay& b, double error
   double dark_low = 0, dark_high = 0;
   if (a.zeta_slope * b.zeta_slope < 0)
     (a.zeta_slope > 0 ? dark_high : dark_low) = -kDarkFold * folds_.length_m(fold_between(a, b));
-  return images_.any_between(low - std::max(beyond, dark_low), high + std::max(beyond, dark_high));
+  return image_sources_.any_between(low - std::max(beyond, dark_low), high + std::max(beyond, dark_high));
 }
 
 void BranchSolver::solve(const FanRay& a, const FanRay& b) {
@@ -91,10 +91,10 @@ void BranchSolver::solve(const FanRay& a, const FanRay& b) {
     const double theta = a.theta + t * (b.theta - a.theta);
     if (theta <= from.theta) continue;
     FanRay turn;
-    if (turns.count > 1 || images_.off_nearest(cubic(t)) < kNearFold * depth_) {
+    if (turns.count > 1 || image_sources_.off_nearest(cubic(t)) < kNearFold * depth_) {
       turn = traced(theta);
       if (!turn.arrived) continue;
-      if (images_.off_nearest(cubic(t)) < kNearFold * depth_ && seek_turn(from, b, turn))
+      if (image_sources_.off_nearest(cubic(t)) < kNearFold * depth_ && seek_turn(from, b, turn))
         folds_.note(turn.theta);
       // This ray separates the images on both sides as well as the ray at the turn.
     } else {
@@ -135,9 +135,9 @@ bool BranchSolver::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
     const double length = is_faint(turn) ? 0 : folds_.length_m(fold_at(low, turn, high));
     // Done when clear of all images, and when the fold's place is known well enough for its field, if it has
     // one.
-    const bool is_field = images_.any_in_fold(turn.zeta, is_greatest, length, 2 * left);
+    const bool is_field = image_sources_.any_in_fold(turn.zeta, is_greatest, length, 2 * left);
     const bool is_clear =
-        images_.off_nearest(turn.zeta) > 2 * left && (!is_field || left < kFoldTolerance * length);
+        image_sources_.off_nearest(turn.zeta) > 2 * left && (!is_field || left < kFoldTolerance * length);
     if (left < kTurnTolerance || is_clear) return is_field;
     FanRay& end = beside_low ? low : high;
     double &replaced = beside_low ? at_low : at_high, &kept = beside_low ? at_high : at_low;

@@ -18,7 +18,7 @@
 
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/column_rays.h"
+#include "acoustics/rays/depth_fan.h"
 #include "acoustics/rays/diffuse_windows.h"
 #include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/profile_path.h"
@@ -33,7 +33,7 @@ class BranchSolver {
   // with `cache`, rays are shared with searches for receivers at other depths.
   BranchSolver(const ArcTracer& tracer, FanTracer& fan);
   void give_weak_paths_to(DiffuseWindows* windows) { windows_ = windows; }
-  void share(ColumnCache* cache) { cache_ = cache; }
+  void share(DepthFanCache* cache) { cache_ = cache; }
 
   // Traces the ray launched at `theta`, as FanTracer::trace(), through the cache when there is one.
   FanRay traced(double theta, std::size_t enough_events = FanTracer::kAllEvents);
@@ -63,7 +63,7 @@ class BranchSolver {
 
   // True when an image may lie within an interval of zeta, m, between two rays whose zeta is a cubic.
   bool may_pass_image(double low, double high) const {
-    return images_.any_between(low - kNearFold * depth_, high + kNearFold * depth_);
+    return image_sources_.any_between(low - kNearFold * depth_, high + kNearFold * depth_);
   }
 
   // Finds all paths between two rays of one bounce sequence.
@@ -87,13 +87,13 @@ class BranchSolver {
 
   const ArcTracer& tracer_;
   FanTracer& fan_;
-  Images images_;
+  ImageSources image_sources_;
   ProfileFolds folds_;
   double depth_, faint_db_;
   int traces_ = 0;
   std::vector<ProfilePath> paths_;
   DiffuseWindows* windows_ = nullptr;
-  ColumnCache* cache_ = nullptr;
+  DepthFanCache* cache_ = nullptr;
 };
 
 }  // namespace halocline::acoustics

@@ -13,11 +13,11 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kLeastSine = 0.02;  // lower bound of the sine in p, where a ray turns
-constexpr double kBesideMargin = 8;  // in power
-constexpr double kDepthStep = 50;    // m: spacing of depths at which the absorption is evaluated
-constexpr double kManyImages = 4;    // images of the receiver within a window
-constexpr double kMostFocused = 4;   // greatest power of all paths of mixed rays over its mean
+constexpr double kMinTurnSine = 0.02;  // lower bound of the sine in p, where a ray turns
+constexpr double kBesideMargin = 8;    // in power
+constexpr double kDepthStep = 50;      // m: spacing of depths at which the absorption is evaluated
+constexpr double kManyImages = 4;      // images of the receiver within a window
+constexpr double kMaxFocusing = 4;     // greatest power of all paths of mixed rays over its mean
 // Greatest field of a fold over that of a single ray at the edge of its shadow, in power:
 // Ai(-1.02)^2 / Ai(0)^2.
 constexpr double kFoldPeak = 2.3;
@@ -88,7 +88,7 @@ bool DiffuseWindows::is_weak_beside(const FanRay& a, const FanRay& b) const {
 bool DiffuseWindows::is_weak_together(const FanRay& a, const FanRay& b) const {
   const double images = std::min(std::abs(a.zeta_slope), std::abs(b.zeta_slope)) * (b.theta - a.theta) /
                         tracer_.bottom_at_receiver_m();
-  return a.arrived && b.arrived && images > kManyImages && kMostFocused * mixed_power(a, b) < weak_power();
+  return a.arrived && b.arrived && images > kManyImages && kMaxFocusing * energy_flux(a, b) < weak_power();
 }
 
 void DiffuseWindows::weigh(Cell& cell, const FanRay& ray, double power) const {
@@ -110,7 +110,7 @@ void DiffuseWindows::add_branch(const FanRay& a, const FanRay& b, int images) {
   }
 }
 
-void DiffuseWindows::add_mixed(const FanRay& a, const FanRay& b) {
+void DiffuseWindows::add_energy_flux(const FanRay& a, const FanRay& b) {
   Cell& cell = cells_[cell_];
   for (const FanRay* ray : {&a, &b}) {
     const double flux = 0.5 * strength(*ray) * (b.theta - a.theta);
@@ -120,7 +120,7 @@ void DiffuseWindows::add_mixed(const FanRay& a, const FanRay& b) {
 }
 
 // The power strength p dtheta with the mean density p = 1 / H over the water depth H at the receiver.
-double DiffuseWindows::mixed_power(const FanRay& a, const FanRay& b) const {
+double DiffuseWindows::energy_flux(const FanRay& a, const FanRay& b) const {
   return 0.5 * (strength(a) + strength(b)) * (b.theta - a.theta) / tracer_.bottom_at_receiver_m();
 }
 
@@ -140,10 +140,10 @@ double DiffuseWindows::density(double xi) const {
     if (s1 == 0 && s2 == 0) continue;
     half += s1 > 0 && s2 > 0 ? (end - top) * xi * (c1 + c2) / (s1 + s2) : (s1 + s2) / (xi * std::abs(g));
   }
-  return xi * receiver_speed_ / std::max(std::sqrt(here), kLeastSine) / half;
+  return xi * receiver_speed_ / std::max(std::sqrt(here), kMinTurnSine) / half;
 }
 
-std::vector<Arrival> DiffuseWindows::arrivals(ColumnCache* cache) const {
+std::vector<Arrival> DiffuseWindows::arrivals(DepthFanCache* cache) const {
   std::vector<Arrival> all;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];

@@ -24,7 +24,7 @@
 
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/column_rays.h"
+#include "acoustics/rays/depth_fan.h"
 #include "acoustics/rays/fan_tracer.h"
 
 namespace halocline::acoustics {
@@ -56,12 +56,12 @@ class DiffuseWindows {
   // receiver.
   void add_branch(const FanRay& a, const FanRay& b, int images);
   // Adds the energy between any two rays.
-  void add_mixed(const FanRay& a, const FanRay& b);
-  // The power that add_mixed would add, re 1 m.
-  double mixed_power(const FanRay& a, const FanRay& b) const;
+  void add_energy_flux(const FanRay& a, const FanRay& b);
+  // The power that add_energy_flux would add, re 1 m.
+  double energy_flux(const FanRay& a, const FanRay& b) const;
 
   // One arrival for each cell of the fan that has energy, in the order of delays. `cache` may be null.
-  std::vector<Arrival> arrivals(ColumnCache* cache) const;
+  std::vector<Arrival> arrivals(DepthFanCache* cache) const;
 
  private:
   struct Cell {

@@ -47,9 +47,9 @@ const Arrival& strongest(const std::vector<Arrival>& paths) {
 }
 
 // A search for the paths of one link; only the options change from one solver call to the next.
-class LinkSearch {
+class EigenraySearch {
  public:
-  LinkSearch(const RaySea& sea, const RayLink& link, RaySolver solver, SharedRays* shared)
+  EigenraySearch(const RaySea& sea, const RayLink& link, RaySolver solver, SharedRays* shared)
       : sea_(sea),
         link_(link),
         solver_(solver),
@@ -83,7 +83,7 @@ class LinkSearch {
   std::optional<ChannelCore> core_;
 };
 
-std::vector<Arrival> LinkSearch::solved(const RayOptions& options) const {
+std::vector<Arrival> EigenraySearch::solved(const RayOptions& options) const {
   switch (solver_) {
     case RaySolver::kImages:
       return image_rays(flat_sea(options, sea_.bottom_profile.depth_at(link_.range_m)), link_);
@@ -99,7 +99,7 @@ std::vector<Arrival> LinkSearch::solved(const RayOptions& options) const {
 }
 
 // Over a profile, nearly vertical rays are not traced. The direct ray is then that of a flat sea.
-void LinkSearch::add_vertical(const RayOptions& options, std::vector<Arrival>& paths) const {
+void EigenraySearch::add_vertical(const RayOptions& options, std::vector<Arrival>& paths) const {
   const double down = std::abs(link_.receiver_depth_m - link_.source_depth_m);
   if (solver_ != RaySolver::kArcs || elementary::atan2(down, link_.range_m) < kNearlyVertical) return;
   RayOptions direct = options;
@@ -114,7 +114,7 @@ void LinkSearch::add_vertical(const RayOptions& options, std::vector<Arrival>& p
 }
 
 // Replaces all rays within the core of a channel by the axial ray, unless a direct ray runs outside the core.
-void LinkSearch::add_axial(std::vector<Arrival>& paths) const {
+void EigenraySearch::add_axial(std::vector<Arrival>& paths) const {
   std::erase_if(paths, [&](const Arrival& path) { return runs_within(*core_, path); });
   const bool is_direct = std::any_of(paths.begin(), paths.end(), [](const Arrival& path) {
     return path.surface_bounces + path.bottom_bounces + path.identity.upper_turns +
@@ -128,7 +128,7 @@ void LinkSearch::add_axial(std::vector<Arrival>& paths) const {
   paths.insert(later, axial);
 }
 
-std::vector<Arrival> LinkSearch::paths_with(const RayOptions& options) const {
+std::vector<Arrival> EigenraySearch::paths_with(const RayOptions& options) const {
   std::vector<Arrival> paths = solved(options);
   add_vertical(options, paths);
   if (core_) add_axial(paths);
@@ -140,20 +140,20 @@ std::vector<Arrival> LinkSearch::paths_with(const RayOptions& options) const {
   return paths;
 }
 
-RayOptions LinkSearch::with_bounce_loss(double loss_db) const {
+RayOptions EigenraySearch::with_bounce_loss(double loss_db) const {
   RayOptions options = sea_.options;
   options.min_boundary_factor = factor_of(loss_db);
   return options;
 }
 
 // Greatest loss of bounces of a path that still reaches the least amplitude, dB.
-double LinkSearch::most_bounce_loss_db() const {
+double EigenraySearch::most_bounce_loss_db() const {
   if (sea_.options.min_amplitude <= 0) return kNoLessDb;
   const double spherical = kLoudestFocus / std::max(link_.range_m, kMinDistance);
   return std::min(20 * elementary::log10(spherical / sea_.options.min_amplitude), kNoLessDb);
 }
 
-std::vector<Arrival> LinkSearch::paths() const {
+std::vector<Arrival> EigenraySearch::paths() const {
   std::vector<Arrival> paths = paths_with(sea_.options);
   if (!(sea_.options.min_boundary_factor > 0)) return paths;
   const double limit_db = -20 * elementary::log10(sea_.options.min_boundary_factor),
@@ -171,7 +171,7 @@ std::vector<Arrival> LinkSearch::paths() const {
   return paths;
 }
 
-PathLack LinkSearch::lack() const {
+PathLack EigenraySearch::lack() const {
   RayOptions all = sea_.options;
   all.max_launch_angle_rad = std::numbers::pi / 2;
   all.keep_steep_direct = true;
@@ -224,7 +224,7 @@ Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolve
           "the ray solvers 'images' and 'snell' need water that is the same all along the link");
   const RayLink held = held_apart_over(sea.bottom_profile, link);
   const RaySolver chosen = solver.value_or(choose_solver(sea, held));
-  const LinkSearch search(sea, held, chosen, shared);
+  const EigenraySearch search(sea, held, chosen, shared);
   Arrivals found{chosen, search.paths()};
   if (found.silent()) found.lack = search.lack();
   if (held.range_m != link.range_m) {

@@ -65,7 +65,7 @@ RaySolver choose_solver(const RaySea& sea, const RayLink& link);
 // a solver that is named is exact for the link: images and Snell refuse other seas. Between ends closer than
 // 1 m the delay is that of the true distance and the level that at 1 m.
 //
-// Links with one common end can share rays through `shared` (acoustics/rays/column_rays.h, bearing_rays.h),
+// Links with one common end can share rays through `shared` (acoustics/rays/depth_fan.h, range_fan.h),
 // which takes effect when the solver is arcs. The sea then has to outlive `shared`.
 Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver = std::nullopt,
                   SharedRays* shared = nullptr);

@@ -16,10 +16,10 @@
 namespace halocline::acoustics {
 
 // Eigenray family: whether the ray runs the legs U and D, there and back, once more than its n whole cycles.
-struct Family {
+struct EigenrayFamily {
   bool up, down;
 };
-inline constexpr std::array<Family, 4> kFamilies = {
+inline constexpr std::array<EigenrayFamily, 4> kEigenrayFamilies = {
     {{false, false}, {true, false}, {false, true}, {true, true}}};
 
 // Terms of the range equation b + n X = r, with b the range of the incomplete cycle and X that of a whole
@@ -28,7 +28,7 @@ struct RangeTerms {
   double bq, bm, xq, xm;
 };
 
-inline RangeTerms range_terms(const LegSums& s, Family family) {
+inline RangeTerms range_terms(const LegSums& s, EigenrayFamily family) {
   const double u = family.up ? 2 : 0, d = family.down ? 2 : 0;
   return {u * s.q[0] + s.q[1] + d * s.q[2], u * s.m[0] + s.m[1] + d * s.m[2], 2 * (s.q[0] + s.q[1] + s.q[2]),
           2 * (s.m[0] + s.m[1] + s.m[2])};
@@ -52,7 +52,7 @@ struct LayeredLink {
 
 // A ray, by the sine and cosine of its angle at the barrier.
 struct LayeredRay {
-  Family family;
+  EigenrayFamily family;
   int cycles;
   double sine, cosine;
   double fold_slope = 0;  // |dr/dxi| of the path on the shadow side of a caustic; 0: the ray's own

@@ -159,8 +159,8 @@ Node Search::node_at(double theta) const {
   node.theta = theta;
   const double sine = elementary::sin(theta), cosine = elementary::cos(theta), r = link_.range_m;
   node.sums = legs_.sums(sine, cosine);
-  for (std::size_t k = 0; k < kFamilies.size(); ++k) {
-    const RangeTerms t = range_terms(node.sums, kFamilies[k]);
+  for (std::size_t k = 0; k < kEigenrayFamilies.size(); ++k) {
+    const RangeTerms t = range_terms(node.sums, kEigenrayFamilies[k]);
     // The equation for f and its derivative, with dxi/dtheta = -sin / c*:
     //   f = (r / xi - b_q) / X_q,  df/dtheta = (b_m + f X_m) tan(theta) / X_q
     // As the ray becomes vertical (xi -> 0), f grows without bound.
@@ -173,7 +173,8 @@ Node Search::node_at(double theta) const {
 
 bool Search::too_faint(const Node& a, const Node& b, std::size_t family, double min_f) const {
   if (direct_only_) return family != 0;
-  const int below = std::max(0, static_cast<int>(std::ceil(min_f))) + (kFamilies[family].down ? 1 : 0);
+  const int below =
+      std::max(0, static_cast<int>(std::ceil(min_f))) + (kEigenrayFamilies[family].down ? 1 : 0);
   const double log_factor = std::max(a.log_factor, b.log_factor);
   return below * log_factor < link_.log_min_factor - kMarginOfFactor;
 }
@@ -182,7 +183,7 @@ void Search::refine(const Node& a, const Node& b, int depth) {
   if (is_clear(a, b)) return;
   bool any = false, fits = true;
   const Node middle = node_at(0.5 * (a.theta + b.theta));
-  for (std::size_t k = 0; k < kFamilies.size(); ++k) {
+  for (std::size_t k = 0; k < kEigenrayFamilies.size(); ++k) {
     const double least = std::min({a.f[k], b.f[k], middle.f[k]});
     if (too_faint(a, b, k, least - 0.5)) continue;
     any = true;
@@ -203,7 +204,7 @@ void Search::refine(const Node& a, const Node& b, int depth) {
 // True when clearly no ray of any family lies between two nodes: the slopes cannot bring f to a whole number
 // within the cell.
 bool Search::is_clear(const Node& a, const Node& b) const {
-  for (std::size_t k = 0; k < kFamilies.size(); ++k) {
+  for (std::size_t k = 0; k < kEigenrayFamilies.size(); ++k) {
     const double change = std::max(std::abs(a.slope[k]), std::abs(b.slope[k])) * (b.theta - a.theta) +
                           std::max(dark_reach(a, b, k), kClearOfRays);
     const double least = std::min(a.f[k], b.f[k]) - change, most = std::max(a.f[k], b.f[k]) + change;
@@ -214,7 +215,7 @@ bool Search::is_clear(const Node& a, const Node& b) const {
 }
 
 void Search::solve_cell(const Node& a, const Node& b) {
-  for (std::size_t k = 0; k < kFamilies.size(); ++k) {
+  for (std::size_t k = 0; k < kEigenrayFamilies.size(); ++k) {
     if (!too_faint(a, b, k, std::min(a.f[k], b.f[k]) - 0.5)) solve_family(a, b, k);
   }
 }
@@ -261,10 +262,10 @@ double Search::dark_reach(const Node& a, const Node& b, std::size_t family) cons
   // curvature.
   const auto range_slope = [family](const Node& node) {
     const double tangent = elementary::tan(node.theta);
-    return std::abs(node.slope[family]) * range_terms(node.sums, kFamilies[family]).xq / tangent;
+    return std::abs(node.slope[family]) * range_terms(node.sums, kEigenrayFamilies[family]).xq / tangent;
   };
   const double bend = (range_slope(a) + range_slope(b)) / std::abs(b.sums.xi - a.sums.xi);
-  const double cycle_m = a.sums.xi * range_terms(a.sums, kFamilies[family]).xq;
+  const double cycle_m = a.sums.xi * range_terms(a.sums, kEigenrayFamilies[family]).xq;
   return std::min(kDarkReach * Fold{bend, 1}.length_m(link_.sea.options.frequency_hz) / cycle_m, kNearFold);
 }
 
@@ -275,7 +276,7 @@ void Search::add_dark_path(const Node& a, const Node& b, const Node& turn, bool 
   const double f = turn.f[family];
   const int cycles = static_cast<int>(is_greatest ? std::ceil(f) : std::floor(f));
   if (cycles < 0 || cycles > link_.sea.options.max_bounces) return;
-  LayeredRay ray{kFamilies[family], cycles, 0, 1};
+  LayeredRay ray{kEigenrayFamilies[family], cycles, 0, 1};
   LegSums sums;
   if (!find_dark_ray(link_, legs_, {a.theta, b.theta, turn.theta, a.sums, b.sums}, ray, sums)) return;
   append_arrival(link_, legs_, ray, sums, paths_);
@@ -299,7 +300,7 @@ void Search::solve_monotone(const Node& a, const Node& b, std::size_t family) {
 
 void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
   double low = bracket.from, high = bracket.to, theta = bracket.guess, off_before = kNotYet;
-  LayeredRay ray{kFamilies[family], cycles, 0, 1};
+  LayeredRay ray{kEigenrayFamilies[family], cycles, 0, 1};
   LegSums sums;
   RangeTerms t{};
   for (int i = 0; i < 60; ++i) {

@@ -22,7 +22,7 @@ constexpr double kBesideGrazing = 1e-9;  // rad: distance of the two rays of a f
 constexpr double kMinTube = 1e-9;  // m, of |q|: a ray on a caustic, to rounding
 
 // Least and, inverted, greatest share of the predicted distance from a fold to its rays.
-constexpr double kLeastFoldShare = 0.5;
+constexpr double kMinFoldShare = 0.5;
 constexpr double kFoldMargin = 1.25;  // factor on the Airy length
 constexpr double kFoldStep = 1e-4;    // rad: distance of the rays that give the curvature of a fold
 
@@ -237,7 +237,7 @@ std::vector<Arrival> ProfileFolds::finished(const std::vector<ProfilePath>& path
       if (paths[i].target != found.target || members[i].family != kNoFamily) continue;
       const double off = arrivals[i].launch_angle_rad - found.path.launch_angle_rad;
       const double share = std::abs(off) / found.to_rays_rad;
-      if (share > kLeastFoldShare && share < 1 / kLeastFoldShare) (off < 0 ? below : above) = i;
+      if (share > kMinFoldShare && share < 1 / kMinFoldShare) (off < 0 ? below : above) = i;
     }
     if (!below || !above) continue;
     const bool is_one = found.x < kMergedFold;

@@ -27,9 +27,9 @@ inline constexpr double kNearFold = 0.06;
 
 // Image sources seen from the receiver: its images in unfolded depth, +-z + 2 H k, with H the depth of the
 // bottom at the receiver and k any whole number.
-class Images {
+class ImageSources {
  public:
-  explicit Images(const ArcTracer& tracer)
+  explicit ImageSources(const ArcTracer& tracer)
       : z_(tracer.receiver_depth_m()), period_(2 * tracer.bottom_at_receiver_m()) {}
 
   // Distance from `zeta` to the nearest image, m.

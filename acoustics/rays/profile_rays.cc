@@ -34,7 +34,7 @@ constexpr double kNarrowWindow = 3e-5;  // times depth over range, rad: narrower
 // Radians: narrower windows are not divided when the rays beside them are weak.
 constexpr double kWeakWindow = 2e-3;
 // Share of the energy flux that the strongest path is assumed to have until one is found.
-constexpr double kLeastStrongest = 3e-3;
+constexpr double kMinStrongest = 3e-3;
 
 }  // namespace
 
@@ -91,8 +91,8 @@ std::vector<Arrival> ProfileSearch::run(const std::vector<double>& angles, doubl
     return branch_.finished();
   }
   double flux = 0;
-  for (std::size_t i = 1; i < fan.size(); ++i) flux += windows_.mixed_power(fan[i - 1], fan[i]);
-  windows_.set_reference(kLeastStrongest * flux);
+  for (std::size_t i = 1; i < fan.size(); ++i) flux += windows_.energy_flux(fan[i - 1], fan[i]);
+  windows_.set_reference(kMinStrongest * flux);
   branch_.give_weak_paths_to(&windows_);
   narrow_window_ = kNarrowWindow * tracer_.bottom_at_receiver_m() / tracer_.range_m();
   search(fan, predicted, core_edge);
@@ -186,7 +186,7 @@ void ProfileSearch::look_between(const FanRay& a, const FanRay& b, int depth, do
 }
 
 void ProfileSearch::look_into_window(const FanRay& a, const FanRay& b, int depth, double error) {
-  if (branch_.traces() > kMaxTraces) return windows_.add_mixed(a, b);
+  if (branch_.traces() > kMaxTraces) return windows_.add_energy_flux(a, b);
   const bool both = a.arrived && b.arrived, neither = !a.arrived && !b.arrived;
   const auto event = branch_.parting(a, b);
   if (!event && branch_.is_faint(a) && branch_.is_faint(b)) return;
@@ -197,7 +197,7 @@ void ProfileSearch::look_into_window(const FanRay& a, const FanRay& b, int depth
   if (is_branch && !branch_.may_pass_image(a, b, error)) return;
   if (width < narrow_window_ || (width < kWeakWindow && windows_.is_weak_beside(a, b)) ||
       windows_.is_weak_together(a, b))
-    return windows_.add_mixed(a, b);
+    return windows_.add_energy_flux(a, b);
   const FanRay middle = branch_.traced(0.5 * (a.theta + b.theta));
   const double found_error = branch_.error_at(a, middle, b);
   if (branch_.is_predicted(found_error, a, b, 1)) {
@@ -245,7 +245,7 @@ void ProfileSearch::scan_to_edge(const FanRay& from, const FanRay& edge, bool gr
 }
 
 std::vector<Arrival> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::vector<double> angles,
-                                  ColumnCache* cache) {
+                                  DepthFanCache* cache) {
   const double core_edge = leave_out_core(tracer, angles);
   ProfileSearch search(tracer, fan);
   search.share(cache);

@@ -27,7 +27,7 @@
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/branch_solver.h"
-#include "acoustics/rays/column_rays.h"
+#include "acoustics/rays/depth_fan.h"
 #include "acoustics/rays/diffuse_windows.h"
 #include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/traced_ray.h"
@@ -40,7 +40,7 @@ std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link);
 // Returns all eigenrays between the ends of the tracer, with a first fan of `angles` such as launch_angles().
 // With a cache, rays are shared with the searches for receivers at other depths of the same place.
 std::vector<Arrival> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::vector<double> angles,
-                                  ColumnCache* cache);
+                                  DepthFanCache* cache);
 
 // Launch angles of the first fan, rising, rad.
 std::vector<double> launch_angles(const ArcTracer& tracer);
@@ -62,7 +62,7 @@ class ProfileSearch {
       : tracer_(tracer), branch_(tracer, fan), windows_(tracer) {}
 
   // Shares rays with searches for receivers at other depths.
-  void share(ColumnCache* cache) {
+  void share(DepthFanCache* cache) {
     branch_.share(cache);
     cache_ = cache;
   }
@@ -111,7 +111,7 @@ class ProfileSearch {
   DiffuseWindows windows_;
   double narrow_window_ = 0;  // width below which a window is not divided, rad; 0: the bottom is smooth
   std::vector<Branch>* collected_ = nullptr;
-  ColumnCache* cache_ = nullptr;
+  DepthFanCache* cache_ = nullptr;
 };
 
 }  // namespace halocline::acoustics

@@ -16,7 +16,7 @@ constexpr std::uint64_t kTurnOfSection = 100'000;  // family numbers of turns fo
 constexpr int kMaxSteps = 1'000'000;               // per ray: a guard that is never reached
 constexpr double kLongestStep = 15;                // m along the ray
 constexpr double kOnEdge = 1e-9;                   // m
-constexpr double kLeastShare = 1e-6;               // share of a step: a turn closer than that has been passed
+constexpr double kMinShare = 1e-6;                 // share of a step: a turn closer than that has been passed
 constexpr int kMaxCorrections = 4;                 // Newton steps to the end of a step: a guard, two suffice
 
 }  // namespace
@@ -167,7 +167,7 @@ SectionTracer::Step SectionTracer::next_step(const State& s) const {
   Step step = stepped(s, std::min({longest, section_.end_of(s.cell.strip) - s.r, ends_.range_m - s.r}));
   const HermiteCubic way(s.ray.z, step.stages[0].slope.z, step.end.z, step.stages[3].slope.z, step.dr);
   const HermiteCubic::Turns turns = way.turns();
-  if (turns.count > 0 && turns.at[0] > kLeastShare) step = stepped(s, step.dr * turns.at[0]);
+  if (turns.count > 0 && turns.at[0] > kMinShare) step = stepped(s, step.dr * turns.at[0]);
   if (step.end.z < top) step = until_depth(s, step, top, Edge::kAbove);
   if (step.end.z > bottom) step = until_depth(s, step, bottom, Edge::kBelow);
   return near_bottom && step.dr > 0 ? until_bottom(s, step) : step;

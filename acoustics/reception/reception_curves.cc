@@ -25,7 +25,7 @@ ReceptionCurves::ReceptionCurves(const Modem& modem, std::size_t payload_bytes)
       timing_(packet_timing(modem, payload_bytes)),
       blocks_(data_format(modem, payload_bytes).blocks()) {
   for (std::size_t i = 0; i < kRows; ++i) {
-    const PowerRatio sinr = to_power_ratio(Decibels{kLeastDb + kStepDb * static_cast<double>(i)});
+    const PowerRatio sinr = to_power_ratio(Decibels{kMinDb + kStepDb * static_cast<double>(i)});
     acquisition_.push_back(acquisition_probability(modem, sinr));
     log_bit_success_.push_back(elementary::log1p(-bit_error_rate(modem, sinr)));
   }
@@ -43,7 +43,7 @@ ReceptionCurves::Flank ReceptionCurves::flank_of(Chance chance) {
   std::size_t low = 0, high = kRows;  // first row that is not below the flank; first row above it
   while (low < kRows && chance(low) < kCertain) ++low;
   while (high > 0 && chance(high - 1) > 1 - kCertain) --high;
-  const auto db = [](std::size_t row) { return kLeastDb + kStepDb * static_cast<double>(row); };
+  const auto db = [](std::size_t row) { return kMinDb + kStepDb * static_cast<double>(row); };
   return {low == 0       ? -kNowhere
           : low == kRows ? kNowhere
                          : db(low - 1),
@@ -71,7 +71,7 @@ ReceptionCurves::Parts ReceptionCurves::make_parts() const {
     for (std::size_t i = 1; i < kRows; ++i) {
       const double above = -elementary::expm1(bits * log_bit_success_[i]) / lowest,
                    below = -elementary::expm1(bits * log_bit_success_[i - 1]) / lowest;
-      const double log = std::numbers::ln10 / 10 * (kLeastDb + kStepDb * (static_cast<double>(i) - 0.5));
+      const double log = std::numbers::ln10 / 10 * (kMinDb + kStepDb * (static_cast<double>(i) - 0.5));
       for (std::size_t k = 0; k < kThresholds; ++k) {
         const double share = std::min(below, kLosses[k + 1]) - std::max(above, kLosses[k]);
         if (!(share > 0)) continue;
@@ -80,21 +80,21 @@ ReceptionCurves::Parts ReceptionCurves::make_parts() const {
       }
     }
     for (std::size_t k = 0; k < kThresholds; ++k) {
-      parts[h].logs[k] = weights[k] > 0 ? sums[k] / weights[k] : std::numbers::ln10 / 10 * kLeastDb;
+      parts[h].logs[k] = weights[k] > 0 ? sums[k] / weights[k] : std::numbers::ln10 / 10 * kMinDb;
     }
   }
   return parts;
 }
 
-double ReceptionCurves::decibels(double sinr) { return sinr > 1e-30 ? fast_decibels(sinr) : kLeastDb; }
+double ReceptionCurves::decibels(double sinr) { return sinr > 1e-30 ? fast_decibels(sinr) : kMinDb; }
 
 double ReceptionCurves::ratio_db_of(double log_bit_success) const {
   const auto above = std::upper_bound(log_bit_success_.begin(), log_bit_success_.end(), log_bit_success);
-  if (above == log_bit_success_.begin()) return kLeastDb;
+  if (above == log_bit_success_.begin()) return kMinDb;
   const auto row = static_cast<double>(above - log_bit_success_.begin()) - 1;
-  if (above == log_bit_success_.end()) return kLeastDb + kStepDb * row;
+  if (above == log_bit_success_.end()) return kMinDb + kStepDb * row;
   const double rise = *above - *(above - 1);
-  return kLeastDb + kStepDb * (row + (log_bit_success - *(above - 1)) / rise);
+  return kMinDb + kStepDb * (row + (log_bit_success - *(above - 1)) / rise);
 }
 
 }  // namespace halocline::acoustics

@@ -58,12 +58,12 @@ class ReceptionCurves {
   Parts make_parts() const;
   template <typename Chance>
   static Flank flank_of(Chance chance);
-  static constexpr double kLeastDb = -40, kStepDb = 0.1;
+  static constexpr double kMinDb = -40, kStepDb = 0.1;
   static constexpr std::size_t kRows = 1001;
   static double interpolated(const std::vector<double>& table, double sinr_db) {
-    constexpr double kMost = kRows - 1.000001;
-    const double place = (sinr_db - kLeastDb) * (1 / kStepDb), low = place > 0 ? place : 0,
-                 held = low < kMost ? low : kMost;
+    constexpr double kMax = kRows - 1.000001;
+    const double place = (sinr_db - kMinDb) * (1 / kStepDb), low = place > 0 ? place : 0,
+                 held = low < kMax ? low : kMax;
     const auto row = static_cast<std::int32_t>(held);
     const double* here = table.data() + row;
     return here[0] + (held - row) * (here[1] - here[0]);

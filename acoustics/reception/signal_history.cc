@@ -19,8 +19,8 @@ using Complex = std::complex<double>;
 using std::numbers::pi;
 
 constexpr std::size_t kFrequencies = kSignalFrequencies;
-constexpr double kLeastStretches = 8, kMostStretches = 64;  // stretches of the bits
-constexpr double kTrackingTimeS = 0.05;                     // phase-shift keying, against fading
+constexpr double kMinStretches = 8, kMaxStretches = 64;  // stretches of the bits
+constexpr double kTrackingTimeS = 0.05;                  // phase-shift keying, against fading
 constexpr double kPhaseLockTimeS = 0.01;  // phase-shift keying, against a residual Doppler shift
 
 // Share of the signal that remains when tracked over `time_s`: exp(-(2 pi B T)^2 / 2).
@@ -60,15 +60,15 @@ double cycles_in(double frequency_hz, double delay_s) { return std::fmod(frequen
 // stays in the middle.
 class BandSum {
  public:
-  BandSum(const std::vector<SoundPath>& paths, const Lock& lock, const Band& band)
-      : places_(is_coded_frequency_shift_keying(lock.modem->error_model) ? kFrequencies : 1) {
-    const SoundPath& strongest = paths[lock.window.strongest];
+  BandSum(const std::vector<SoundPath>& paths, const Synchronisation& sync, const Band& band)
+      : places_(is_coded_frequency_shift_keying(sync.modem->error_model) ? kFrequencies : 1) {
+    const SoundPath& strongest = paths[sync.window.strongest];
     const double spacing_hz = band.width_hz() / kFrequencies,
                  step_hz = spacing_hz / static_cast<double>(places_);
     for (std::size_t p = 0; p < paths.size(); ++p) {
       const double excess_s = paths[p].delay_s - strongest.delay_s;
       const Complex between = elementary::polar(1.0, -2 * pi * cycles_in(step_hz, excess_s));
-      Complex turn = elementary::polar(lock.window.shares[p].weight,
+      Complex turn = elementary::polar(sync.window.shares[p].weight,
                                        -2 * pi * cycles_in(band.low_hz + step_hz / 2, excess_s));
       for (std::size_t i = 0; i < places_; ++i, turn *= between) first_.push_back(turn);
       next_.push_back(elementary::polar(1.0, -2 * pi * cycles_in(spacing_hz, excess_s)));
@@ -93,17 +93,17 @@ class BandSum {
 //   2 w_p w_q Re(h_p h_q* sinc(width tau) exp(-j 2 pi f_c tau)).
 class BandMean {
  public:
-  BandMean(const std::vector<SoundPath>& paths, const Lock& lock, const Band& band) {
+  BandMean(const std::vector<SoundPath>& paths, const Synchronisation& sync, const Band& band) {
     for (std::size_t p = 0; p < paths.size(); ++p) {
-      if (!(lock.window.shares[p].weight > 0)) continue;
+      if (!(sync.window.shares[p].weight > 0)) continue;
       for (const std::size_t q : within_) {
         const double apart_s = paths[p].delay_s - paths[q].delay_s;
         pairs_.push_back(elementary::polar(
-            2 * lock.window.shares[p].weight * lock.window.shares[q].weight * sinc(band.width_hz() * apart_s),
+            2 * sync.window.shares[p].weight * sync.window.shares[q].weight * sinc(band.width_hz() * apart_s),
             -2 * pi * cycles_in(band.centre_hz(), apart_s)));
       }
       within_.push_back(p);
-      squares_.push_back(squared(lock.window.shares[p].weight));
+      squares_.push_back(squared(sync.window.shares[p].weight));
     }
   }
   // The mean power for the `responses` of all paths.
@@ -130,21 +130,21 @@ class BandMean {
 class HistoryMaker {
  public:
   HistoryMaker(const PathResponses& fading, double large_scale, const std::vector<SoundPath>& paths,
-               const Lock& lock, const Band& band, SimTime begin, const ReceivedTiming& timing)
+               const Synchronisation& sync, const Band& band, SimTime begin, const ReceivedTiming& timing)
       : fading_(fading),
         large_scale_(large_scale),
         paths_(paths),
-        lock_(lock),
+        sync_(sync),
         band_(band),
         begin_(begin),
         timing_(timing),
-        collects_band_(!is_frequency_shift_keying(lock.modem->error_model)),
-        sums_over_band_(collects_band_ ? std::vector<SoundPath>() : paths, lock, band),
-        mean_over_band_(collects_band_ ? paths : std::vector<SoundPath>(), lock, band),
+        collects_band_(!is_frequency_shift_keying(sync.modem->error_model)),
+        sums_over_band_(collects_band_ ? std::vector<SoundPath>() : paths, sync, band),
+        mean_over_band_(collects_band_ ? paths : std::vector<SoundPath>(), sync, band),
         turned_(paths.size()) {
     history_.frequencies = collects_band_ ? 1 : kFrequencies;
     for (const SoundPath& path : paths) {
-      tracked_.push_back(tracked_share(*lock.modem, path));
+      tracked_.push_back(tracked_share(*sync.modem, path));
     }
   }
 
@@ -162,15 +162,15 @@ class HistoryMaker {
 
  private:
   void add_stretch(const std::vector<Complex>& responses, const FadingTimes& times, int i) {
-    const SoundPath &first = paths_[lock_.window.first], &strongest = paths_[lock_.window.strongest];
+    const SoundPath &first = paths_[sync_.window.first], &strongest = paths_[sync_.window.strongest];
     const double at_s = times.begin_s + i * times.step_s;
     std::array<Complex, kFrequencies> sums{};
     double echoes = 0;
     for (std::size_t p = 0; p < paths_.size(); ++p) {
       const Complex h = responses[p * static_cast<std::size_t>(times.count) + static_cast<std::size_t>(i)];
-      const double power = std::norm(h), w2 = squared(lock_.window.shares[p].weight);
+      const double power = std::norm(h), w2 = squared(sync_.window.shares[p].weight);
       const Sounding when = sounding(paths_[p], first, strongest, timing_.duration_s);
-      echoes += (lock_.window.shares[p].interference + w2 * (1 - tracked_[p])) * power *
+      echoes += (sync_.window.shares[p].interference + w2 * (1 - tracked_[p])) * power *
                 share_within(when, at_s - times.step_s / 2, at_s + times.step_s / 2);
       if (!(w2 > 0)) continue;
       const double turned = band_.centre_hz() * (paths_[p].doppler_factor - strongest.doppler_factor) * at_s;
@@ -188,7 +188,7 @@ class HistoryMaker {
   const PathResponses& fading_;
   double large_scale_;
   const std::vector<SoundPath>& paths_;
-  const Lock& lock_;
+  const Synchronisation& sync_;
   Band band_;
   SimTime begin_;
   ReceivedTiming timing_;
@@ -235,25 +235,25 @@ double coherence_time_s(const std::vector<SoundPath>& paths, const GuardWindow& 
 }
 
 SignalHistory signal_history(const FadingModel& model, const FadingLink& link, double large_scale,
-                             const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,
-                             SimTime begin, const ReceivedTiming& timing) {
-  if (!model.enabled) return still_history(paths, lock, timing);
-  return signal_history(LinkFading(model, link), large_scale, paths, lock, band, begin, timing);
+                             const std::vector<SoundPath>& paths, const Synchronisation& sync,
+                             const Band& band, SimTime begin, const ReceivedTiming& timing) {
+  if (!model.enabled) return still_history(paths, sync, timing);
+  return signal_history(LinkFading(model, link), large_scale, paths, sync, band, begin, timing);
 }
 
 SignalHistory signal_history(const PathResponses& fading, double large_scale,
-                             const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,
-                             SimTime begin, const ReceivedTiming& timing) {
-  HistoryMaker maker(fading, large_scale, paths, lock, band, begin, timing);
-  const double coherence_s = coherence_time_s(paths, lock.window),
+                             const std::vector<SoundPath>& paths, const Synchronisation& sync,
+                             const Band& band, SimTime begin, const ReceivedTiming& timing) {
+  HistoryMaker maker(fading, large_scale, paths, sync, band, begin, timing);
+  const double coherence_s = coherence_time_s(paths, sync.window),
                bits_s = timing.duration_s - timing.preamble_s;
   const auto stretches = [&](double span_s, double least) {
-    return static_cast<int>(std::clamp(std::ceil(4 * span_s / coherence_s), least, kMostStretches));
+    return static_cast<int>(std::clamp(std::ceil(4 * span_s / coherence_s), least, kMaxStretches));
   };
   if (timing.preamble_s > 0) {
     maker.add(0, timing.preamble_s, std::min(stretches(timing.preamble_s, 1), 8));
   }
-  maker.add(timing.preamble_s, timing.duration_s, stretches(bits_s, kLeastStretches));
+  maker.add(timing.preamble_s, timing.duration_s, stretches(bits_s, kMinStretches));
   return maker.take();
 }
 
@@ -265,9 +265,9 @@ SignalHistory shifted_history(SignalHistory history, double share) {
   return history;
 }
 
-SignalHistory still_history(const std::vector<SoundPath>& paths, const Lock& lock,
+SignalHistory still_history(const std::vector<SoundPath>& paths, const Synchronisation& sync,
                             const ReceivedTiming& timing) {
-  const SoundPath &first = paths[lock.window.first], &strongest = paths[lock.window.strongest];
+  const SoundPath &first = paths[sync.window.first], &strongest = paths[sync.window.strongest];
   SignalHistory history;
   history.edges_s = {0, timing.preamble_s, timing.duration_s};
   struct Echo {
@@ -276,16 +276,16 @@ SignalHistory still_history(const std::vector<SoundPath>& paths, const Lock& loc
   };
   std::vector<Echo> own_echoes;
   for (std::size_t p = 0; p < paths.size(); ++p) {
-    if (!(lock.window.shares[p].interference > 0)) continue;
+    if (!(sync.window.shares[p].interference > 0)) continue;
     const Sounding when = sounding(paths[p], first, strongest, timing.duration_s);
-    own_echoes.push_back({when, lock.window.shares[p].interference * to_power_ratio(paths[p].level).value});
+    own_echoes.push_back({when, sync.window.shares[p].interference * to_power_ratio(paths[p].level).value});
     for (const double edge : {when.begin_s, when.end_s}) {
       if (edge > 0 && edge < timing.duration_s) history.edges_s.push_back(edge);
     }
   }
   std::sort(history.edges_s.begin(), history.edges_s.end());
   history.edges_s.erase(std::unique(history.edges_s.begin(), history.edges_s.end()), history.edges_s.end());
-  const double signal = mean_signal(paths, lock.window);
+  const double signal = mean_signal(paths, sync.window);
   history.signal.reserve(history.edges_s.size() - 1);
   history.echoes.reserve(history.edges_s.size() - 1);
   for (std::size_t i = 0; i + 1 < history.edges_s.size(); ++i) {

@@ -58,7 +58,7 @@ struct SignalHistory {
 };
 
 // The receiver's modem and the window to which it is synchronised; both must outlive this.
-struct Lock {
+struct Synchronisation {
   const Modem* modem;
   const GuardWindow& window;
 };
@@ -66,17 +66,17 @@ struct Lock {
 // History of a packet of the given `band` that begins at `begin` in the window. `large_scale` is 10^(X/20), X
 // the large-scale fading of the link in dB.
 SignalHistory signal_history(const PathResponses& fading, double large_scale,
-                             const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,
-                             SimTime begin, const ReceivedTiming& timing);
+                             const std::vector<SoundPath>& paths, const Synchronisation& sync,
+                             const Band& band, SimTime begin, const ReceivedTiming& timing);
 // Generates the responses from the fading model; without fading when the model is not enabled.
 SignalHistory signal_history(const FadingModel& model, const FadingLink& link, double large_scale,
-                             const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,
-                             SimTime begin, const ReceivedTiming& timing);
+                             const std::vector<SoundPath>& paths, const Synchronisation& sync,
+                             const Band& band, SimTime begin, const ReceivedTiming& timing);
 // The history after an uncorrected Doppler shift that leaves `share` of the signal (doppler_share()): the
 // rest interferes.
 SignalHistory shifted_history(SignalHistory history, double share);
 // The history of a packet when nothing fades.
-SignalHistory still_history(const std::vector<SoundPath>& paths, const Lock& lock,
+SignalHistory still_history(const std::vector<SoundPath>& paths, const Synchronisation& sync,
                             const ReceivedTiming& timing);
 
 // Share of the signal that remains after a Doppler shift which the receiver does not correct, 0..1.

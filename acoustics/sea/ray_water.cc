@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTallestProbe = 5000.0;  // m; formulas and tables are constant below
 
-constexpr double kLeastRounding = 1.0;        // m, least half-height of a rounded kink
+constexpr double kMinRounding = 1.0;          // m, least half-height of a rounded kink
 constexpr double kFinestRounding = 1.0 / 32;  // spacing of knots at the axis, relative to the half-height
 // Relative to the half-height: knots further out would almost coincide with the last.
 constexpr double kInside = 0.98;
@@ -57,7 +57,7 @@ bool round_off(const SpeedRow& above, const SpeedRow& knot, const SpeedRow& belo
   const double g2 = (below.sound_speed_mps - knot.sound_speed_mps) / height_below;
   if (!(g1 < 0 && g2 > 0)) return false;
   const double d = std::min({height_above / 2, height_below / 2, 4 * tolerance / (g2 - g1)});
-  if (d < kLeastRounding) return false;
+  if (d < kMinRounding) return false;
   const auto add = [&](double x) {
     const double curve = (g2 - g1) * (x * x / d + d) / 4;
     rounded.push_back({knot.depth_m + x, knot.sound_speed_mps + (g1 + g2) * x / 2 + curve});

@@ -40,7 +40,7 @@ constexpr std::array kFormats{
     Format{"GRIB", GDALRegister_GRIB}};
 
 // File system that refuses every file; replaces a virtual one.
-class Refusal final : public VSIFilesystemHandler {
+class RefusingHandler final : public VSIFilesystemHandler {
  public:
   VSIVirtualHandle* Open(const char* name, const char*, bool, CSLConstList) override {
     CPLError(CE_Failure, CPLE_OpenFailed, "%s: virtual files are not allowed here", name);
@@ -57,7 +57,7 @@ void close_virtual_files() {
     const std::string_view prefix = prefixes[i];
     if (!prefix.starts_with("/vsi") || prefix == kInMemory) continue;
     replaced.push_back(VSIFileManager::GetHandler(prefixes[i]));
-    VSIFileManager::InstallHandler(prefixes[i], new Refusal);  // owned by GDAL from now on
+    VSIFileManager::InstallHandler(prefixes[i], new RefusingHandler);  // owned by GDAL from now on
   }
   CSLDestroy(prefixes);
 }

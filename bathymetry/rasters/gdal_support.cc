@@ -78,10 +78,10 @@ std::string names_of(const std::map<std::string, std::string>& parts) {
 }
 
 double metres_in(const std::string& unit) {
-  const std::optional<ocean::UnitFactor> factor = ocean::unit_in(ocean::Quantity::kLength, unit);
-  require(factor || unit.empty() || unit == "unknown", "the raster's unit '" + unit +
-                                                           "' is no length; allowed are " +
-                                                           ocean::allowed_units(ocean::Quantity::kLength));
+  const std::optional<ocean::UnitFactor> factor = ocean::unit_in(ocean::QuantityKind::kLength, unit);
+  require(factor || unit.empty() || unit == "unknown",
+          "the raster's unit '" + unit + "' is no length; allowed are " +
+              ocean::allowed_units(ocean::QuantityKind::kLength));
   return factor ? factor->factor : 1;
 }
 

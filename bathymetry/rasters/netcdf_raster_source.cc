@@ -22,14 +22,14 @@
 namespace halocline::bathymetry {
 namespace {
 
-using ocean::Axis;
 using ocean::AxisKind;
+using ocean::CfAxis;
 using ocean::NetcdfFile;
 
-constexpr std::size_t kMostOfAnAxis = 1'000'000;
+constexpr std::size_t kMaxAxisLength = 1'000'000;
 constexpr double kFullTurnDeg = 360;
-constexpr double kEvenWithin = 0.05;                        // share of a step, for the rounding of axes
-constexpr std::int64_t kMostPosts = std::int64_t{1} << 28;  // limit of a window: 1 GiB of floats
+constexpr double kEvenWithin = 0.05;                             // share of a step, for the rounding of axes
+constexpr std::int64_t kMaxPostsAtOnce = std::int64_t{1} << 28;  // limit of a window: 1 GiB of floats
 
 bool is_even(const std::vector<double>& values) {
   const double count = static_cast<double>(values.size()),
@@ -96,7 +96,7 @@ void refuse_other_grids(const NetcdfFile& file, const Layout& layout, const Rast
                                      "gdalwarp -geoloc)");
   for (const std::string& name : layout.others) {
     const std::size_t length = file.length_of(file.dimensions_of(name).front());
-    if (length < 3 || length > kMostOfAnAxis) continue;
+    if (length < 3 || length > kMaxAxisLength) continue;
     const std::vector<double> values = file.values(name);
     if (std::isfinite(values.front()) && !is_even(values))
       file.refuse(name,
@@ -107,7 +107,7 @@ void refuse_other_grids(const NetcdfFile& file, const Layout& layout, const Rast
 class NetcdfRasterSource final : public RasterSource {
  public:
   NetcdfRasterSource(std::unique_ptr<NetcdfFile> file, const Layout& layout, const RasterOptions& options,
-                     Axis latitudes, Axis longitudes, double origin_longitude_deg)
+                     CfAxis latitudes, CfAxis longitudes, double origin_longitude_deg)
       : file_(std::move(file)),
         options_(options),
         variable_(layout.variable),
@@ -121,7 +121,7 @@ class NetcdfRasterSource final : public RasterSource {
     place_band();
     const std::string unit = file_->text(variable_, "units");
     metres_ =
-        unit.empty() ? ocean::UnitFactor{} : ocean::unit_of(*file_, variable_, ocean::Quantity::kLength);
+        unit.empty() ? ocean::UnitFactor{} : ocean::unit_of(*file_, variable_, ocean::QuantityKind::kLength);
     is_down_ =
         holds_depths(file_->text(variable_, "positive"), file_->text(variable_, "standard_name"), options);
   }
@@ -176,7 +176,7 @@ class NetcdfRasterSource final : public RasterSource {
   std::unique_ptr<NetcdfFile> file_;
   RasterOptions options_;
   std::string variable_;
-  Axis latitudes_, longitudes_;
+  CfAxis latitudes_, longitudes_;
   std::vector<std::size_t> from_, counts_;
   std::size_t row_dimension_ = 0, column_dimension_ = 0;
   ocean::UnitFactor metres_;
@@ -188,9 +188,9 @@ RasterWindow NetcdfRasterSource::read(const PixelPosition& low, const PixelPosit
   RasterWindow window = window_between(low, high, 0, columns() - 1, rows());
   if (window.columns == 0) return window;
   const std::int64_t posts = std::int64_t{window.columns} * window.rows;
-  require(posts <= kMostPosts, options_.path.place() + ": the scenario covers " + std::to_string(posts) +
-                                   " posts of the raster, more than 2^28; take a smaller domain");
-  const auto places = [](const Axis& axis, int first, int count) {
+  require(posts <= kMaxPostsAtOnce, options_.path.place() + ": the scenario covers " + std::to_string(posts) +
+                                        " posts of the raster, more than 2^28; take a smaller domain");
+  const auto places = [](const CfAxis& axis, int first, int count) {
     return std::vector(axis.places.begin() + first, axis.places.begin() + first + count);
   };
   const auto rows = places(latitudes_, window.first_row, window.rows),
@@ -247,8 +247,8 @@ std::unique_ptr<RasterSource> open_uneven_netcdf(const RasterOptions& options, d
     refuse_other_grids(*file, *layout, options);
     return nullptr;
   }
-  Axis latitudes = ocean::read_axis(*file, layout->latitude, AxisKind::kLatitude, origin_latitude_deg),
-       longitudes = ocean::read_axis(*file, layout->longitude, AxisKind::kLongitude, origin_latitude_deg);
+  CfAxis latitudes = ocean::read_axis(*file, layout->latitude, AxisKind::kLatitude, origin_latitude_deg),
+         longitudes = ocean::read_axis(*file, layout->longitude, AxisKind::kLongitude, origin_latitude_deg);
   if (layout->latitude_first && is_even(latitudes.values) && is_even(longitudes.values)) return nullptr;
   return std::make_unique<NetcdfRasterSource>(std::move(file), *layout, options, std::move(latitudes),
                                               std::move(longitudes), origin_longitude_deg);

@@ -12,9 +12,9 @@ namespace {
 constexpr float kDeepestM = 12'000, kHighestM = 9'500;
 constexpr float kMark = 9999, kSmallMark = 999;
 constexpr float kMaxStepM = 2000;  // limit between neighbouring posts of real terrain
-constexpr float kLeastCliffM = 50, kCliffSteps = 10;
-constexpr double kUsualShare = 0.95;           // quantile of steps between neighbours
-constexpr std::size_t kMostSteps = 1'000'000;  // limit of examined steps
+constexpr float kMinCliffM = 50, kCliffSteps = 10;
+constexpr double kUsualShare = 0.95;          // quantile of steps between neighbours
+constexpr std::size_t kMaxSteps = 1'000'000;  // limit of examined steps
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 bool is_mark(float value) { return std::abs(value) == kMark || std::abs(value) == kSmallMark; }
@@ -83,14 +83,14 @@ class Suspects {
       });
     }
     if (std::abs(mark) == kMark) return nearest > kMaxStepM;
-    return has_others && nearest > std::max(kLeastCliffM, kCliffSteps * usual_step());
+    return has_others && nearest > std::max(kMinCliffM, kCliffSteps * usual_step());
   }
 
   // Returns the usual step from a post to the next of its row, over pairs without marks.
   float usual_step() {
     if (usual_step_ >= 0) return usual_step_;
     std::vector<float> steps;
-    const std::size_t stride = 1 + window_.depths_m.size() / kMostSteps;
+    const std::size_t stride = 1 + window_.depths_m.size() / kMaxSteps;
     for (std::size_t post = 0; post + 1 < window_.depths_m.size(); post += stride) {
       const float a = window_.depths_m[post], b = window_.depths_m[post + 1];
       const bool is_row = (post + 1) % static_cast<std::size_t>(window_.columns) != 0;

@@ -11,8 +11,8 @@ namespace {
 // decide.
 template <typename Crossing>
 int cell_at(double position, bool forward, double t, const Crossing& crossing) {
-  constexpr double kMost = EndlessBottom::kMaxCells;
-  int n = static_cast<int>(std::clamp(std::floor(position), -kMost, kMost));
+  constexpr double kMax = EndlessBottom::kMaxCells;
+  int n = static_cast<int>(std::clamp(std::floor(position), -kMax, kMax));
   const int near = forward ? 0 : 1;  // index of the boundary by which the ray enters a cell
   while (t < crossing(n + near)) n -= forward ? 1 : -1;
   while (t >= crossing(n + 1 - near)) n += forward ? 1 : -1;

@@ -125,7 +125,7 @@ class Walk {
   const GridRay& ray_;
   double t_, end_;
   bool forward_x_, forward_y_;
-  Block at_;
+  PyramidBlock at_;
 };
 
 }  // namespace
@@ -148,8 +148,8 @@ Interval clip_to_cells(const CellBlock& block, const GridRay& ray, Interval inte
           std::min({interval.end_m, std::max(x_first, x_last), std::max(y_first, y_last)})};
 }
 
-Block start_block(const GridGeometry& geometry, const ShallowestPyramid& pyramid, const GridRay& ray,
-                  double t) {
+PyramidBlock start_block(const GridGeometry& geometry, const ShallowestPyramid& pyramid, const GridRay& ray,
+                         double t) {
   const int level = std::min(kStartLevel, pyramid.top_level());
   const int i = start_cell(ray.origin_x + ray.direction_x * t, geometry.cells_x(), ray.direction_x > 0, t,
                            [&](int n) { return ray.crossing_x(n); });

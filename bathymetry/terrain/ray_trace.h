@@ -71,14 +71,14 @@ struct TraceResult {
 // the ray's depth (1e-12 m), far below any measurement.
 inline constexpr double kSlackM = 1e-9;
 
-// Block of the pyramid, or a cell at level 0. It covers the cells from (i << level, j << level).
-struct Block {
+// PyramidBlock of the pyramid, or a cell at level 0. It covers the cells from (i << level, j << level).
+struct PyramidBlock {
   int level = 0, i = 0, j = 0;
 };
 
 // Returns the block of the starting level that contains parameter t, which lies inside the grid.
-Block start_block(const GridGeometry& geometry, const ShallowestPyramid& pyramid, const GridRay& ray,
-                  double t);
+PyramidBlock start_block(const GridGeometry& geometry, const ShallowestPyramid& pyramid, const GridRay& ray,
+                         double t);
 
 // Returns the end of the ray over the cell (i, j), if it lies within `interval`.
 TraceResult trace_cell(const BilinearCell& cell, const GridRay& ray, int i, int j, Interval interval);

@@ -114,7 +114,7 @@ class WideWalk {
     group.t[k] = trace.interval.begin_m;
     group.end[k] = trace.interval.end_m;
     const bool forward_x = ray.direction_x > 0, forward_y = ray.direction_y > 0;
-    const Block at = start_block(grid_.geometry(), pyramid_, ray, trace.interval.begin_m);
+    const PyramidBlock at = start_block(grid_.geometry(), pyramid_, ray, trace.interval.begin_m);
     group.exit_x[k] = ray.crossing_x((at.i + forward_x) << at.level);
     group.exit_y[k] = ray.crossing_y((at.j + forward_y) << at.level);
     group.first_x[k] = at.i << at.level;

@@ -11,7 +11,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "acoustics/link/mixed_link.h"
+#include "acoustics/link/energy_flux.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/extrapolate_arrivals.h"
@@ -112,18 +112,18 @@ BENCHMARK(rough_bottoms)
     ->Unit(benchmark::kMillisecond);
 
 // What a link over these costs that is so weak that its rays are not traced.
-void weak_link(benchmark::State& state) {
+void flux_only_link(benchmark::State& state) {
   std::vector<Situation> all = over_rough_bottoms(static_cast<double>(state.range(0)));
   for (auto _ : state) {
     for (Situation& at : all) {
       at.link.range_m += 1e-6;
-      benchmark::DoNotOptimize(
-          mixed_arrivals({at.sea.water, 150, at.sea.bottom, at.sea.surface, at.sea.options, 0.003}, at.link));
+      benchmark::DoNotOptimize(energy_flux_arrivals(
+          {at.sea.water, 150, at.sea.bottom, at.sea.surface, at.sea.options, 0.003}, at.link));
     }
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
 }
-BENCHMARK(weak_link)->ArgName("range_m")->Arg(3000)->Arg(6000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(flux_only_link)->ArgName("range_m")->Arg(3000)->Arg(6000)->Unit(benchmark::kMicrosecond);
 
 // To first order, as the channel server does within a cell. Items are paths.
 void extrapolate(benchmark::State& state) {

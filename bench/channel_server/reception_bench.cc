@@ -52,11 +52,11 @@ void judgement(benchmark::State& state, const char* profile) {
   const SimTime begin = SimTime::from_seconds(100);
   const acoustics::FadingLink link{.seed = 1, .lower_id = 1, .higher_id = 2};
   for (auto _ : state) {
-    const acoustics::Lock lock{&modem, best_window(paths, modem)};
+    const acoustics::Synchronisation sync{&modem, best_window(paths, modem)};
     const double large_scale = acoustics::LinkFading(kSea, link).large_scale(begin);
     ReceivedSignal signal{
         shared, kNoise, begin, begin + packet.timing.preamble, begin + packet.timing.duration, true, {}, {}};
-    signal.history = signal_history(kSea, link, large_scale, paths, lock, modem.band(), begin,
+    signal.history = signal_history(kSea, link, large_scale, paths, sync, modem.band(), begin,
                                     {packet.timing.preamble.seconds(), packet.timing.duration.seconds()});
     benchmark::DoNotOptimize(acquisition_probability(signal, {}) * success_probability(signal, {}));
   }
@@ -69,8 +69,8 @@ void prediction(benchmark::State& state, const char* profile) {
   const auto paths = paths_of(state.range(0), modem.centre_frequency_hz);
   const acoustics::ReceptionCurves curves(modem, 32);
   for (auto _ : state) {
-    const acoustics::Lock lock{&modem, best_window(paths, modem)};
-    benchmark::DoNotOptimize(predict_link(kSea, paths, lock, modem.band(), kNoise, curves));
+    const acoustics::Synchronisation sync{&modem, best_window(paths, modem)};
+    benchmark::DoNotOptimize(predict_link(kSea, paths, sync, modem.band(), kNoise, curves));
   }
 }
 BENCHMARK_CAPTURE(prediction, fsk, "micromodem-fsk")->Arg(1)->Arg(5)->Arg(30)->Unit(benchmark::kMicrosecond);
@@ -85,14 +85,14 @@ void prediction_at_half(benchmark::State& state, const char* profile) {
   const acoustics::Modem modem = load_modem(profile).modem;
   const auto paths = paths_of(state.range(0), modem.centre_frequency_hz);
   const acoustics::ReceptionCurves curves(modem, 32);
-  const acoustics::Lock lock{&modem, best_window(paths, modem)};
+  const acoustics::Synchronisation sync{&modem, best_window(paths, modem)};
   const auto delivery = [&](double noise) {
-    return predict_link(kSea, paths, lock, modem.band(), noise, curves).delivery_probability;
+    return predict_link(kSea, paths, sync, modem.band(), noise, curves).delivery_probability;
   };
   double noise = 1e15;
   while (noise > 1 && delivery(noise) < 0.5) noise /= 1.1;
   for (auto _ : state) {
-    const acoustics::Lock again{&modem, best_window(paths, modem)};
+    const acoustics::Synchronisation again{&modem, best_window(paths, modem)};
     benchmark::DoNotOptimize(predict_link(kSea, paths, again, modem.band(), noise, curves));
   }
   state.counters["delivery"] = delivery(noise);

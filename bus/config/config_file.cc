@@ -237,13 +237,13 @@ ConfigFile ConfigFile::load(const std::string& path, const std::vector<std::stri
   if (const std::string reason = why_unreadable(path); !reason.empty())
     throw ConfigErrors({path + ": cannot be read: " + reason + "; a file in TOML is needed"});
   std::ifstream file(path);
-  constexpr std::size_t kMostBytes = 64u << 20;  // 16 384 vehicles take 15 MB
+  constexpr std::size_t kMaxBytes = 64u << 20;  // 16 384 vehicles take 15 MB
   std::string text;
-  for (std::array<char, 65'536> part; file && text.size() <= kMostBytes;) {
+  for (std::array<char, 65'536> part; file && text.size() <= kMaxBytes;) {
     file.read(part.data(), part.size());
     text.append(part.data(), static_cast<std::size_t>(file.gcount()));
   }
-  if (text.size() > kMostBytes)
+  if (text.size() > kMaxBytes)
     throw ConfigErrors({path + ": is longer than 64 MB; a file in TOML is needed"});
   return ConfigFile(parsed(text, path, overrides));
 }

@@ -22,9 +22,9 @@ lockstep_result_t dropped(const std::string& name) {
 }
 
 // True if a turn can have this result: steps and messages in order of time, from the turn's instant to before
-// its horizon.
-bool is_possible(const lockstep_result_t& result, SimTime instant, SimTime horizon) {
-  const std::int64_t end = std::max(horizon, instant + SimDuration::from_nanoseconds(1)).nanoseconds();
+// its lookahead.
+bool is_possible(const lockstep_result_t& result, SimTime instant, SimTime lookahead) {
+  const std::int64_t end = std::max(lookahead, instant + SimDuration::from_nanoseconds(1)).nanoseconds();
   std::int64_t before = instant.nanoseconds();
   if (result.num_steps < 0 || result.reached_ns < before || result.reached_ns >= end) return false;
   for (const lockstep_message_t& message : result.outputs) {
@@ -215,7 +215,7 @@ void LockstepConductor::on_answer(const lockstep_answer_t& answer, SimTime stead
   if (!body) return;
   auto result = bus::decoded<lockstep_result_t>(*body);
   if (!result || result->participant_name != link->name) return;
-  if (!is_history && !is_possible(*result, sequencer_.instant_of(link->name), sequencer_.horizon())) return;
+  if (!is_history && !is_possible(*result, sequencer_.instant_of(link->name), sequencer_.lookahead())) return;
   if (is_history) {
     membership_.on_history_taken(*link, *result, run_, steady);
   } else {

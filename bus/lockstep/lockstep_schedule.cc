@@ -60,22 +60,22 @@ std::vector<std::size_t> LockstepSchedule::round(std::span<const ScheduleEntry> 
   return round;
 }
 
-SimTime lockstep_horizon(std::span<const ScheduleEntry> entries, std::size_t alone) {
-  SimTime horizon = SimTime::never();
+SimTime lookahead_alone(std::span<const ScheduleEntry> entries, std::size_t alone) {
+  SimTime lookahead = SimTime::never();
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (i == alone) continue;
-    horizon = std::min(horizon, entries[i].has_input ? SimTime::at_once() : entries[i].due);
+    lookahead = std::min(lookahead, entries[i].has_input ? SimTime::at_once() : entries[i].due);
   }
-  return horizon;
+  return lookahead;
 }
 
-SimTime shared_horizon(std::span<const ScheduleEntry> entries, int stage, SimTime now) {
-  SimTime horizon = now + kLongestSharedLookahead;
+SimTime shared_lookahead(std::span<const ScheduleEntry> entries, int stage, SimTime now) {
+  SimTime lookahead = now + kLongestSharedLookahead;
   for (const ScheduleEntry& entry : entries) {
-    const SimTime promised = entry.stage == stage ? std::max(entry.due, entry.quiet_until) : entry.due;
-    horizon = std::min(horizon, entry.has_input ? SimTime::at_once() : promised);
+    const SimTime promised = entry.stage == stage ? std::max(entry.due, entry.lookahead) : entry.due;
+    lookahead = std::min(lookahead, entry.has_input ? SimTime::at_once() : promised);
   }
-  return horizon;
+  return lookahead;
 }
 
 }  // namespace halocline::bus

@@ -27,7 +27,7 @@ struct ScheduleEntry {
   // Promise: before this time the participant publishes no message that may make another one due, except a
   // service, unless it gets input from a participant that is not a service. Before `due` it publishes nothing
   // anyway.
-  SimTime quiet_until = SimTime::at_once();
+  SimTime lookahead = SimTime::at_once();
 };
 
 class LockstepSchedule {
@@ -56,7 +56,7 @@ class LockstepSchedule {
 // Returns the lookahead of the entry that steps alone: it may take all of its own steps before this instant.
 // A due time is a promise to publish nothing before it unless a message is received. Therefore, until the
 // earliest of the others is due, nobody can publish a message to it. at_once() when another entry has input.
-SimTime lockstep_horizon(std::span<const ScheduleEntry> entries, std::size_t alone);
+SimTime lookahead_alone(std::span<const ScheduleEntry> entries, std::size_t alone);
 
 // Returns the lookahead that the entries of one stage share: each may take all of its own steps before this
 // instant, because until then none of the other entries is due, and none of the stage publishes a message
@@ -67,6 +67,6 @@ SimTime lockstep_horizon(std::span<const ScheduleEntry> entries, std::size_t alo
 // messages, at the instant of the message, to its sender, so other participants may have stepped beyond that
 // instant.
 inline constexpr SimDuration kLongestSharedLookahead = SimDuration::from_milliseconds(100);
-SimTime shared_horizon(std::span<const ScheduleEntry> entries, int stage, SimTime now);
+SimTime shared_lookahead(std::span<const ScheduleEntry> entries, int stage, SimTime now);
 
 }  // namespace halocline::bus

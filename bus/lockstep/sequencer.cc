@@ -73,7 +73,7 @@ void Sequencer::note_members_changed() {
   receivers_.clear();
   for (const auto& member : members_) {
     member->stopping.clear();
-    member->schedule.quiet_until = SimTime::at_once();  // the promise was made to the previous members
+    member->schedule.lookahead = SimTime::at_once();  // the promise was made to the previous members
   }
 }
 
@@ -117,7 +117,7 @@ void Sequencer::begin_instant(SimTime instant) {
 bool Sequencer::begin_round() {
   ensure(!in_round(), "a round is not over");
   last_turn_ = ended_ || !leaving_.empty();
-  horizon_ = SimTime::at_once();
+  lookahead_ = SimTime::at_once();
   if (!leaving_.empty()) {
     round_ = {leaving_.front()};
     leaving_.erase(leaving_.begin());
@@ -129,7 +129,7 @@ bool Sequencer::begin_round() {
     const auto all = schedule_entries();
     auto chosen = schedule_.round(all);
     leave_out_those_ahead(chosen);
-    if (!chosen.empty()) horizon_ = look_ahead(all, chosen);
+    if (!chosen.empty()) lookahead_ = look_ahead(all, chosen);
     for (const std::size_t i : chosen) {
       Member& member = *members_[i];
       if (member.stopping.empty()) member.stopping = stopping_channels(member);
@@ -158,7 +158,7 @@ void Sequencer::leave_out_those_ahead(std::vector<std::size_t>& round) {
 SimTime Sequencer::look_ahead(const std::vector<bus::ScheduleEntry>& all,
                               std::vector<std::size_t>& round) const {
   const int stage = all[round.front()].stage;
-  const SimTime shared = std::min(bus::shared_horizon(all, stage, now()), furthest_);
+  const SimTime shared = std::min(bus::shared_lookahead(all, stage, now()), furthest_);
   if (shared > now()) {
     std::vector<std::size_t> sharing;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -167,7 +167,7 @@ SimTime Sequencer::look_ahead(const std::vector<bus::ScheduleEntry>& all,
     if (sharing.size() > 1) round = std::move(sharing);
   }
   if (round.size() > 1 || !held_.empty()) return shared;
-  return std::min(bus::lockstep_horizon(all, round.front()), furthest_);
+  return std::min(bus::lookahead_alone(all, round.front()), furthest_);
 }
 
 lockstep_turn_t Sequencer::turn_with_inputs(const Member& member, std::size_t begin, std::size_t end) const {
@@ -181,10 +181,10 @@ lockstep_turn_t Sequencer::turn_of(const std::string& name) const {
   const Member& member = *find(name);
   lockstep_turn_t turn = turn_with_inputs(member, member.delivered, member.inbox.size());
   turn.instant_ns = instant_of(member).nanoseconds();
-  turn.horizon_ns = horizon_.nanoseconds();
+  turn.horizon_ns = lookahead_.nanoseconds();
   turn.max_steps = -1;
   turn.farewell = last_turn_ ? 1 : 0;
-  if (horizon_ > now() || shares_its_stage(member)) {
+  if (lookahead_ > now() || shares_its_stage(member)) {
     for (const auto& [family, only_asks] : member.stopping) {
       turn.stopping_channels.push_back(family);
       turn.only_asks.push_back(only_asks ? 1 : 0);
@@ -282,7 +282,7 @@ void Sequencer::take_result(Member& member, const lockstep_result_t& result) {
   member.reached = SimTime::from_nanoseconds(result.reached_ns);
   // If it is due again at the instant of its step, those that share its lookahead must not pass that instant.
   const bool is_due_again = member.schedule.due <= member.reached;
-  member.schedule.quiet_until =
+  member.schedule.lookahead =
       is_due_again ? SimTime::at_once() : SimTime::from_nanoseconds(result.quiet_until_ns);
   if (!last_turn_) return;
   note_members_changed();

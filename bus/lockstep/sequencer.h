@@ -78,9 +78,9 @@ class Sequencer {
   bool in_round() const { return !round_.empty(); }
   const std::vector<std::string>& round() const { return round_; }
   lockstep_turn_t turn_of(const std::string& name) const;
-  // Instant of a turn of the round; horizon() is the limit before which its steps are.
+  // Instant of a turn of the round; lookahead() is the limit before which its steps are.
   SimTime instant_of(const std::string& name) const { return instant_of(*find(name)); }
-  SimTime horizon() const { return horizon_; }
+  SimTime lookahead() const { return lookahead_; }
   // Takes one result for each participant of the round, in any order. Throws std::runtime_error when a
   // participant of the stage published before the time until which it promised to publish nothing, and
   // another is beyond that.
@@ -145,7 +145,7 @@ class Sequencer {
   // Removes from the round participants that are due again at an instant to which they had stepped ahead of
   // the others; they wait for those.
   void leave_out_those_ahead(std::vector<std::size_t>& round);
-  // Adds to the round those that share its lookahead; returns the horizon.
+  // Adds to the round those that share its lookahead; returns the lookahead.
   SimTime look_ahead(const std::vector<bus::ScheduleEntry>& all, std::vector<std::size_t>& round) const;
   void release();
   bool has_input() const {
@@ -163,7 +163,7 @@ class Sequencer {
   bus::LockstepSchedule schedule_;
   SimTime furthest_ = SimTime::at_once();
   std::vector<std::string> round_;
-  SimTime horizon_ = SimTime::at_once();
+  SimTime lookahead_ = SimTime::at_once();
   bool last_turn_ = false;  // the round consists of last turns
   std::vector<std::string> leaving_;
   bool ended_ = false;

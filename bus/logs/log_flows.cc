@@ -13,7 +13,7 @@
 namespace halocline::clients {
 namespace {
 
-constexpr std::size_t kMostMissing = 10'000;  // limit for one flow; older ones are only counted
+constexpr std::size_t kMaxMissingOfFlow = 10'000;  // limit for one flow; older ones are only counted
 
 // Channels on which several sessions are unusual; elsewhere they are normal (shards, clients).
 bool has_one_publisher(std::string_view channel) {
@@ -28,10 +28,10 @@ void LogFlows::Flow::note_missing(std::int64_t from, std::int64_t end) {
   if (from >= end) return;
   std::int64_t count = 0;
   if (__builtin_sub_overflow(end, from, &count)) count = INT64_MAX;
-  const auto kept = std::min(count, static_cast<std::int64_t>(kMostMissing));
-  given_up = bus::saturating_sum(given_up, count - kept);
+  const auto kept = std::min(count, static_cast<std::int64_t>(kMaxMissingOfFlow));
+  expired = bus::saturating_sum(expired, count - kept);
   for (std::int64_t sequence = end - kept; sequence < end; ++sequence) missing.insert(sequence);
-  for (; missing.size() > kMostMissing; missing.erase(missing.begin())) ++given_up;
+  for (; missing.size() > kMaxMissingOfFlow; missing.erase(missing.begin())) ++expired;
 }
 
 void LogFlows::Flow::take(std::int64_t sequence) {
@@ -73,7 +73,7 @@ void LogFlows::count(std::string_view channel, std::span<const std::uint8_t> dat
       !flow.missing.contains(sequence)) {
     begins_anew_ = true;
     const std::int64_t before =
-        bus::saturating_sum(flow.given_up, static_cast<std::int64_t>(flow.missing.size()));
+        bus::saturating_sum(flow.expired, static_cast<std::int64_t>(flow.missing.size()));
     flow = {sequence, sequence, utime, {}, before};
     return;
   }
@@ -84,7 +84,7 @@ void LogFlows::count(std::string_view channel, std::span<const std::uint8_t> dat
 std::int64_t LogFlows::missing_of(const Channel& channel) {
   std::int64_t missing = 0;
   for (const auto& [session, flow] : channel.flows) {
-    missing = bus::saturating_sum(missing, flow.given_up);
+    missing = bus::saturating_sum(missing, flow.expired);
     missing = bus::saturating_sum(missing, static_cast<std::int64_t>(flow.missing.size()));
   }
   return missing;
@@ -108,16 +108,16 @@ std::int64_t LogFlows::missing() const {
 }
 
 void report_flows(std::ostream& out, const LogFlows& flows) {
-  constexpr std::size_t kMostNamed = 10;
+  constexpr std::size_t kMaxChannelsNamed = 10;
   const auto all = flows.remarkable();
   const auto list = [&](const char* title, auto is_meant, auto print) {
     std::size_t named = 0;
     for (const auto& one : all) {
-      if (!is_meant(one) || named++ >= kMostNamed) continue;
+      if (!is_meant(one) || named++ >= kMaxChannelsNamed) continue;
       out << (named == 1 ? title : ", ") << one.channel << " ";
       print(one);
     }
-    if (named > kMostNamed) out << " and " << named - kMostNamed << " more channels";
+    if (named > kMaxChannelsNamed) out << " and " << named - kMaxChannelsNamed << " more channels";
     if (named > 0) out << "\n";
   };
   list(

@@ -43,8 +43,8 @@ class LogFlows {
  private:
   struct Flow {
     std::int64_t first = 0, last = 0, last_utime = 0;
-    std::set<std::int64_t> missing;  // the latest kMostMissing
-    std::int64_t given_up = 0;       // number of older missing messages
+    std::set<std::int64_t> missing;  // the latest kMaxMissingOfFlow
+    std::int64_t expired = 0;        // number of older missing messages
     void take(std::int64_t sequence);
     void note_missing(std::int64_t from, std::int64_t end);
   };

@@ -30,7 +30,7 @@ void LogRecorder::record(SimTime stamp, std::string_view channel, std::span<cons
 void LogRecorder::hand_over() {
   if (filling_.empty()) return;
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_.size() < kMostBatches; });
+  changed_.wait(lock, [this] { return waiting_.size() < kMaxBatches; });
   waiting_.push_back(std::exchange(filling_, {}));
   changed_.notify_all();
 }

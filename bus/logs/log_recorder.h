@@ -3,7 +3,7 @@
 // of a run: the same run writes the same bytes.
 //
 // A separate thread writes the messages in batches: of kBatchBytes, and at every whole second of the time
-// stamps. While kMostBatches are waiting to be written, the run waits. After each batch the file is a valid
+// stamps. While kMaxBatches are waiting to be written, the run waits. After each batch the file is a valid
 // log, whatever happens to the process; a batch that the disk refuses is left out completely.
 #pragma once
 
@@ -26,7 +26,7 @@ namespace halocline::bus {
 
 class LogRecorder {
  public:
-  static constexpr std::size_t kBatchBytes = 256 << 10, kMostBatches = 64;
+  static constexpr std::size_t kBatchBytes = 256 << 10, kMaxBatches = 64;
 
   // See LogParts for the arguments.
   explicit LogRecorder(const std::string& path, const LogRotation& rotation = {},
@@ -38,7 +38,7 @@ class LogRecorder {
   // Records a message; ignored after close(). `stamp` must not decrease.
   void record(SimTime stamp, std::string_view channel, std::span<const std::uint8_t> message);
 
-  // Passes the current batch to the writing thread; returns at once unless kMostBatches are waiting.
+  // Passes the current batch to the writing thread; returns at once unless kMaxBatches are waiting.
   void hand_over();
   // Returns when every recorded message has been handed to the file.
   void flush();

@@ -19,7 +19,7 @@ struct Unit {
 };
 constexpr std::array<Unit, 6> kUnits{
     {{"kB", 1e3, 0}, {"MB", 1e6, 0}, {"GB", 1e9, 0}, {"min", 0, 60}, {"s", 0, 1}, {"h", 0, 3600}}};
-constexpr double kMinBytes = 1e3, kMaxBytes = 1e15, kLeast_s = 1e-3, kMost_s = 9e9;
+constexpr double kMinBytes = 1e3, kMaxBytes = 1e15, kMin_s = 1e-3, kMax_s = 9e9;
 
 const Unit* unit_of(std::string_view text) {
   for (const Unit& unit : kUnits) {
@@ -38,7 +38,7 @@ bool read_part(std::string_view text, bus::LogRotation& rotation) {
   const double bytes = *number * unit->bytes, seconds = *number * unit->seconds;
   if (unit->bytes > 0) rotation.part_bytes = std::llround(within(bytes, kMinBytes, kMaxBytes) ? bytes : 0);
   if (unit->seconds > 0)
-    rotation.part_time = SimDuration::from_seconds(within(seconds, kLeast_s, kMost_s) ? seconds : 0);
+    rotation.part_time = SimDuration::from_seconds(within(seconds, kMin_s, kMax_s) ? seconds : 0);
   return unit->bytes > 0 ? rotation.part_bytes > 0 : rotation.part_time > SimDuration();
 }
 

@@ -131,9 +131,9 @@ std::string problem_between_fields(const link_search_t& m) {
   for (const eigenray_t& path : m.eigenrays) {
     if (path.delay_s < last_s) return "eigenrays are not in the order of their delays";
     last_s = path.delay_s;
-    constexpr double kLeastMps = 500, kGreatestMps = 5000;  // a third and three times the speed in water
+    constexpr double kMinMps = 500, kMaxMps = 5000;  // a third and three times the speed in water
     const double speed_mps = path.path_length_m / path.delay_s;
-    if (speed_mps < kLeastMps || speed_mps > kGreatestMps) return "delay_s does not fit path_length_m";
+    if (speed_mps < kMinMps || speed_mps > kMaxMps) return "delay_s does not fit path_length_m";
     if (!(path.amplitude > 0)) return "amplitude is 0";
   }
   return "";

@@ -20,7 +20,7 @@ using Bytes = StateJournal::Bytes;
 using View = std::span<const std::uint8_t>;
 
 constexpr std::string_view kHeader = "HALOCLINE STATE2";
-constexpr std::uint64_t kGrowth = 4, kLeastFileBytes = 64 << 10;
+constexpr std::uint64_t kGrowth = 4, kMinFileBytes = 64 << 10;
 constexpr std::uint64_t kMaxParts = 1 << 20;
 
 // A record holds a head, the state without its parts, the list of parts, the bytes of the parts, and the
@@ -168,7 +168,7 @@ bool StateJournal::write(std::int64_t session, SimTime at, const Archive& state,
     forget();
     return false;
   }
-  if (is_whole) max_bytes_ = std::max(kGrowth * size, kLeastFileBytes);
+  if (is_whole) max_bytes_ = std::max(kGrowth * size, kMinFileBytes);
   end_ += size;
   ++number_;
   return true;

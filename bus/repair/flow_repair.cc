@@ -29,7 +29,7 @@ std::vector<FlowRepair::Answer> FlowRepair::take_answers(SimTime steady) {
   std::vector<Answer> answers;
   if (wanted_.empty() || steady < next_answer_) return answers;
   const double passed_s = std::max((steady - filled_at_).seconds(), 0.0);
-  answers_ = std::min(answers_ + kAnswersPerS * passed_s, kMostAnswers);
+  answers_ = std::min(answers_ + kAnswersPerS * passed_s, kMaxAnswers);
   filled_at_ = steady;
   std::size_t bytes = 0;
   for (; !wanted_.empty() && answers_ >= 1 && bytes < kMaxAnswerBytes; wanted_.pop_front()) {

@@ -40,8 +40,7 @@ class FlowRepair {
   // Limit on the answers of one step; one message is always sent.
   static constexpr std::size_t kMaxAnswerBytes = 256u << 10;
 
-  static constexpr double kAnswersPerMessage = 3, kAnswersPerS = 200, kLeastAnswers = 256,
-                          kMostAnswers = 8192;
+  static constexpr double kAnswersPerMessage = 3, kAnswersPerS = 200, kMinAnswers = 256, kMaxAnswers = 8192;
   // Maximum number of requested messages that wait for their answers; further ones are dropped, as receivers
   // repeat their requests.
   static constexpr std::size_t kMaxWanted = 8192;
@@ -54,7 +53,7 @@ class FlowRepair {
   // ---- publisher side
   void on_published(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message) {
     history_.keep(channel, session, sequence, std::move(message));
-    answers_ = std::min(answers_ + kAnswersPerMessage, kMostAnswers);
+    answers_ = std::min(answers_ + kAnswersPerMessage, kMaxAnswers);
   }
   // Stores a message published by an earlier incarnation, whose flows this one continues. Such flows are
   // announced as older than any receiver.
@@ -121,7 +120,7 @@ class FlowRepair {
   bool resumes_ = false;
   std::deque<Wanted> wanted_;
   std::int64_t num_requested_ = 0;
-  double answers_ = kLeastAnswers;  // tokens in the bucket at filled_at_
+  double answers_ = kMinAnswers;  // tokens in the bucket at filled_at_
   SimTime filled_at_, next_answer_ = SimTime::at_once();
   std::unordered_map<std::int64_t, Heard> heartbeats_of_others_;  // keyed by session; bounded
 };

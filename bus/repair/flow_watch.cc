@@ -8,7 +8,7 @@
 namespace halocline::bus {
 namespace {
 
-constexpr std::int64_t kGreatest = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
 
 // Window in which a lower number is a reordered or repeated message: within 64 numbers of the last one, and
 // within a second of it. A lower number outside of it may be that of a publisher that restarts its sequence.
@@ -19,7 +19,7 @@ constexpr SimDuration kRepetitionAge = SimDuration::from_milliseconds(1000);
 // int64 holds.
 std::int64_t distance(std::int64_t from, std::int64_t to) {
   std::int64_t step = 0;
-  return __builtin_sub_overflow(to, from, &step) ? kGreatest : step;
+  return __builtin_sub_overflow(to, from, &step) ? kMax : step;
 }
 
 std::int64_t before(std::int64_t sequence) {
@@ -83,7 +83,7 @@ std::int64_t FlowWatch::note_missing(Publisher& publisher, SimTime steady, std::
   lose(publisher, first, end - kept);
   num_missing_ -= publisher.missing.size();
   for (std::int64_t sequence = end - kept; sequence < end; ++sequence) {
-    publisher.missing[sequence] = {steady + kReorderingDelay, steady + kGivenUpAfter, kFirstRetry};
+    publisher.missing[sequence] = {steady + kReorderingDelay, steady + kExpireAfter, kFirstRetry};
   }
   while (publisher.missing.size() > kMaxMissing) {
     const std::int64_t oldest = publisher.missing.begin()->first;
@@ -249,9 +249,9 @@ std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {
   for (auto& [channel, publishers] : received_) {
     for (Publisher& publisher : publishers) {
       num_missing_ -= std::erase_if(publisher.missing, [&](const auto& entry) {
-        const bool is_given_up = entry.second.given_up <= steady;
-        if (is_given_up) lose(publisher, entry.first, entry.first + 1);
-        return is_given_up;
+        const bool is_expired = entry.second.expires <= steady;
+        if (is_expired) lose(publisher, entry.first, entry.first + 1);
+        return is_expired;
       });
       Request request{channel, publisher.session, {}};
       for (auto& [sequence, missing] : publisher.missing) {
@@ -260,7 +260,7 @@ std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {
           missing.next_request = steady + missing.retry;
           missing.retry = std::min(missing.retry * 2, kLongestRetry);
         }
-        next_due_ = std::min({next_due_, missing.next_request, missing.given_up});
+        next_due_ = std::min({next_due_, missing.next_request, missing.expires});
       }
       if (!request.sequences.empty()) requests.push_back(std::move(request));
     }

@@ -53,7 +53,7 @@ class FlowWatch {
   static constexpr SimDuration kFirstRetry = SimDuration::from_milliseconds(40);
   static constexpr SimDuration kLongestRetry = SimDuration::from_milliseconds(640);
   // A message missing for this long is counted as lost.
-  static constexpr SimDuration kGivenUpAfter = SimDuration::from_milliseconds(10'000);
+  static constexpr SimDuration kExpireAfter = SimDuration::from_milliseconds(10'000);
   // A session of a channel, or a lister, that is silent for this long makes room for another.
   static constexpr SimDuration kForgottenAfter = SimDuration::from_milliseconds(30'000);
   // Limits on missing messages. Beyond kMaxMissing in one flow the oldest are counted as lost. Beyond
@@ -102,7 +102,7 @@ class FlowWatch {
     std::int64_t session = 0;
     std::vector<std::int64_t> sequences;  // ascending, 1 to kMaxPerRequest
   };
-  // Returns the requests that are due, by channel. Messages missing for longer than kGivenUpAfter are counted
+  // Returns the requests that are due, by channel. Messages missing for longer than kExpireAfter are counted
   // as lost.
   std::vector<Request> take_due(SimTime steady);
   // Time at which take_due() next has work; never() if nothing is missing.
@@ -131,7 +131,7 @@ class FlowWatch {
 
  private:
   struct Missing {
-    SimTime next_request, given_up;
+    SimTime next_request, expires;
     SimDuration retry;
   };
   struct Span {

@@ -20,7 +20,7 @@ void SessionWatch::note(SimTime steady, Times& times, std::int64_t session) {
 }
 
 void SessionWatch::forget_silent(SimTime steady, Times& times) {
-  std::erase_if(times, [&](const auto& entry) { return steady - entry.second >= kRivalMemory; });
+  std::erase_if(times, [&](const auto& entry) { return steady - entry.second >= kDuplicatePublisherMemory; });
 }
 
 bool SessionWatch::holds(SimTime steady, std::string_view name, std::int64_t session) {
@@ -42,13 +42,13 @@ bool SessionWatch::on_heartbeat(SimTime steady, std::string_view node, std::int6
   if (holds(steady, node, session)) {
     if (!heartbeats_.contains(session)) {
       forget_silent(steady, heartbeats_);
-      forget_silent(steady, rivals_);
+      forget_silent(steady, duplicate_publishers_);
     }
     note(steady, heartbeats_, session);
-    rivals_.erase(session);
+    duplicate_publishers_.erase(session);
     return true;
   }
-  if (!is_recent(steady, heartbeats_, session)) note(steady, rivals_, session);
+  if (!is_recent(steady, heartbeats_, session)) note(steady, duplicate_publishers_, session);
   return false;
 }
 
@@ -64,17 +64,18 @@ bool SessionWatch::decides(SimTime steady, std::int32_t receiver, std::int64_t s
 }
 
 // Programs derive the session of the packets that they send for a vehicle from their own session.
-bool SessionWatch::is_of_rival(SimTime steady, std::string_view channel, std::int64_t session) const {
+bool SessionWatch::is_of_duplicate_publisher(SimTime steady, std::string_view channel,
+                                             std::int64_t session) const {
   constexpr std::size_t kMaxCompared = 256;  // bounds the hashing in a flood of forged publishers
-  if (session == 0 || rivals_.empty()) return false;
-  if (is_recent(steady, rivals_, session, kRivalMemory)) return true;
+  if (session == 0 || duplicate_publishers_.empty()) return false;
+  if (is_recent(steady, duplicate_publishers_, session, kDuplicatePublisherMemory)) return true;
   const auto sender = std::find_if(kSent.begin(), kSent.end(),
                                    [&](const Family& family) { return channel.starts_with(family.prefix); });
-  if (sender == kSent.end() || rivals_.size() > kMaxCompared) return false;
+  if (sender == kSent.end() || duplicate_publishers_.size() > kMaxCompared) return false;
   const std::string_view vehicle = channel.substr(sender->prefix.size());
-  return std::any_of(rivals_.begin(), rivals_.end(), [&](const auto& rival) {
-    return steady - rival.second < kRivalMemory &&
-           session_of(static_cast<std::uint64_t>(rival.first), vehicle) == session;
+  return std::any_of(duplicate_publishers_.begin(), duplicate_publishers_.end(), [&](const auto& duplicate) {
+    return steady - duplicate.second < kDuplicatePublisherMemory &&
+           session_of(static_cast<std::uint64_t>(duplicate.first), vehicle) == session;
   });
 }
 
@@ -83,7 +84,7 @@ bool SessionWatch::on_message(SimTime steady, std::string_view channel, std::int
   constexpr std::string_view kStatus = channels::kStatus.prefix;
   if (session != 0 && channel.starts_with(kStatus))
     return on_heartbeat(steady, channel.substr(kStatus.size()), session);
-  if (is_of_rival(steady, channel, session)) return false;
+  if (is_of_duplicate_publisher(steady, channel, session)) return false;
   if (receiver) return decides(steady, *receiver, session);
   const bool is_held = std::any_of(kHeld.begin(), kHeld.end(),
                                    [&](const Family& family) { return channel.starts_with(family.prefix); });

@@ -42,7 +42,7 @@ class SessionWatch {
   static constexpr SimDuration kSilence = SimDuration::from_milliseconds(1000);
   // A duplicate publisher is remembered for this long after its last heartbeat or STATUS; STATUS comes once a
   // second.
-  static constexpr SimDuration kRivalMemory = SimDuration::from_milliseconds(2500);
+  static constexpr SimDuration kDuplicatePublisherMemory = SimDuration::from_milliseconds(2500);
   static constexpr std::size_t kMaxNames = 4 * kMaxVehicles;
   // Channel families with one publisher for each channel.
   static constexpr std::array kHeld{channels::kState, channels::kReceipt, channels::kReceive};
@@ -69,11 +69,11 @@ class SessionWatch {
   static void note(SimTime steady, Times& times, std::int64_t session);
   bool holds(SimTime steady, std::string_view name, std::int64_t session);
   bool decides(SimTime steady, std::int32_t receiver, std::int64_t session);
-  bool is_of_rival(SimTime steady, std::string_view channel, std::int64_t session) const;
+  bool is_of_duplicate_publisher(SimTime steady, std::string_view channel, std::int64_t session) const;
 
   std::unordered_map<std::string, Holder, TextHash, std::equal_to<>> holders_;  // keyed by node or channel
   // Last heartbeats of accepted nodes and of duplicate ones.
-  Times heartbeats_, rivals_;
+  Times heartbeats_, duplicate_publishers_;
   Times refused_outcomes_;  // sessions whose last OUTCOME for a receiver was refused
 };
 

@@ -81,8 +81,8 @@ const ChannelPattern& LockstepTurns::pattern_of(const std::string& expression) {
   return stopping_.try_emplace(expression, expression).first->second;
 }
 
-SimTime LockstepTurns::quiet_until(const lockstep_turn_t& turn) {
-  return node_.quiet_until([&](std::string_view channel) {
+SimTime LockstepTurns::lookahead(const lockstep_turn_t& turn) {
+  return node_.lookahead([&](std::string_view channel) {
     for (std::size_t i = 0; i < turn.stopping_channels.size(); ++i) {
       if (turn.only_asks[i] == 0 && pattern_of(turn.stopping_channels[i]).matches(channel)) return true;
     }
@@ -93,7 +93,7 @@ SimTime LockstepTurns::quiet_until(const lockstep_turn_t& turn) {
 lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
   published_.clear();
   now_ = SimTime::from_nanoseconds(turn.instant_ns);
-  const SimTime horizon = SimTime::from_nanoseconds(turn.horizon_ns);
+  const SimTime lookahead_end = SimTime::from_nanoseconds(turn.horizon_ns);
   const int max_steps = turn.max_steps >= 0 ? turn.max_steps : kMaxStepsPerTurn;
   deliver(turn.inputs);
   if (turn.farewell != 0) node_.stop({now_, now_});
@@ -101,7 +101,7 @@ lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
   for (bool paused = turn.farewell != 0; !paused && steps < max_steps; ++steps) {
     const SimTime next = std::max(node_.lockstep_due(), now_);
     const bool at_instant = steps == 0 && next == now_;
-    if (!at_instant && next >= horizon) break;
+    if (!at_instant && next >= lookahead_end) break;
     const std::size_t published_before = published_.size();
     now_ = next;
     node_.step({now_, now_});
@@ -113,7 +113,7 @@ lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
   result.num_steps = steps;
   result.reached_ns = now_.nanoseconds();
   result.next_due_ns = node_.lockstep_due().nanoseconds();
-  result.quiet_until_ns = quiet_until(turn).nanoseconds();
+  result.quiet_until_ns = lookahead(turn).nanoseconds();
   result.outputs_digest = digest_;
   result.num_outputs = static_cast<std::int32_t>(published_.size());
   result.outputs = published_;

@@ -40,7 +40,7 @@ class LockstepTurns {
   void deliver(const std::vector<lockstep_message_t>& messages);
   bool must_pause(const lockstep_turn_t& turn, std::size_t published_before);
   const ChannelPattern& pattern_of(const std::string& expression);
-  SimTime quiet_until(const lockstep_turn_t& turn);
+  SimTime lookahead(const lockstep_turn_t& turn);
 
   Node& node_;
   std::map<std::string, Interest, std::less<>> interests_;

@@ -40,10 +40,10 @@ SimTime Node::lockstep_due() const {
   return std::min(both.sim, both.steady);
 }
 
-SimTime Node::quiet_until(const ChannelTest& matters) const {
-  SimTime quiet_until = on_quiet_until(matters);
-  if (matters(channels::kStatus.of(name()))) quiet_until = std::min(quiet_until, next_status_);
-  return std::max(quiet_until, lockstep_due());
+SimTime Node::lookahead(const ChannelTest& matters) const {
+  SimTime lookahead = on_lookahead(matters);
+  if (matters(channels::kStatus.of(name()))) lookahead = std::min(lookahead, next_status_);
+  return std::max(lookahead, lockstep_due());
 }
 
 void Node::step(const Now& now) {

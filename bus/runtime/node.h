@@ -111,7 +111,7 @@ class Node {
   // Returns the node's lookahead in lockstep: it publishes nothing before this time on channels for which
   // `matters` is true, unless it receives a message that is not a service's (lockstep_schedule.h). It is
   // later than the due time if the node steps without publishing on these channels.
-  SimTime quiet_until(const ChannelTest& matters) const;
+  SimTime lookahead(const ChannelTest& matters) const;
   // Invalidates the cached due(), which otherwise changes only with a message that may advance it, or a call
   // of the runner. Call it when something else has changed the due time.
   void note_due_changed() { known_due_.reset(); }
@@ -134,9 +134,9 @@ class Node {
 
  protected:
   virtual Due on_due() const = 0;
-  // Lookahead without STATUS; otherwise as quiet_until(). A channel of a family may be tested by any of its
+  // Lookahead without STATUS; otherwise as lookahead(). A channel of a family may be tested by any of its
   // names. at_once(): the node has no lookahead beyond its due time.
-  virtual SimTime on_quiet_until(const ChannelTest& /*matters*/) const { return SimTime::at_once(); }
+  virtual SimTime on_lookahead(const ChannelTest& /*matters*/) const { return SimTime::at_once(); }
   virtual void on_step(const Now& now) = 0;
   virtual void on_stop(const Now& /*now*/) {}
   // Simulation time jumped back: another run has begun. Discard the messages received in the old one.

@@ -13,7 +13,7 @@
 namespace halocline::bus {
 namespace {
 
-constexpr int kMostThreads = 1024;
+constexpr int kMaxThreads = 1024;
 
 // Exception of the lowest index.
 class FirstFailure {
@@ -40,12 +40,12 @@ struct ThreadPool::Arena : tbb::task_arena {
   explicit Arena(int threads) : task_arena(threads) {
     // Raises oneTBB's limit: by default it warns about, and does not start, more threads than there are
     // cores.
-    static const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, kMostThreads);
+    static const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, kMaxThreads);
   }
 };
 
 ThreadPool::ThreadPool(int threads) {
-  require_in_range(threads, 1, kMostThreads, "threads of a pool");
+  require_in_range(threads, 1, kMaxThreads, "threads of a pool");
   if (threads > 1) arena_ = std::make_unique<Arena>(threads);
 }
 

@@ -96,11 +96,11 @@ void ConductorTime::refuse_unexpected() {
 
 void ConductorTime::on_clock(const sim_clock_t& clock, SimTime received) {
   if (is_old(clock)) return;
-  const bool is_followed = last_ && clock.session == last_->clock.session;
-  if (is_followed && clock.clock_rate == rate_ && goes_on(*last_, clock) && agree(*last_, clock, received)) {
+  const bool is_tracked = last_ && clock.session == last_->clock.session;
+  if (is_tracked && clock.clock_rate == rate_ && goes_on(*last_, clock) && agree(*last_, clock, received)) {
     refuse_unexpected();
   } else if (last_ && received - last_->received < kSilence) {
-    ++(is_followed ? num_leaps_ : num_others_);
+    ++(is_tracked ? num_leaps_ : num_others_);
     return;
   } else if (!is_witnessed(clock, received)) {
     return;

@@ -56,7 +56,7 @@ void BestPlaceService::submit(const BestPlaceQuery& query, std::optional<SimTime
   waiting.reply = {query.client, query.request_id, {}, refusal_of(query, sim), {}};
   waiting.deadline = steady + timeout_;
   if (waiting.reply.refusal.empty()) {
-    waiting.reply.at = std::clamp(query.at.value_or(*sim), *sim - kMostOff, *sim + kMostOff);
+    waiting.reply.at = std::clamp(query.at.value_or(*sim), *sim - kMaxTimeOffset, *sim + kMaxTimeOffset);
     waiting.reply.refusal = resolve(query, waiting);
   }
   waiting_.push_back(std::move(waiting));

@@ -69,7 +69,7 @@ class BestPlaceService {
   static constexpr std::size_t kMaxWaiting = 16;  // queries that wait for the terrain
   // Largest difference between the requested time and the simulation time at which the query is received; a
   // query beyond it is answered for the nearest allowed time.
-  static constexpr SimDuration kMostOff = SimDuration::from_milliseconds(1000);
+  static constexpr SimDuration kMaxTimeOffset = SimDuration::from_milliseconds(1000);
 
   // The references must outlive the service.
   BestPlaceService(const VehicleRegistry& fleet, Propagation& propagation, LinkPredictor& predictor,

@@ -52,7 +52,7 @@ std::vector<PlannedSurvey> EchoPlan::begin_tick(const std::vector<EndPair>& link
   const std::size_t count = std::min(needs.size(), rule_.surveys_per_table);
   const auto end = needs.begin() + static_cast<std::ptrdiff_t>(count);
   std::partial_sort(needs.begin(), end, needs.end(), more_urgent);
-  put_off_ = needs.size() - count;
+  deferred_ = needs.size() - count;
   std::vector<PlannedSurvey> planned;
   planned.reserve(count);
   for (auto need = needs.begin(); need != end; ++need) {
@@ -75,7 +75,7 @@ void EchoPlan::note_unanswered(const VehiclePair& pair) {
 void EchoPlan::clear() {
   tick_ = 0;
   entries_.clear();
-  put_off_ = 0;
+  deferred_ = 0;
 }
 
 }  // namespace halocline::channel_server

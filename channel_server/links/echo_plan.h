@@ -43,7 +43,7 @@ class EchoPlan {
   // Notes that the planned survey of a pair was dropped or had no answer, so the pair needs another.
   void note_unanswered(const VehiclePair& pair);
   // Returns the number of pairs that needed a survey at the last tick and were not planned.
-  std::size_t put_off() const { return put_off_; }
+  std::size_t deferred() const { return deferred_; }
   void clear();
 
  private:
@@ -57,7 +57,7 @@ class EchoPlan {
   EchoRule rule_;
   std::int64_t tick_ = 0;
   std::vector<Entry> entries_;  // sorted by pair
-  std::size_t put_off_ = 0;
+  std::size_t deferred_ = 0;
 };
 
 }  // namespace halocline::channel_server

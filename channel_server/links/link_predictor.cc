@@ -21,7 +21,7 @@ using acoustics::Modem;
 using acoustics::ReceptionCurves;
 
 constexpr double kMaxCoherenceS = 1e6;
-constexpr double kLeastDelivery = 1e-3;  // least delivery probability of a rate that counts
+constexpr double kMinDelivery = 1e-3;  // least delivery probability of a rate that counts
 
 // Returns a modem with only the parameters on which the reception curves depend; all others are the generic
 // modem's.
@@ -80,7 +80,7 @@ double LinkPredictor::least_sinr_db(const Rates& rates) const {
     const auto received = [&](double sinr) {
       return curves.acquisition(sinr) * elementary::exp(bits * curves.log_bit_success(sinr));
     };
-    const double of_rate_db = acoustics::least_mean_db(kLeastDelivery, [&](double mean_sinr) {
+    const double of_rate_db = acoustics::least_mean_db(kMinDelivery, [&](double mean_sinr) {
       return acoustics::most_over_fading(rule_.fading, mean_sinr, received);
     });
     least_db = std::min(least_db, of_rate_db);
@@ -148,7 +148,7 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
       forecast.acquisition_probability = predicted.acquisition_probability;
       forecast.delivery_probability = predicted.delivery_probability;
     }
-    if (predicted.delivery_probability < kLeastDelivery || rate_bps * predicted.delivery_probability <= best)
+    if (predicted.delivery_probability < kMinDelivery || rate_bps * predicted.delivery_probability <= best)
       continue;
     best = rate_bps * predicted.delivery_probability;
     forecast.best_rate_bps = rate_bps;

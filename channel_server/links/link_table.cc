@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "acoustics/fading/sound_path.h"
-#include "channel_server/links/kept_rows.h"
+#include "channel_server/links/link_row_cache.h"
 #include "core/frames.h"
 
 namespace halocline::channel_server {
@@ -49,7 +49,7 @@ TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vect
   TableRows rows;
   for (std::size_t from = 0; from < vehicles.size(); ++from) {
     if (!shard.serves(vehicles[from].id)) continue;
-    const double range_m = ranges_m.empty() ? acoustics::kGreatestBoundedRange : ranges_m[from];
+    const double range_m = ranges_m.empty() ? acoustics::kMaxBoundedRange : ranges_m[from];
     TableRows::Transmitter transmitter{from, range_m, {}};
     for (std::size_t to = 0; to < vehicles.size(); ++to) {
       if (to == from || (places[to] - places[from]).squaredNorm() > range_m * range_m) continue;
@@ -63,10 +63,10 @@ TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vect
 }
 
 std::vector<EndPair> TableRows::to_compute() const {
-  if (carried.empty()) return links;
+  if (reused.empty()) return links;
   std::vector<EndPair> missing;
   for (std::size_t i = 0; i < links.size(); ++i) {
-    if (!carried[i]) missing.push_back(links[i]);
+    if (!reused[i]) missing.push_back(links[i]);
   }
   return missing;
 }
@@ -74,7 +74,7 @@ std::vector<EndPair> TableRows::to_compute() const {
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
                                    const MultipathFunction& multipath, const ForEach& for_each,
-                                   KeptRows* kept, NoiseOfLinks* noise) {
+                                   LinkRowCache* kept, NoiseOfLinks* noise) {
   std::vector<EndPair> missing = rows.to_compute();
   for (EndPair& link : missing) {
     if (noise != nullptr) noise->set(link);
@@ -85,7 +85,7 @@ std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehi
   for (const TableRows::Transmitter& transmitter : rows.transmitters) {
     const auto own = predictor.rates_of(vehicles[transmitter.vehicle].modem->modem);
     for (std::size_t i = 0; i < transmitter.receivers.size(); ++i) {
-      if (!rows.is_carried(link++)) rates.push_back(own);
+      if (!rows.is_reused(link++)) rates.push_back(own);
     }
   }
   const std::vector<Reception> receptions = propagation.receptions(instant, missing, for_each);
@@ -103,8 +103,8 @@ std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehi
     for (const std::size_t receiver : transmitter.receivers) {
       const PlacedVehicle& to = vehicles[receiver];
       LinkRow row;
-      if (rows.is_carried(link)) {
-        row = *rows.carried[link];
+      if (rows.is_reused(link)) {
+        row = *rows.reused[link];
       } else {
         const Reception& reception = receptions[computed];
         row.transmitter_id = from.id;

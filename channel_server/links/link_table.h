@@ -23,7 +23,7 @@
 
 namespace halocline::channel_server {
 
-class KeptRows;
+class LinkRowCache;
 
 // The knowledge about bottom echoes on a link.
 enum class Multipath {
@@ -59,10 +59,10 @@ struct LinkRow {
 
 // The links from one transmitter to all receivers within its range.
 struct LinkTable {
-  VehicleId vehicle_id = 0;                           // the transmitter of every row
-  std::vector<LinkRow> rows;                          // sorted by receiver id
-  double range_m = acoustics::kGreatestBoundedRange;  // beyond it there are no rows
-  std::size_t out_of_range = 0;                       // number of vehicles present without a row
+  VehicleId vehicle_id = 0;                      // the transmitter of every row
+  std::vector<LinkRow> rows;                     // sorted by receiver id
+  double range_m = acoustics::kMaxBoundedRange;  // beyond it there are no rows
+  std::size_t out_of_range = 0;                  // number of vehicles present without a row
 };
 
 // Return a vehicle as the propagation takes it; as a receiver with the modem that receives packets of
@@ -79,10 +79,11 @@ struct TableRows {
     std::vector<std::size_t> receivers;  // indices into the vehicles
   };
   std::vector<Transmitter> transmitters;
-  std::vector<EndPair> links;                   // the links of all transmitters
-  std::vector<std::optional<LinkRow>> carried;  // reused rows (kept_rows.h), by link; empty: none is reused
+  std::vector<EndPair> links;  // the links of all transmitters
+  std::vector<std::optional<LinkRow>>
+      reused;  // reused rows (link_row_cache.h), by link; empty: none is reused
 
-  bool is_carried(std::size_t link) const { return !carried.empty() && carried[link]; }
+  bool is_reused(std::size_t link) const { return !reused.empty() && reused[link]; }
   // Returns the links whose rows are not reused.
   std::vector<EndPair> to_compute() const;
 };
@@ -103,7 +104,7 @@ using MultipathFunction =
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
                                    const MultipathFunction& multipath,
-                                   const ForEach& for_each = one_after_the_other, KeptRows* kept = nullptr,
-                                   NoiseOfLinks* noise = nullptr);
+                                   const ForEach& for_each = one_after_the_other,
+                                   LinkRowCache* kept = nullptr, NoiseOfLinks* noise = nullptr);
 
 }  // namespace halocline::channel_server

@@ -76,7 +76,7 @@ RayQueryClient::Queue& RayQueryClient::queue_of(const Waiting& waiting) {
 
 std::vector<RayQueryBatch> RayQueryClient::take_batches(SimTime steady) {
   std::vector<RayQueryBatch> batches;
-  repeat_and_give_up(steady, batches);
+  repeat_or_expire(steady, batches);
   while (const Queue* queue = next_queue()) {
     batches.push_back(send_from(queue_of(queue->front()), steady));
   }
@@ -108,7 +108,7 @@ SimTime RayQueryClient::next_action(const InFlight& batch) const {
          SimDuration::from_nanoseconds(rule_.answer_deadline.nanoseconds() * (batch.repeats + 1) / kSendings);
 }
 
-void RayQueryClient::repeat_and_give_up(SimTime steady, std::vector<RayQueryBatch>& repeated) {
+void RayQueryClient::repeat_or_expire(SimTime steady, std::vector<RayQueryBatch>& repeated) {
   for (auto batch = in_flight_.begin(); batch != in_flight_.end();) {
     const bool was_looked_after = std::exchange(batch->second.looked_after, true);
     if (!was_looked_after && steady >= batch->second.sent + rule_.answer_deadline)

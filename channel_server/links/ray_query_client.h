@@ -110,7 +110,7 @@ class RayQueryClient {
   const Queue* next_queue() const;
   SimTime next_action(const InFlight& batch) const;
   RayQueryBatch send_from(Queue& queue, SimTime steady);
-  void repeat_and_give_up(SimTime steady, std::vector<RayQueryBatch>& repeated);
+  void repeat_or_expire(SimTime steady, std::vector<RayQueryBatch>& repeated);
   void advance(Waiting waiting, std::span<const RayAnswer> answers);
   void finish(Waiting waiting, bool answered);
   void fail_all(std::vector<Waiting> surveys);

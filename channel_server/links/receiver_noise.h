@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The noise at receivers as link tables and link queries state it: ambient noise, noise of the receiver's own
 // vehicle, and the mean over fading of the noise that other vehicles radiate. The packet medium has the same
-// noise, but with the fading of each instant (channel_server/packets/vehicle_sounds.h).
+// noise, but with the fading of each instant (channel_server/packets/platform_noise.h).
 #pragma once
 
 #include <array>

@@ -110,7 +110,7 @@ SimTime Flight::first_sound() const {
   return paths.empty() ? arrival() : std::min(arrival(), begin_of(*this, paths.front()));
 }
 
-SimTime Flight::lock() const {
+SimTime Flight::sync_time() const {
   return reception.paths.empty() ? arrival() : begin_of(*this, reception.paths[window.first]);
 }
 
@@ -188,13 +188,13 @@ AudiblePacket disturbing_sound(const Flight& flight, const ReachModel* reach) {
 
 double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed) {
   if (!fading.enabled) return 1;
-  return acoustics::LinkFading(fading, fading_link(flight, seed)).large_scale(flight.lock());
+  return acoustics::LinkFading(fading, fading_link(flight, seed)).large_scale(flight.sync_time());
 }
 
 ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading) {
   const double factor = flight.doppler_factor();
   const bool fades = fading.enabled || flight.reception.measured;
-  ReceivedSignal signal{flight.packet, noise, flight.lock(), {}, {}, fades, {}, {}};
+  ReceivedSignal signal{flight.packet, noise, flight.sync_time(), {}, {}, fades, {}, {}};
   signal.preamble_end = signal.begin + shrunk(flight.packet->timing.preamble, factor);
   signal.end = signal.begin + shrunk(flight.packet->timing.duration, factor);
   return signal;
@@ -209,14 +209,14 @@ void evaluate_signal(Flight& flight, const acoustics::FadingModel& fading, std::
   const double shared = to_power_ratio(-band_loss(flight.packet->modem, flight.modem)).value;
   const auto& paths = flight.reception.paths;
   const acoustics::FadingLink link = fading_link(flight, seed);
-  const acoustics::Lock lock{&flight.modem, flight.window};
+  const acoustics::Synchronisation sync{&flight.modem, flight.window};
   const acoustics::Band band = flight.packet->modem.band();
   const acoustics::ReceivedTiming timing{(signal.preamble_end - signal.begin).seconds(),
                                          (signal.end - signal.begin).seconds()};
   signal.history =
-      measured ? signal_history(acoustics::MeasuredFading(measured, link), flight.large_scale, paths, lock,
+      measured ? signal_history(acoustics::MeasuredFading(measured, link), flight.large_scale, paths, sync,
                                 band, signal.begin, timing)
-               : signal_history(fading, link, flight.large_scale, paths, lock, band, signal.begin, timing);
+               : signal_history(fading, link, flight.large_scale, paths, sync, band, signal.begin, timing);
   for (double& power : signal.history.signal) power *= shared;
   for (double& power : signal.history.echoes) power *= shared;
   const double kept = doppler_share(flight.modem, paths[flight.window.strongest], band.centre_hz());

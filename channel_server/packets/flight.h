@@ -67,7 +67,8 @@ struct Flight {
 
   // Set from the arrival on.
   ReceiverState* sounds_at = nullptr;  // the receiver at which this reception is open; null before
-  bool is_too_late = false;       // the packet overlaps a reception that was decided before its request came
+  bool conflicts_with_past =
+      false;                      // the packet overlaps a reception that was decided before its request came
   bool receiver_absent = false;   // the receiver's last state had timed out at the first significant path
   std::vector<NoiseSound> noise;  // noise of other vehicles, constant during the packet
   double large_scale = 1;         // factor on pressures by the link's large-scale fading
@@ -86,7 +87,7 @@ struct Flight {
   // Returns when the earliest path begins to sound.
   SimTime first_sound() const;
   // Returns when the first path of the guard window begins to sound: the receiver synchronises on it.
-  SimTime lock() const;
+  SimTime sync_time() const;
   // Returns the Doppler factor of the strongest path in the guard window; 1 without a path.
   double doppler_factor() const;
 };

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "channel_server/packets/platform_noise.h"
 #include "channel_server/packets/reception_decision.h"
-#include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_power.h"
@@ -170,7 +170,7 @@ PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleEq
   outcome.doppler_factor = flight.doppler_factor();
   set_direction(flight, outcome);
   outcome.statistics = flight.statistics;
-  outcome.is_too_late = flight.is_too_late;
+  outcome.conflicts_with_past = flight.conflicts_with_past;
   if (const PowerOf* battery = flight.acquired ? equipment.power.battery_of(flight.receiver_id) : nullptr)
     outcome.receive_energy_j = battery->receiving_w * (flight.signal.end - flight.signal.begin).seconds();
   return outcome;

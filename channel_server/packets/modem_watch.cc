@@ -5,8 +5,8 @@
 
 #include "acoustics/modem/modem.h"
 #include "channel_server/packets/flight_outcome.h"
+#include "channel_server/packets/platform_noise.h"
 #include "channel_server/packets/reception_decision.h"
-#include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/units.h"
 
@@ -25,7 +25,7 @@ void set_header(const Flight& flight, ModemEvent& event) {
 
 void ModemWatch::begin_transmission(const Packet& packet, std::vector<MediumEvent>& events) {
   const SendRequest& request = packet.request;
-  judge_carrier_at(request.source_id, packet.departure);
+  update_carrier_sense_at(request.source_id, packet.departure);
   if (!fleet_.listening(request.source_id, packet.departure).events) return;
   ModemEvent event{request.vehicle, ModemEventKind::kTransmissionBegan};
   event.session = request.session;
@@ -86,31 +86,31 @@ void ModemWatch::end(const Flight& flight, SimTime at, OutcomeKind outcome,
   events.push_back({at, std::move(event)});
 }
 
-void ModemWatch::judge_carrier_at(VehicleId id, SimTime at) {
+void ModemWatch::update_carrier_sense_at(VehicleId id, SimTime at) {
   if (at == SimTime::never()) return;
   if (carriers_.contains(id) || fleet_.listening(id, at).events) due_.insert({at, id});
 }
 
-void ModemWatch::judge_carrier(const ReceiverState& heard, std::vector<MediumEvent>& events) {
+void ModemWatch::update_carrier_sense(const ReceiverState& heard, std::vector<MediumEvent>& events) {
   const auto [at, id] = *due_.begin();
   due_.erase(due_.begin());
   Carrier& carrier = carriers_[id];
   const Listening& listening = fleet_.listening(id, at);
   if (!listening.events || listening.is_asleep(at) || heard.transmits_at(at)) {
     if (carrier.sensed) change(id, carrier, at, 0, events);
-    if (listening.is_asleep(at) && listening.wakes) judge_carrier_at(id, *listening.wakes);
-    return judge_carrier_at(id, heard.transmission_end(at));
+    if (listening.is_asleep(at) && listening.wakes) update_carrier_sense_at(id, *listening.wakes);
+    return update_carrier_sense_at(id, heard.transmission_end(at));
   }
   const SimTime from = carrier.changed == SimTime::at_once() ? at : carrier.changed + kCarrierHold;
-  if (from > at) return judge_carrier_at(id, from);
+  if (from > at) return update_carrier_sense_at(id, from);
   const acoustics::Modem& modem = fleet_.modem(id, at).modem;
   const Decibels noise = sounds_.noise_level(id, modem.band(), at, at) - modem.directivity_index;
   // Carrier is sensed where the summed power exceeds 10^(threshold / 10) N, N less the directivity index.
   const double threshold = to_power_ratio(noise + listening.carrier_threshold).value;
   const PowerCrossing crossing = heard.next_crossing(at, modem.band(), threshold, !carrier.sensed);
-  if (crossing.at > at) return judge_carrier_at(id, crossing.at);
+  if (crossing.at > at) return update_carrier_sense_at(id, crossing.at);
   change(id, carrier, at, crossing.power, events);
-  judge_carrier_at(id, at + kCarrierHold);
+  update_carrier_sense_at(id, at + kCarrierHold);
 }
 
 void ModemWatch::change(VehicleId id, Carrier& carrier, SimTime at, double power,

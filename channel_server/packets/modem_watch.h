@@ -25,8 +25,8 @@
 #include "channel_server/packets/flight.h"
 #include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/packets/platform_noise.h"
 #include "channel_server/packets/receiver_state.h"
-#include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/sim_time.h"
@@ -38,7 +38,7 @@ class ModemWatch {
   static constexpr SimDuration kCarrierHold = SimDuration::from_milliseconds(10);
 
   // The references must outlive this object.
-  ModemWatch(const VehicleRegistry& fleet, VehicleSounds& sounds) : fleet_(fleet), sounds_(sounds) {}
+  ModemWatch(const VehicleRegistry& fleet, PlatformNoise& sounds) : fleet_(fleet), sounds_(sounds) {}
 
   // Reports the begin of a transmission, and schedules the report of its end.
   void begin_transmission(const Packet& packet, std::vector<MediumEvent>& events);
@@ -54,12 +54,12 @@ class ModemWatch {
 
   // Schedules an update of a vehicle's carrier at `at`, after all else of that instant, because what is heard
   // there or how its modem listens changes then. Does nothing when the modem reports no events.
-  void judge_carrier_at(VehicleId id, SimTime at);
+  void update_carrier_sense_at(VehicleId id, SimTime at);
   SimTime next_carrier() const { return due_.empty() ? SimTime::never() : due_.begin()->first; }
   // Returns the vehicle of next_carrier(); requires that there is one.
-  VehicleId next_to_judge() const { return due_.begin()->second; }
-  // Updates the carrier of next_to_judge(); `heard` holds the sounds at that vehicle.
-  void judge_carrier(const ReceiverState& heard, std::vector<MediumEvent>& events);
+  VehicleId next_to_update() const { return due_.begin()->second; }
+  // Updates the carrier of next_to_update(); `heard` holds the sounds at that vehicle.
+  void update_carrier_sense(const ReceiverState& heard, std::vector<MediumEvent>& events);
 
   void forget_before(SimTime time);
   void clear();
@@ -80,7 +80,7 @@ class ModemWatch {
   void change(VehicleId id, Carrier& carrier, SimTime at, double power, std::vector<MediumEvent>& events);
 
   const VehicleRegistry& fleet_;
-  VehicleSounds& sounds_;
+  PlatformNoise& sounds_;
   ByEnd<ModemEvent> ends_;        // reported transmissions that have not ended
   ByEnd<const Flight*> headers_;  // packets that are followed, by the end of their headers
   std::map<VehicleId, Carrier> carriers_;

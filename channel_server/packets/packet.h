@@ -133,7 +133,7 @@ struct Packet {
   std::int32_t rate_number = 0;
   acoustics::PacketFormat format = {};
   std::vector<std::int32_t> frame_bytes = {};  // bytes of the payload in each frame of the format
-  bool is_noise = false;                       // not a packet but the noise of a vehicle (vehicle_sounds.h)
+  bool is_noise = false;                       // not a packet but the noise of a vehicle (platform_noise.h)
   double energy_j = 0;                         // taken from the sender's battery; 0 without a battery
 
   PacketName name() const {
@@ -216,7 +216,7 @@ struct PacketOutcome {
   DecisionStatistics statistics;
   // True when the request (SEND) came so late that the packet overlaps a reception that was already decided
   // without it, at this receiver or at the sender.
-  bool is_too_late = false;
+  bool conflicts_with_past = false;
   double receive_energy_j = 0;  // taken from the receiver's battery; 0 if not acquired or without a battery
 };
 

@@ -110,7 +110,7 @@ const std::vector<MediumEvent>& PacketMedium::advance_to(SimTime time) {
     } else if (!departures_.empty() && std::get<0>(departures_.begin()->first) == next) {
       depart(departures_.extract(departures_.begin()).mapped(), events_);
     } else if (flights_.empty() || flights_.next_event() != next) {
-      watch_.judge_carrier(state_of(watch_.next_to_judge()), events_);
+      watch_.update_carrier_sense(state_of(watch_.next_to_update()), events_);
     } else if (!on_flight_event(next, events_)) {
       waiting_ = true;
       reached = next;
@@ -121,8 +121,8 @@ const std::vector<MediumEvent>& PacketMedium::advance_to(SimTime time) {
   return events_;
 }
 
-bool PacketMedium::must_be_put_off(const Departure& departure) const {
-  if (departure.is_put_off || departure.answers) return false;
+bool PacketMedium::must_be_deferred(const Departure& departure) const {
+  if (departure.is_deferred || departure.answers) return false;
   const SendRequest& request = departure.request;
   const auto id = fleet_.id_of(request.vehicle);
   return !id || !fleet_.placement(*id, request.start, request.start);
@@ -135,14 +135,14 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
     if (power().has_power(packet->request.source_id, packet->departure)) launch(packet, events);
     return;
   }
-  if (must_be_put_off(departure)) {
-    departure.is_put_off = true;
+  if (must_be_deferred(departure)) {
+    departure.is_deferred = true;
     const SimTime later = departure.request.start + fleet_.rule().state_lag;
     return add_departure(later, std::move(departure));
   }
   const SendRequest asked = departure.request;
   SendRequest& request = departure.request;
-  if (departure.is_put_off) request.start = asked.start + fleet_.rule().state_lag;
+  if (departure.is_deferred) request.start = asked.start + fleet_.rule().state_lag;
   Framing framing = framing_of(fleet_.modem(request.vehicle, request.start), request);
   const acoustics::PacketTiming timing = framing.timing;
   const SendDecision decision = decide_send(request, framing, fleet_, register_);
@@ -184,7 +184,7 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   }
   place_all(fleet_, departure, present_);
   const double reach_m = reach_ != nullptr ? reach_->reach_m(departure, packet->modem, fleet_, present_)
-                                           : acoustics::kGreatestBoundedRange;
+                                           : acoustics::kMaxBoundedRange;
   PacketOutcome others = outcome_out_of_reach(packet, reach_m);
   others.receivers = 0;
   const std::uint64_t identity = identity_for_draws(*packet);
@@ -201,7 +201,7 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
       }
     } else if (rule_.shard.serves(receiver.id)) {
       Flight& flight = flights_.make_flight(packet, identity, receiver.id, fleet_.name_of(receiver.id));
-      flight.is_too_late = is_late;
+      flight.conflicts_with_past = is_late;
       begun.push_back(&flight);
     }
   }
@@ -261,8 +261,8 @@ void PacketMedium::begin_reception(Flight& flight, SimTime at) {
   if (rule_.noise.has_bursts()) add_bursts(rule_.noise, rule_.seed, flight.receiver_id, flight.signal);
   flight.draws = draws_of(rule_.seed, *flight.packet, flight.identity, flight.receiver_id);
   flight.sounds_at = &state_of(flight.receiver_id);
-  flight.is_too_late |= flight.sounds_at->open(disturbing_sound(flight, reach_), advanced_to_);
-  watch_.judge_carrier_at(flight.receiver_id, at);
+  flight.conflicts_with_past |= flight.sounds_at->open(disturbing_sound(flight, reach_), advanced_to_);
+  watch_.update_carrier_sense_at(flight.receiver_id, at);
   flight.stage = Flight::Stage::kPreamble;
   flights_.add(std::max(flight.signal.preamble_end, at), flight);
 }
@@ -319,7 +319,7 @@ void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEven
 
 void PacketMedium::on_listening_changed(const std::string& vehicle, SimTime from) {
   const auto id = fleet_.id_of(vehicle);
-  if (id && rule_.shard.serves(*id)) watch_.judge_carrier_at(*id, std::max(from, advanced_to_));
+  if (id && rule_.shard.serves(*id)) watch_.update_carrier_sense_at(*id, std::max(from, advanced_to_));
 }
 
 ReceiverState& PacketMedium::state_of(VehicleId id) {

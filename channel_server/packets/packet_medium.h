@@ -68,10 +68,10 @@
 #include "channel_server/packets/modem_watch.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_framing.h"
+#include "channel_server/packets/platform_noise.h"
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/packets/send_decision.h"
 #include "channel_server/packets/send_register.h"
-#include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/reach.h"
 #include "channel_server/vehicles/modem_schedule.h"
@@ -147,7 +147,7 @@ class PacketMedium {
     SendRequest request;
     std::shared_ptr<const Packet> answers;  // for a modem's answer: the packet that it answers
     std::shared_ptr<const Packet> queued;
-    bool is_put_off = false;  // deferred by the state lag
+    bool is_deferred = false;  // deferred by the state lag
   };
   // Departures at one instant take place in the order of the rest of the key.
   using DepartureKey =
@@ -155,7 +155,7 @@ class PacketMedium {
 
   void add_departure(SimTime at, Departure departure);
   void depart(Departure departure, std::vector<MediumEvent>& events);
-  [[nodiscard]] bool must_be_put_off(const Departure& departure) const;
+  [[nodiscard]] bool must_be_deferred(const Departure& departure) const;
   const VehiclePower& power() const { return fleet_.equipment().power; }
   void launch(const PacketPointer& packet, std::vector<MediumEvent>& events);
 
@@ -174,7 +174,7 @@ class PacketMedium {
   MediumRule rule_;
   ReachModel* reach_;
   ForEach for_each_;
-  VehicleSounds sounds_;
+  PlatformNoise sounds_;
   SendRegister register_;
   ModemWatch watch_;
   std::map<DepartureKey, Departure> departures_;

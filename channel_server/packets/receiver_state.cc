@@ -42,14 +42,14 @@ bool ReceiverState::transmit(const PacketInterval& span, SimTime decided_by) {
 }
 
 bool ReceiverState::open(AudiblePacket packet, SimTime decided_by) {
-  const bool is_too_late =
+  const bool conflicts_with_past =
       !packet.paths.empty() && overlaps_decided({packet.packet, packet.begin, packet.end}, decided_by);
   open_.insert(std::upper_bound(open_.begin(), open_.end(), packet.begin), packet.begin);
   longest_ = std::max(longest_, packet.end - packet.begin);
   const auto place = std::upper_bound(sounds_.begin(), sounds_.end(), packet.begin,
                                       [](SimTime begin, const AudiblePacket& h) { return begin < h.begin; });
   sounds_.insert(place, std::move(packet));
-  return is_too_late;
+  return conflicts_with_past;
 }
 
 void ReceiverState::close(SimTime begin, SimTime now) {

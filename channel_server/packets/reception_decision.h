@@ -10,7 +10,7 @@
 //      (acoustics/reception/signal_history.h), as do the packet's own echoes in I;
 //   N  the noise over the band, less the receiver's directivity;
 //   I  the packet's own echoes; all paths of all other packets, each during its own interval, with the
-//      large-scale fading of its link; the noise of other vehicles (vehicle_sounds.h); and bursts of the
+//      large-scale fading of its link; the noise of other vehicles (platform_noise.h); and bursts of the
 //      sea's noise (acoustics/noise/noise_variation.h). It counts as noise that is white over the band.
 // A packet has these random draws, uniform in (0, 1): d1 for acquisition, d2 for the header and frame 0,
 // d(2+i) for frame i.

@@ -25,10 +25,10 @@ double depth_of(const LinkEnd& end, const acoustics::Environment& environment) {
 }
 
 // Returns one link for each id: the two directions between a pair have the same query at one frequency.
-std::vector<std::pair<SearchBudget::LinkId, const EndPair*>> one_way_of_each(
+std::vector<std::pair<SearchScheduler::LinkId, const EndPair*>> one_way_of_each(
     const std::vector<EndPair>& links) {
-  std::vector<std::pair<SearchBudget::LinkId, const EndPair*>> ways;
-  for (const EndPair& link : links) ways.emplace_back(SearchBudget::id_of(link), &link);
+  std::vector<std::pair<SearchScheduler::LinkId, const EndPair*>> ways;
+  for (const EndPair& link : links) ways.emplace_back(SearchScheduler::id_of(link), &link);
   std::sort(ways.begin(), ways.end());  // links of one id by address
   const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
   ways.erase(std::unique(ways.begin(), ways.end(), same), ways.end());
@@ -58,7 +58,7 @@ LinkSearches::LinkSearches(std::shared_ptr<const EnvironmentTimeline> waters,
       own_(kMaxFound),
       shared_(kMaxSharedFound) {
   validate(model);
-  if (model.max_searches_per_tick > 0) budget_.emplace(model.max_searches_per_tick);
+  if (model.max_searches_per_tick > 0) scheduler_.emplace(model.max_searches_per_tick);
 }
 
 std::shared_ptr<const acoustics::RayWater> LinkSearches::water_of(SimTime at, double frequency_hz) {
@@ -129,32 +129,32 @@ LinkSearches::Task LinkSearches::shared_task_of(SimTime at, const LinkEnd& from,
 }
 
 LinkSearches::Task LinkSearches::for_table(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  return granted_task(at, shared_task_of(at, from, to));
+  return scheduled_task(at, shared_task_of(at, from, to));
 }
 
-LinkSearches::Task LinkSearches::granted_task(SimTime at, Task task) {
-  if (!budget_) return task;
-  SearchBudget::Granted* granted = budget_->find(SearchBudget::id_of(task.ends));
-  task.waits = granted == nullptr;
+LinkSearches::Task LinkSearches::scheduled_task(SimTime at, Task task) {
+  if (!scheduler_) return task;
+  SearchScheduler::Scheduled* scheduled = scheduler_->find(SearchScheduler::id_of(task.ends));
+  task.waits = scheduled == nullptr;
   // A query that was scheduled but not searched cannot be searched any more once its sea has changed.
-  if (task.waits || (!granted->paths && !is_of_one_sea(granted->query, task.query))) return task;
-  task.granted = granted;
-  task.query = granted->query;
-  task.age = at - granted->current_at;
+  if (task.waits || (!scheduled->paths && !is_of_one_sea(scheduled->query, task.query))) return task;
+  task.scheduled = scheduled;
+  task.query = scheduled->query;
+  task.age = at - scheduled->current_at;
   return task;
 }
 
 LinkSearches::Task LinkSearches::for_packet(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   if (!model_.reuse_for_packets) return for_itself(at, from, to);
   Task now = shared_task_of(at, from, to);
-  if (!budget_) return now;
-  Task granted = granted_task(at, now);
-  return granted.waits || !is_of_one_sea(granted.query, now.query) ? now : granted;
+  if (!scheduler_) return now;
+  Task scheduled = scheduled_task(at, now);
+  return scheduled.waits || !is_of_one_sea(scheduled.query, now.query) ? now : scheduled;
 }
 
 void LinkSearches::begin_tick(SimTime at, const std::vector<EndPair>& all) {
-  if (!budget_) return;
-  std::vector<SearchBudget::Wanted> wanted;
+  if (!scheduler_) return;
+  std::vector<SearchScheduler::Wanted> wanted;
   for (const auto& [id, link] : one_way_of_each(all)) {
     const auto& [from, to] = *link;
     Task task = shared_task_of(at, from, to);
@@ -163,7 +163,7 @@ void LinkSearches::begin_tick(SimTime at, const std::vector<EndPair>& all) {
     const Decibels level = from.modem->source_level - Decibels{20 * elementary::log10(range_m)};
     wanted.push_back({id, std::move(task.query), (level - to.modem->min_receivable_level).value});
   }
-  budget_->begin_tick(at, std::move(wanted));
+  scheduler_->begin_tick(at, std::move(wanted));
 }
 
 bool LinkSearches::is_ready(const Task& task) {
@@ -181,7 +181,7 @@ bool LinkSearches::are_ready_for_table(SimTime at, const std::vector<EndPair>& l
 
 // The results of scheduled queries are kept for as long as they are used, although the cache may drop them.
 LinkSearches::Paths LinkSearches::known(const Task& task) {
-  if (task.granted != nullptr && task.granted->paths) return task.granted->paths;
+  if (task.scheduled != nullptr && task.scheduled->paths) return task.scheduled->paths;
   if (const Paths* paths = cache_of(task).find(task.query.key())) return *paths;
   if (!is_shared(task)) return nullptr;
   Paths received = exchange_->received(shared_query(task));
@@ -244,7 +244,7 @@ std::vector<LinkSearches::Paths> LinkSearches::find_all(const std::vector<Task>&
   std::vector<Paths> found;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     found.push_back(tasks[i].waits ? nullptr : of_queries[places[i]]);
-    if (tasks[i].granted != nullptr) tasks[i].granted->paths = found.back();
+    if (tasks[i].scheduled != nullptr) tasks[i].scheduled->paths = found.back();
   }
   return found;
 }
@@ -266,11 +266,11 @@ void LinkSearches::find_shared(SimTime at, const std::vector<EndPair>& links, co
 
 LinkSearches::Paths LinkSearches::search(const Task& task, Line& line) const {
   const PathQuery& query = task.query;
-  if (!query.given && may_be_weak(model_, *task.water, query)) {
+  if (!query.given && may_be_flux_only(model_, *task.water, query)) {
     const auto [north, east, last_north, last_east] = query.places;
     const auto places = seabed_->places_between({north, east, 0}, {last_north, last_east, 0});
     if (!places) return nullptr;
-    if (auto weak = weak_paths(model_, *task.water, *task.environment, query, *places)) return weak;
+    if (auto weak = flux_only_paths(model_, *task.water, *task.environment, query, *places)) return weak;
   }
   if (!line.seabed) line.seabed = seabed_of(query);
   if (!*line.seabed) return nullptr;

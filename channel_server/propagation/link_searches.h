@@ -8,7 +8,7 @@
 // - Link table: with a reuse distance, both ends are rounded to a horizontal lattice for the bottom profile,
 //   and the query is that of the middle of the link's cell (middle_of_cell). An end exactly at a knot of the
 //   sound-speed profile keeps its depth. Coherent levels are not reused. With a limited number of searches a
-//   tick (search_budget.h), it is the query of the link that was scheduled last.
+//   tick (search_scheduler.h), it is the query of the link that was scheduled last.
 // - Packet: the query of the link's exact ends or, with RayModel::reuse_for_packets, that of a link table. In
 //   the second case a link that has not been scheduled yet, or was scheduled in other water or over another
 //   seabed, is searched at once.
@@ -34,7 +34,7 @@
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
-#include "channel_server/propagation/search_budget.h"
+#include "channel_server/propagation/search_scheduler.h"
 #include "channel_server/propagation/straight_propagation.h"
 #include "core/for_each.h"
 #include "core/lru_cache.h"
@@ -59,9 +59,10 @@ class LinkSearches {
     bool reversed = false;    // the transmitter is the profile's last end
     bool shared = false;      // the query serves other links too
     bool of_table = false;    // query of link tables, which the server of the other end makes too
-    SearchBudget::Granted* granted = nullptr;  // null without a limit, and before the link is scheduled first
-    bool waits = false;                        // the link has not been scheduled yet
-    SimDuration age = {};                      // since the scheduled query was the link's own
+    SearchScheduler::Scheduled* scheduled =
+        nullptr;           // null without a limit, and before the link is scheduled first
+    bool waits = false;    // the link has not been scheduled yet
+    SimDuration age = {};  // since the scheduled query was the link's own
   };
 
   // Throws InvalidArgument when the model is out of range. `straight` must outlive the searches.
@@ -80,7 +81,7 @@ class LinkSearches {
   // Exchanges results with other servers from now on; `exchange` must outlive the searches.
   void share_through(PathExchange& exchange) { exchange_ = &exchange; }
 
-  bool has_budget() const { return budget_.has_value(); }
+  bool has_scheduler() const { return scheduler_.has_value(); }
   // See Propagation::begin_tick.
   void begin_tick(SimTime at, const std::vector<EndPair>& all);
 
@@ -116,7 +117,7 @@ class LinkSearches {
   void forget_unused(SimTime at);
   Task shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to);
   // Returns the task of a table whose link has the query of `now` at this instant.
-  Task granted_task(SimTime at, Task now);
+  Task scheduled_task(SimTime at, Task now);
   Cache& cache_of(const Task& task) { return task.shared ? shared_ : own_; }
   // Returns the paths that are cached or received; null when there are none yet.
   Paths known(const Task& task);
@@ -140,7 +141,7 @@ class LinkSearches {
       ray_waters_;
   Cache own_, shared_;
   SimTime next_forgetting_ = SimTime() + kKept;
-  std::optional<SearchBudget> budget_;
+  std::optional<SearchScheduler> scheduler_;
   PathExchange* exchange_ = nullptr;  // null: the only server
   std::int64_t searches_ = 0;
 };

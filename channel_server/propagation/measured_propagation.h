@@ -96,8 +96,9 @@ class MeasuredPropagation : public Propagation {
                                                  double deepest_end_m) const override {
     return links_.level_of_record ? std::nullopt : model_->least_loss(at, frequency_hz, deepest_end_m);
   }
-  std::optional<WeakLinks> weak_links(SimTime at, double frequency_hz, double deepest_end_m) const override {
-    return links_.level_of_record ? std::nullopt : model_->weak_links(at, frequency_hz, deepest_end_m);
+  std::optional<FluxOnlyLinks> flux_only_links(SimTime at, double frequency_hz,
+                                               double deepest_end_m) const override {
+    return links_.level_of_record ? std::nullopt : model_->flux_only_links(at, frequency_hz, deepest_end_m);
   }
   const acoustics::Environment& environment(SimTime at) const override { return model_->environment(at); }
 

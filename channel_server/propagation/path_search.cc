@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "acoustics/link/mixed_link.h"
-#include "acoustics/rays/bearings/bearing_rays.h"
-#include "acoustics/rays/column_rays.h"
+#include "acoustics/link/energy_flux.h"
+#include "acoustics/rays/bearings/range_fan.h"
+#include "acoustics/rays/depth_fan.h"
 #include "acoustics/rays/eigenray.h"
 #include "core/check.h"
 #include "core/hash.h"
@@ -58,9 +58,9 @@ std::uint64_t PathQuery::hash_of_places() const {
 }
 
 int bounces_for(double range_m, double depth_m) {
-  constexpr double kLeast = 60, kMost = 10'000, kSlope = 0.6;
+  constexpr double kMin = 60, kMax = 10'000, kSlope = 0.6;
   const double bounces = std::ceil(kSlope * range_m / depth_m);
-  return static_cast<int>(std::clamp(bounces, kLeast, kMost));
+  return static_cast<int>(std::clamp(bounces, kMin, kMax));
 }
 
 double mean_depth_m(const acoustics::BottomProfile& bottom, double range_m) {
@@ -171,19 +171,19 @@ std::shared_ptr<const FoundPaths> PathLine::search(const RayModel& model, const 
   return found_paths(model, *sea_, query, seabed, shared);
 }
 
-SharedLine SharedLine::of_depths() { return {{}, std::make_unique<acoustics::ColumnRays>()}; }
+SharedLine SharedLine::of_depths() { return {{}, std::make_unique<acoustics::DepthFan>()}; }
 
-SharedLine SharedLine::of_bearing(std::vector<double> rising_ranges_m) {
-  return {{}, std::make_unique<acoustics::BearingRays>(std::move(rising_ranges_m))};
+SharedLine SharedLine::of_ranges(std::vector<double> rising_ranges_m) {
+  return {{}, std::make_unique<acoustics::RangeFan>(std::move(rising_ranges_m))};
 }
 
-bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query) {
-  return acoustics::may_be_weak(water, options_of(model, query), query.link, model.weak_below_diffuse);
+bool may_be_flux_only(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query) {
+  return acoustics::may_be_flux_only(water, options_of(model, query), query.link, model.weak_below_diffuse);
 }
 
-std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,
-                                             const acoustics::Environment& environment,
-                                             const PathQuery& query, const SeabedPlaces& seabed) {
+std::shared_ptr<const FoundPaths> flux_only_paths(const RayModel& model, const acoustics::RayWater& water,
+                                                  const acoustics::Environment& environment,
+                                                  const PathQuery& query, const SeabedPlaces& seabed) {
   const auto [least, most] = std::minmax_element(seabed.z_m.begin(), seabed.z_m.end());
   if (*most - *least < kEvenM) return nullptr;
   double mean_z_m = 0;
@@ -192,9 +192,10 @@ std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoust
   const double depth_m =
       std::clamp(mean_z_m - environment.sea_surface_z_m, deepest_end_m + kEvenM, acoustics::kDeepestWater);
   const acoustics::LinkWater along = water_along(model, water, environment, query, depth_m);
-  auto windows = acoustics::weak_arrivals({along.water, depth_m, model.bottom, surface_of(model, environment),
-                                           options_of(model, query), seabed.mean_square_slope},
-                                          query.link, model.weak_below_diffuse);
+  auto windows =
+      acoustics::flux_only_arrivals({along.water, depth_m, model.bottom, surface_of(model, environment),
+                                     options_of(model, query), seabed.mean_square_slope},
+                                    query.link, model.weak_below_diffuse);
   if (!windows) return nullptr;
   auto found = std::make_shared<FoundPaths>();
   found->arrivals = {acoustics::RaySolver::kArcs, *std::move(windows)};

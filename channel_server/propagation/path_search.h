@@ -51,13 +51,13 @@ struct RayModel {
   // Ignored where options.diffuse_below_db is 0.
   Decibels diffuse_below_noise{5};
   // A link longer than 10 water depths whose paths together are weaker by this than that limit is computed by
-  // its incoherent energy flux alone, -100..100 (acoustics/link/mixed_link.h). A value below 0 includes links
-  // whose paths together exceed the limit.
+  // its incoherent energy flux alone, -100..100 (acoustics/link/energy_flux.h). A value below 0 includes
+  // links whose paths together exceed the limit.
   Decibels weak_below_diffuse{6};
   // Range of the depth of the water wherever sound travels, as far as it is known, m; it bounds the reach of
   // sound. 0..kDeepestWater, rising.
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
-  int max_searches_per_tick = 0;         // limit for link tables (search_budget.h); 0: unlimited
+  int max_searches_per_tick = 0;         // limit for link tables (search_scheduler.h); 0: unlimited
   double profile_reuse_distance_m = 25;  // lattice spacing of profile ends under reuse, 0.1..1000
 };
 
@@ -155,24 +155,24 @@ class PathLine {
 };
 // Links whose searches share rays as well as their sea.
 struct SharedLine {
-  // For receivers at several depths of one position (acoustics/rays/column_rays.h).
+  // For receivers at several depths of one position (acoustics/rays/depth_fan.h).
   static SharedLine of_depths();
-  // For receivers along one bearing (acoustics/rays/bearings/bearing_rays.h); the furthest must be searched
+  // For receivers along one bearing (acoustics/rays/bearings/range_fan.h); the furthest must be searched
   // first.
-  static SharedLine of_bearing(std::vector<double> rising_ranges_m);
+  static SharedLine of_ranges(std::vector<double> rising_ranges_m);
 
   PathLine line;
   std::unique_ptr<acoustics::SharedRays> rays;  // refers to the sea of `line`
 };
 
-// Returns the arrivals of a link by its incoherent energy flux alone (acoustics/link/mixed_link.h), when the
+// Returns the arrivals of a link by its incoherent energy flux alone (acoustics/link/energy_flux.h), when the
 // link is weak enough and its bottom uneven enough; null for other links.
-std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,
-                                             const acoustics::Environment& environment,
-                                             const PathQuery& query, const SeabedPlaces& seabed);
+std::shared_ptr<const FoundPaths> flux_only_paths(const RayModel& model, const acoustics::RayWater& water,
+                                                  const acoustics::Environment& environment,
+                                                  const PathQuery& query, const SeabedPlaces& seabed);
 
-// False when weak_paths() would be null whatever the bottom, so that the bottom need not be looked up.
-bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query);
+// False when flux_only_paths() would be null whatever the bottom, so that the bottom need not be looked up.
+bool may_be_flux_only(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query);
 
 // Returns the greatest number of bounces of a link's paths: 0.6 of range over mean depth (above 0), from 60
 // to 10 000. A path that descends by the depth D between two bounces meets the boundaries

@@ -24,10 +24,10 @@
 #include "acoustics/fading/measured_channel.h"
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/link/energy_flux.h"
 #include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
-#include "acoustics/link/mixed_link.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
@@ -119,8 +119,8 @@ struct Reception {
 
 // Bound on flux-only links, for which only the incoherent energy flux is computed: all links whose level lies
 // `below_noise` below the noise over the transmitter's band, less the receiver's directivity.
-struct WeakLinks {
-  acoustics::LeastMixedLoss loss;
+struct FluxOnlyLinks {
+  acoustics::LeastFluxLoss loss;
   Decibels below_noise;
 };
 
@@ -201,8 +201,8 @@ class Propagation {
   }
   // Returns the bound on flux-only links; empty where weak links are computed like all others, or where the
   // depth of the water is unknown.
-  virtual std::optional<WeakLinks> weak_links(SimTime /*at*/, double /*frequency_hz*/,
-                                              double /*deepest_end_m*/) const {
+  virtual std::optional<FluxOnlyLinks> flux_only_links(SimTime /*at*/, double /*frequency_hz*/,
+                                                       double /*deepest_end_m*/) const {
     return std::nullopt;
   }
   // Returns the environment at `at`; the reference is valid until the next change of it.

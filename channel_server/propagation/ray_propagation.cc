@@ -8,10 +8,10 @@
 
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/scattering_loss.h"
+#include "acoustics/link/energy_flux.h"
 #include "acoustics/link/field_section.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
-#include "acoustics/link/mixed_link.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/extrapolate_arrivals.h"
@@ -129,19 +129,19 @@ std::optional<acoustics::LeastLoss> RayPropagation::least_loss(SimTime at, doubl
                                        {model_.least_depth_m, model_.greatest_depth_m, model_.bottom});
 }
 
-std::optional<WeakLinks> RayPropagation::weak_links(SimTime at, double frequency_hz,
-                                                    double deepest_end_m) const {
+std::optional<FluxOnlyLinks> RayPropagation::flux_only_links(SimTime at, double frequency_hz,
+                                                             double deepest_end_m) const {
   const acoustics::Environment& environment = waters_->at(at);
   if (!(model_.options.diffuse_below_db > 0) || !(model_.least_depth_m > 0) || environment.field)
     return std::nullopt;
   const acoustics::RayWater water = ray_water(environment, frequency_hz, model_.speed_tolerance_mps);
   acoustics::RayOptions options = model_.options;
   options.frequency_hz = frequency_hz;
-  const acoustics::MixedSea sea{
+  const acoustics::EnergyFluxSea sea{
       water, model_.least_depth_m, model_.bottom, {model_.surface, environment.noise.wind_mps}, options};
   const Decibels gain = acoustics::kFocusingGain + gain_beyond_powers(model_, environment);
-  return WeakLinks{{sea, {model_.least_depth_m, model_.greatest_depth_m, deepest_end_m}, gain},
-                   model_.diffuse_below_noise + model_.weak_below_diffuse};
+  return FluxOnlyLinks{{sea, {model_.least_depth_m, model_.greatest_depth_m, deepest_end_m}, gain},
+                       model_.diffuse_below_noise + model_.weak_below_diffuse};
 }
 
 Reception RayPropagation::straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,

@@ -88,7 +88,7 @@ class RayPropagation : public Propagation {
   }
   std::vector<std::optional<Reception>> packet_receptions(SimTime at, const std::vector<EndPair>& links,
                                                           const ForEach& for_each) override;
-  bool plans_ticks() const override { return searches_.has_budget(); }
+  bool plans_ticks() const override { return searches_.has_scheduler(); }
   void begin_tick(SimTime at, const std::vector<EndPair>& all) override { searches_.begin_tick(at, all); }
   bool share_searches(PathExchange& exchange) override {
     searches_.share_through(exchange);
@@ -127,7 +127,8 @@ class RayPropagation : public Propagation {
   }
   std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
                                                  double deepest_end_m) const override;
-  std::optional<WeakLinks> weak_links(SimTime at, double frequency_hz, double deepest_end_m) const override;
+  std::optional<FluxOnlyLinks> flux_only_links(SimTime at, double frequency_hz,
+                                               double deepest_end_m) const override;
   const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }
 
   std::int64_t searches() const { return searches_.searches(); }  // for eigenrays, since the start

@@ -99,19 +99,19 @@ ReachModel::ReachModel(std::shared_ptr<const EnvironmentTimeline> waters, const 
       unnoticed_(kMaxModems) {
   require_in_range(rule.below_noise.value, 0, 200, "level below the noise that disturbs nobody", "dB");
   require_in_range(rule.acquired_once_in, 10, 1e5, "packets of which one is acquired unnoticed", "");
-  require_in_range(rule.table_range_m, 0, acoustics::kGreatestBoundedRange, "range of link tables", "m");
+  require_in_range(rule.table_range_m, 0, acoustics::kMaxBoundedRange, "range of link tables", "m");
 }
 
 double ReachModel::reach_m(SimTime at, const acoustics::Modem& sender, const VehicleRegistry& registry,
                            const std::vector<PlacedVehicle>& vehicles) {
-  if (!rule_.by_level) return acoustics::kGreatestBoundedRange;
+  if (!rule_.by_level) return acoustics::kMaxBoundedRange;
   return reach_m(at, sender, crowd_of(at, registry, vehicles));
 }
 
 std::vector<double> ReachModel::reception_ranges_m(SimTime at, const VehicleRegistry& registry,
                                                    const std::vector<PlacedVehicle>& vehicles,
                                                    const LeastRatio& least_sinr_db) {
-  const double most_m = rule_.table_range_m > 0 ? rule_.table_range_m : acoustics::kGreatestBoundedRange;
+  const double most_m = rule_.table_range_m > 0 ? rule_.table_range_m : acoustics::kMaxBoundedRange;
   if (!rule_.by_level) return std::vector<double>(vehicles.size(), most_m);
   const Crowd crowd = crowd_of(at, registry, vehicles);
   std::vector<double> ranges;
@@ -184,14 +184,14 @@ double ReachModel::range_m(SimTime at, const acoustics::Modem& sender, const aco
   const Key key{waters_->water_at(at), least.value, deepest_m, key_of(sender), key_of(receiver)};
   return ranges_.find_or_make(key, [&] {
     const auto loss = propagation_.least_loss(at, sender.centre_frequency_hz, deepest_m);
-    if (!loss) return acoustics::kGreatestBoundedRange;
+    if (!loss) return acoustics::kMaxBoundedRange;
     const Decibels most = sender.source_level - least_beam_loss(sender) - least_beam_loss(receiver) - least;
     const double range_m = loss->range_of(most);
-    const auto weak = propagation_.weak_links(at, sender.centre_frequency_hz, deepest_m);
+    const auto weak = propagation_.flux_only_links(at, sender.centre_frequency_hz, deepest_m);
     if (!weak) return range_m;
     const PowerRatio density{least_noise_density(sender.band(), waters_->at(at).noise)};
-    const Decibels weak_level = noise_at(sender, receiver, density) - weak->below_noise;
-    return std::min(range_m, weak->loss.range_of(most, sender.source_level - weak_level));
+    const Decibels flux_only_level = noise_at(sender, receiver, density) - weak->below_noise;
+    return std::min(range_m, weak->loss.range_of(most, sender.source_level - flux_only_level));
   });
 }
 

@@ -19,7 +19,7 @@
 //
 // falls below the lower of the two levels (acoustics/link/least_loss.h), the greatest such range of all
 // modems in use, the sender's own included. Where links at that range are flux-only
-// (Propagation::weak_links), the least loss is that of their incoherent energy flux.
+// (Propagation::flux_only_links), the least loss is that of their incoherent energy flux.
 //
 // The noise is the least of the environments known to hold within kLongestFlight after the departure. The
 // modems are those carried at the departure or announced to be carried within that time. Left out: changes of
@@ -78,8 +78,8 @@ class ReachModel {
   ReachModel(std::shared_ptr<const EnvironmentTimeline> waters, const Propagation& propagation,
              const ReachRule& rule);
 
-  // Returns the reach of sound that leaves `sender` at `at`, m, 0..kGreatestBoundedRange; `vehicles` are all
-  // vehicles where they are at that time. kGreatestBoundedRange, which includes everybody, when reaches are
+  // Returns the reach of sound that leaves `sender` at `at`, m, 0..kMaxBoundedRange; `vehicles` are all
+  // vehicles where they are at that time. kMaxBoundedRange, which includes everybody, when reaches are
   // not limited by level and where the propagation states no bound.
   double reach_m(SimTime at, const acoustics::Modem& sender, const VehicleRegistry& registry,
                  const std::vector<PlacedVehicle>& vehicles);

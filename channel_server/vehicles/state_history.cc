@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/dead_reckoning.h"
+#include "core/state_extrapolation.h"
 
 namespace halocline::channel_server {
 namespace {

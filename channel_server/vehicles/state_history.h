@@ -41,7 +41,7 @@ struct PositionRule {
   SimDuration state_lag = SimDuration::from_milliseconds(50);        // 0 or more
   SimDuration state_timeout = SimDuration::from_milliseconds(5000);  // above 0; older states give no position
   // Greatest number of vehicles that are tracked without being in the scenario, 0 or more.
-  int max_unlisted_vehicles = UnlistedVehicles::kMaxFollowed;
+  int max_unlisted_vehicles = UnlistedVehicles::kMaxTracked;
 };
 
 struct Placement {

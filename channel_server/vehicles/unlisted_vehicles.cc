@@ -6,15 +6,15 @@
 namespace halocline::channel_server {
 
 std::string UnlistedVehicles::admit(std::string_view name, VehicleId id, SimTime time) {
-  if (followed_ >= max_followed_) {
-    return "too many vehicles; at most " + std::to_string(max_followed_) +
-           " that are not of the scenario are followed (channel_server.max_unlisted_vehicles)";
+  if (tracked_ >= max_tracked_) {
+    return "too many vehicles; at most " + std::to_string(max_tracked_) +
+           " that are not of the scenario are tracked (channel_server.max_unlisted_vehicles)";
   }
-  if (followed_ >= kMaxAtOnce && !is_steady(name, {id, time})) {
+  if (tracked_ >= kMaxAtOnce && !is_steady(name, {id, time})) {
     return "first STATE of a vehicle; beyond " + std::to_string(kMaxAtOnce) +
-           " that are not of the scenario, one is followed from its second STATE on";
+           " that are not of the scenario, one is tracked from its second STATE on";
   }
-  ++followed_;
+  ++tracked_;
   return {};
 }
 
@@ -28,12 +28,12 @@ bool UnlistedVehicles::is_steady(std::string_view name, const Candidate& now) {
 }
 
 void UnlistedVehicles::leave() {
-  ensure(followed_ > 0, "an unlisted vehicle leaves that is not followed");
-  --followed_;
+  ensure(tracked_ > 0, "an unlisted vehicle leaves that is not tracked");
+  --tracked_;
 }
 
 void UnlistedVehicles::clear() {
-  followed_ = 0;
+  tracked_ = 0;
   candidates_.clear();
 }
 

@@ -9,8 +9,8 @@
 
 namespace halocline::channel_server {
 
-VehicleNoise::VehicleNoise(std::vector<NoiseOf> sources, SimDuration lag) : lag_(lag) {
-  for (NoiseOf& source : sources) {
+VehicleNoise::VehicleNoise(std::vector<NoiseSource> sources, SimDuration lag) : lag_(lag) {
+  for (NoiseSource& source : sources) {
     require(std::isfinite(source.reference) && source.reference > 0,
             "the reference speed of a vehicle's noise must be above 0");
     require_in_range(source.own_loss.value, 0, 200, "loss of own noise", "dB");
@@ -42,7 +42,7 @@ void VehicleNoise::forget_before(SimTime time) {
 void VehicleNoise::clear() { rates_.clear(); }
 
 // The factor on power is 10^((60 log10 r) / 10) = r^6 with r = speed / reference.
-double noise_power_at_1m(const NoiseOf& noise, double speed, double low_hz, double high_hz) {
+double noise_power_at_1m(const NoiseSource& noise, double speed, double low_hz, double high_hz) {
   const double ratio = noise.driver == NoiseDriver::kNone ? 1 : std::abs(speed) / noise.reference;
   const double cube = ratio * ratio * ratio;
   return cube * cube * noise.at_1m.power_over_band(low_hz, high_hz).value;

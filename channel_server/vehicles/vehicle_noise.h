@@ -36,7 +36,7 @@ enum class NoiseDriver {
 };
 
 // Noise of one vehicle, which is given by its name and id.
-struct NoiseOf {
+struct NoiseSource {
   std::string vehicle;
   VehicleId id = 0;
   // Spectrum at the reference speed, dB re 1 uPa^2/Hz. Our choice for a small vehicle: it falls by 20 dB a
@@ -52,10 +52,10 @@ class VehicleNoise {
   static constexpr std::size_t kMaxRates = 16'384;  // limit for one vehicle; beyond it the oldest are dropped
 
   VehicleNoise() = default;  // no vehicle radiates noise
-  VehicleNoise(std::vector<NoiseOf> sources, SimDuration lag);
+  VehicleNoise(std::vector<NoiseSource> sources, SimDuration lag);
 
   // Noise sources by vehicle id.
-  const std::map<VehicleId, NoiseOf>& sources() const { return sources_; }
+  const std::map<VehicleId, NoiseSource>& sources() const { return sources_; }
   bool needs_rates() const;
   // Adds the turn rate of the vehicle's fastest propeller at `at`, turns per second. No effect for a vehicle
   // that radiates no noise.
@@ -66,13 +66,13 @@ class VehicleNoise {
   void clear();  // forgets all rates
 
  private:
-  std::map<VehicleId, NoiseOf> sources_;
+  std::map<VehicleId, NoiseSource> sources_;
   std::map<VehicleId, Schedule<double>> rates_;
   SimDuration lag_;
 };
 
 // Returns the power over the band at 1 m, uPa^2, when the driver has the value `speed`; 0 for a vehicle that
 // stands still.
-double noise_power_at_1m(const NoiseOf& noise, double speed, double low_hz, double high_hz);
+double noise_power_at_1m(const NoiseSource& noise, double speed, double low_hz, double high_hz);
 
 }  // namespace halocline::channel_server

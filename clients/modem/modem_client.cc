@@ -87,7 +87,7 @@ std::int64_t ModemClient::send(SimTime steady, SimTime start, std::int32_t desti
   ++next_sequence_;
   ++changes_;
   // Stored before it is published: on memq the receipt may be dispatched before publish() returns.
-  pending_[message.packet_sequence] = {message, steady + policy_.interval, steady + policy_.give_up_after};
+  pending_[message.packet_sequence] = {message, steady + policy_.interval, steady + policy_.expire_after};
   ++counters_.sent;
   bus_.publish(bus::channels::kSend.of(address_.vehicle), message);
   return message.packet_sequence;
@@ -163,7 +163,7 @@ void ModemClient::archive(Archive& a) {
   if (!a.is_loading()) return;
   for (auto& [sequence, pending] : pending_) {
     pending.next_try = SimTime();
-    pending.last_try = SimTime() + policy_.give_up_after;
+    pending.last_try = SimTime() + policy_.expire_after;
   }
 }
 

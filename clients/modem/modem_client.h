@@ -73,8 +73,8 @@ bool is_whole(const modem_receive_t& packet);
 
 // Repetition of a SEND that was not answered; steady time.
 struct ResendPolicy {
-  SimDuration interval = SimDuration::from_milliseconds(200);   // above 0
-  SimDuration give_up_after = SimDuration::from_seconds(10.0);  // from the first SEND
+  SimDuration interval = SimDuration::from_milliseconds(200);  // above 0
+  SimDuration expire_after = SimDuration::from_seconds(10.0);  // from the first SEND
 };
 
 struct ModemCounters {

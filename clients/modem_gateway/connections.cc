@@ -48,7 +48,7 @@ void Connections::watch(int operation, int fd, std::uint64_t mark, std::uint32_t
   epoll_ctl(epoll_.get(), operation, fd, &event);
 }
 
-std::size_t Connections::add(const Place& place) {
+std::size_t Connections::add(const Endpoint& place) {
   Door door;
   door.place = place;
   if (place.is_tcp) {
@@ -94,7 +94,7 @@ std::vector<Connections::Input> Connections::take(SimTime steady) {
 
 void Connections::accept_all(std::size_t door, std::vector<Input>& inputs) {
   for (;;) {
-    File connection = accept_connection(doors_[door].listening);
+    FileDescriptor connection = accept_connection(doors_[door].listening);
     if (connection.get() < 0) return;
     if (doors_[door].num_clients < kMaxClients)
       open(door, std::move(connection), inputs);
@@ -103,7 +103,7 @@ void Connections::accept_all(std::size_t door, std::vector<Input>& inputs) {
   }
 }
 
-ClientId Connections::open(std::size_t door, File connection, std::vector<Input>& inputs) {
+ClientId Connections::open(std::size_t door, FileDescriptor connection, std::vector<Input>& inputs) {
   const ClientId id = ++last_;
   Client& client = clients_[id] = {door, std::move(connection), {}};
   watch(EPOLL_CTL_ADD, file_of(client), static_cast<std::uint64_t>(id), EPOLLIN);
@@ -120,7 +120,7 @@ void Connections::look_at_ptys(SimTime steady, std::vector<Input>& inputs) {
     if (!door.is_waiting_pty) continue;
     if (is_pty_open(door.listening)) {
       door.is_waiting_pty = false;
-      open(i, File(), inputs);
+      open(i, FileDescriptor(), inputs);
     } else {
       next_look_ = steady + kPtyPeriod;
     }
@@ -183,7 +183,8 @@ void Connections::send_datagram(ClientId client, std::uint16_t port, std::string
   socklen_t size = sizeof address;
   auto* any = reinterpret_cast<sockaddr*>(&address);
   if (getpeername(found->second.connection.get(), any, &size) != 0) return;  // a pseudo-terminal
-  if (datagrams_.get() < 0) datagrams_ = File(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (datagrams_.get() < 0)
+    datagrams_ = FileDescriptor(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   address.sin_port = htons(port);
   if (sendto(datagrams_.get(), bytes.data(), bytes.size(), 0, any, sizeof address) > 0)
     counters_.bytes_out += std::ssize(bytes);

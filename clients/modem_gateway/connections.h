@@ -42,7 +42,7 @@ class Connections {
 
   // Opens a modem interface at `place` and returns its number: 0, 1, ... Throws InvalidArgument when the
   // place cannot be opened.
-  std::size_t add(const Place& place);
+  std::size_t add(const Endpoint& place);
   // Returns the place as text, with the actual port where the place asked for any free one (port 0).
   std::string place_of(std::size_t door) const;
 
@@ -79,15 +79,15 @@ class Connections {
 
  private:
   struct Door {
-    Place place;
-    File listening;  // listening socket, or the gateway's side of the pseudo-terminal
-    Link link;       // symbolic link to the pseudo-terminal
+    Endpoint place;
+    FileDescriptor listening;  // listening socket, or the gateway's side of the pseudo-terminal
+    Link link;                 // symbolic link to the pseudo-terminal
     std::size_t num_clients = 0;
     bool is_waiting_pty = false;  // no host has the pseudo-terminal open
   };
   struct Client {
     std::size_t door = 0;
-    File connection;  // -1 on a pseudo-terminal, where the file of its Door is used
+    FileDescriptor connection;  // -1 on a pseudo-terminal, where the file of its Door is used
     std::string unsent;
     bool watches_room = false;  // epoll also reports when the host can be written to
   };
@@ -95,7 +95,7 @@ class Connections {
   int file_of(const Client& client) const;
   void watch(int operation, int fd, std::uint64_t mark, std::uint32_t events) const;
   void accept_all(std::size_t door, std::vector<Input>& inputs);
-  ClientId open(std::size_t door, File connection, std::vector<Input>& inputs);
+  ClientId open(std::size_t door, FileDescriptor connection, std::vector<Input>& inputs);
   void look_at_ptys(SimTime steady, std::vector<Input>& inputs);
   void serve(ClientId id, std::uint32_t events, std::vector<Input>& inputs);
   void close(ClientId id, std::vector<Input>& inputs);
@@ -103,8 +103,8 @@ class Connections {
   void write_to(ClientId id, Client& client, std::string_view bytes);
   void follow_room(ClientId id, Client& client);
 
-  File epoll_;
-  File datagrams_;  // UDP socket, opened with the first datagram
+  FileDescriptor epoll_;
+  FileDescriptor datagrams_;  // UDP socket, opened with the first datagram
   std::vector<Door> doors_;
   std::map<ClientId, Client> clients_;
   ClientId last_ = 0;

@@ -32,12 +32,12 @@ void require_done(bool done, const std::string& what) { require(done, what + ": 
 
 }  // namespace
 
-File::~File() {
+FileDescriptor::~FileDescriptor() {
   if (fd_ >= 0) close(fd_);
 }
 
-File listen_tcp(const Place& place) {
-  File socket_file(socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+FileDescriptor listen_tcp(const Endpoint& place) {
+  FileDescriptor socket_file(socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   const std::string what = "a door cannot listen at " + place.text();
   require_done(socket_file.get() >= 0, what);
   const int yes = 1;
@@ -51,15 +51,15 @@ File listen_tcp(const Place& place) {
   return socket_file;
 }
 
-std::uint16_t port_of(const File& listening) {
+std::uint16_t port_of(const FileDescriptor& listening) {
   sockaddr_in address{};
   socklen_t size = sizeof address;
   getsockname(listening.get(), as_sockaddr(address), &size);
   return ntohs(address.sin_port);
 }
 
-File accept_connection(const File& listening) {
-  File connection(accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+FileDescriptor accept_connection(const FileDescriptor& listening) {
+  FileDescriptor connection(accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
   const int yes = 1;  // without Nagle's delay: answers are short, and a host waits for each
   if (connection.get() >= 0) setsockopt(connection.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
   return connection;
@@ -83,8 +83,8 @@ SerialLine open_pty(const std::string& path) {
   int ours = -1, theirs = -1;
   std::array<char, 128> name{};
   require_done(openpty(&ours, &theirs, name.data(), nullptr, nullptr) == 0, "no pseudo-terminal for " + path);
-  File pty(ours);
-  const File other(theirs);  // closed on return: the terminal stays while `ours` is open
+  FileDescriptor pty(ours);
+  const FileDescriptor other(theirs);  // closed on return: the terminal stays while `ours` is open
   termios settings{};
   tcgetattr(theirs, &settings);
   cfmakeraw(&settings);
@@ -94,7 +94,7 @@ SerialLine open_pty(const std::string& path) {
   return {std::move(pty), Link(path, name.data())};
 }
 
-bool is_pty_open(const File& pty) {
+bool is_pty_open(const FileDescriptor& pty) {
   pollfd state{pty.get(), POLLIN, 0};
   return poll(&state, 1, 0) >= 0 && (state.revents & POLLHUP) == 0;
 }

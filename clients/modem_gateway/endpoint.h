@@ -12,18 +12,18 @@
 namespace halocline::modem_gateway {
 
 // Owner of a file descriptor; -1 means none.
-class File {
+class FileDescriptor {
  public:
-  File() = default;
-  explicit File(int fd) : fd_(fd) {}
-  File(File&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  File& operator=(File&& other) noexcept {
+  FileDescriptor() = default;
+  explicit FileDescriptor(int fd) : fd_(fd) {}
+  FileDescriptor(FileDescriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept {
     std::swap(fd_, other.fd_);
     return *this;
   }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  ~File();
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+  ~FileDescriptor();
 
   int get() const { return fd_; }
 
@@ -32,11 +32,11 @@ class File {
 };
 
 // Returns a socket that listens at `place`. Throws InvalidArgument when the port is taken.
-File listen_tcp(const Place& place);
+FileDescriptor listen_tcp(const Endpoint& place);
 // Returns the port on which the socket listens, of interest where the place names port 0.
-std::uint16_t port_of(const File& listening);
+std::uint16_t port_of(const FileDescriptor& listening);
 // Accepts the next waiting connection; -1 when none waits.
-File accept_connection(const File& listening);
+FileDescriptor accept_connection(const FileDescriptor& listening);
 
 // Owner of a symbolic link: the destructor removes it, provided that it still points to its original target.
 class Link {
@@ -63,12 +63,12 @@ class Link {
 // The gateway's side of a pseudo-terminal. Hosts open the other side as a serial port through the link; it is
 // in raw mode from the beginning.
 struct SerialLine {
-  File terminal;
+  FileDescriptor terminal;
   Link link;
 };
 // Makes a pseudo-terminal and a link to it at `path`. Throws InvalidArgument when that is impossible.
 SerialLine open_pty(const std::string& path);
 // Returns true when a host has the other side open.
-bool is_pty_open(const File& pty);
+bool is_pty_open(const FileDescriptor& pty);
 
 }  // namespace halocline::modem_gateway

@@ -106,14 +106,14 @@ void check_door(ConfigVisitor& v, const GatewayConfig& config, std::size_t i) {
 
 }  // namespace
 
-std::string Place::text() const {
+std::string Endpoint::text() const {
   if (!is_tcp) return std::string(kPty) + path;
-  const std::string address = host == Place().host ? "" : host + ":";
+  const std::string address = host == Endpoint().host ? "" : host + ":";
   return std::string(kTcp) + address + std::to_string(port);
 }
 
-Place place_of(std::string_view text) {
-  Place place;
+Endpoint place_of(std::string_view text) {
+  Endpoint place;
   std::string_view rest = text.substr(std::min(kTcp.size(), text.size()));
   const bool is_pty = text.starts_with(kPty) && !rest.empty();
   bool is_tcp = text.starts_with(kTcp);

@@ -13,27 +13,27 @@
 
 namespace halocline::modem_gateway {
 
-// Place at which a modem interface listens: TCP on an address of this host, or a pseudo-terminal with a
+// Endpoint at which a modem interface listens: TCP on an address of this host, or a pseudo-terminal with a
 // symbolic link to it.
-struct Place {
+struct Endpoint {
   bool is_tcp = true;
   std::string host = "127.0.0.1";  // an IPv4 address
   std::uint16_t port = 0;          // 0: any free port, which the log names
   std::string path;                // path of the symbolic link
 
   std::string text() const;
-  bool operator==(const Place&) const = default;
+  bool operator==(const Endpoint&) const = default;
 };
 
 // Parses "tcp:PORT", "tcp:ADDRESS:PORT" or "pty:PATH". For any other text it throws InvalidArgument, which
 // names these forms.
-Place place_of(std::string_view text);
+Endpoint place_of(std::string_view text);
 
 struct DoorConfig {
   std::string vehicle;
   std::int32_t vehicle_id = 0;
   std::string kind;
-  Place place;
+  Endpoint place;
   std::string addresses;  // syntax: address_book.h
   std::string options;    // syntax: door_options.h
 };

@@ -9,7 +9,7 @@ namespace {
 
 // Pause before a packet that a busy modem refused is sent again, and the time for which that is repeated.
 constexpr SimDuration kBusyWait = SimDuration::from_milliseconds(100);
-constexpr SimDuration kBusyAtMost = SimDuration::from_milliseconds(30'000);
+constexpr SimDuration kMaxBusy = SimDuration::from_milliseconds(30'000);
 // Most packets whose numbers are kept because answers may still arrive.
 constexpr std::size_t kMaxNumbers = 256;
 
@@ -44,8 +44,8 @@ std::optional<modem_receipt_t> SendQueue::take(const modem_receipt_t& receipt, c
   if (receipt.packet_sequence != sequence_) return std::nullopt;
   sequence_.reset();
   Numbered& first = packets_.front();
-  if (receipt.receipt_result == modem_receipt_t::REFUSED_BUSY && now.sim < first.gives_up) {
-    first.gives_up = std::min(first.gives_up, now.sim + kBusyAtMost);
+  if (receipt.receipt_result == modem_receipt_t::REFUSED_BUSY && now.sim < first.expires) {
+    first.expires = std::min(first.expires, now.sim + kMaxBusy);
     due_ = now.sim + kBusyWait;
     return std::nullopt;
   }
@@ -71,13 +71,13 @@ void SendQueue::remove_first(SimTime now) {
 }
 
 // Returns true when the modem library has stopped repeating its SEND without having received an answer.
-bool SendQueue::was_given_up() const {
+bool SendQueue::has_expired() const {
   return sequence_ && !modem_.is_pending(*sequence_) && !modem_.receipt_of(*sequence_);
 }
 
 std::optional<modem_receipt_t> SendQueue::step(const bus::Now& now) {
   std::optional<modem_receipt_t> refusal;
-  if (was_given_up()) {
+  if (has_expired()) {
     refusal.emplace();
     refusal->utime = now.sim.to_utime();
     refusal->send_session = modem_.address().session;

@@ -57,12 +57,12 @@ class SendQueue {
   struct Numbered {
     std::int64_t number = 0;
     Packet packet;
-    SimTime gives_up = SimTime::never();  // end of the repetition while the modem is busy
+    SimTime expires = SimTime::never();  // end of the repetition while the modem is busy
   };
 
   void transmit(const bus::Now& now);
   void remove_first(SimTime now);
-  bool was_given_up() const;
+  bool has_expired() const;
 
   clients::ModemClient& modem_;
   std::deque<Numbered> packets_;          // the first is being sent

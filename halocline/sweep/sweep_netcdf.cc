@@ -23,7 +23,7 @@ namespace {
 using Dimensions = std::vector<int>;
 
 // netCDF file whose variables are defined and written together.
-class NetcdfFile : public NetcdfOutput {
+class SweepFile : public NetcdfOutput {
  public:
   using NetcdfOutput::NetcdfOutput;
 
@@ -102,7 +102,7 @@ Dimensions operator+(Dimensions a, const Dimensions& b) {
   return a;
 }
 
-Shape define_axes(NetcdfFile& file, const SweepResults& results) {
+Shape define_axes(SweepFile& file, const SweepResults& results) {
   Shape shape;
   for (const SweepAxis& axis : results.plan.axes) {
     const std::string name = variable_name(axis.key);
@@ -132,7 +132,7 @@ class Estimates {
     intervals_.push_back(interval.low);
     intervals_.push_back(interval.high);
   }
-  void write(NetcdfFile& file, const std::string& name, const Dimensions& dimensions, const Dimensions& bound,
+  void write(SweepFile& file, const std::string& name, const Dimensions& dimensions, const Dimensions& bound,
              const std::string& unit, const std::string& meaning, const std::string& kind) const {
     file.numbers(name, dimensions, values_, unit, meaning);
     file.numbers(name + "_interval", dimensions + bound, intervals_, unit, meaning + ": " + kind);
@@ -146,7 +146,7 @@ constexpr const char* kWilson = "Wilson's interval, packets taken as independent
 constexpr const char* kStudent = "Student's t interval, runs taken as independent";
 constexpr const char* kShares = "Wilson's interval by the variance of the runs, taken as independent";
 
-void write_shares(NetcdfFile& file, const SweepResults& results, const Shape& shape) {
+void write_shares(SweepFile& file, const SweepResults& results, const Shape& shape) {
   Estimates delivery, outcomes;
   std::vector<long long> counts, addressed;
   for (const PointSummary& point : results.points) {
@@ -167,7 +167,7 @@ void write_shares(NetcdfFile& file, const SweepResults& results, const Shape& sh
                  "share of packets at receivers by outcome", kWilson);
 }
 
-void write_pairs(NetcdfFile& file, const SweepResults& results, const Shape& shape) {
+void write_pairs(SweepFile& file, const SweepResults& results, const Shape& shape) {
   const auto pairs = results.pairs();
   if (pairs.empty()) return;
   const Dimensions pair{file.dimension("pair", pairs.size())};
@@ -191,7 +191,7 @@ void write_pairs(NetcdfFile& file, const SweepResults& results, const Shape& sha
                  "share of addressed packets that were received, by sender and receiver", kWilson);
 }
 
-void write_run_numbers(NetcdfFile& file, const SweepResults& results, const Shape& shape) {
+void write_run_numbers(SweepFile& file, const SweepResults& results, const Shape& shape) {
   std::vector<long long> completed;
   for (const auto& run : results.runs) completed.push_back(run ? 1 : 0);
   file.counts("completed", shape.point + shape.seed, completed, "1 where the run has a result");
@@ -212,7 +212,7 @@ void write_run_numbers(NetcdfFile& file, const SweepResults& results, const Shap
 
 void write_file(const SweepResults& results, const std::string& path) {
   AtomicFile replacement(path);
-  NetcdfFile file(replacement.temporary_path());
+  SweepFile file(replacement.temporary_path());
   file.attribute("Conventions", "CF-1.8");
   file.attribute("title", "Halocline sweep of " + results.plan.scenario.place());
   file.attribute("source", std::string("halocline ") + bus::kVersion);

@@ -11,7 +11,7 @@
 #include "bus/logs/channel_types.h"
 #include "bus/logs/foreign_message.h"
 #include "bus/messages/channels.h"
-#include "runs/timeline/mission_time.h"
+#include "runs/timeline/run_time_base.h"
 
 namespace halocline::clients {
 namespace {
@@ -145,7 +145,7 @@ std::optional<std::int64_t> middle_of_states(const std::vector<Logged>& logged) 
 // Returns the utime of each message; a message without a valid one gets the latest that the log had reached.
 std::vector<std::int64_t> sound_times(const Collector& collected, Recording& recording) {
   const auto middle = middle_of_states(collected.logged);
-  const auto is_sound = [&](std::int64_t utime) { return middle && MissionTime{0, middle}.is_sound(utime); };
+  const auto is_sound = [&](std::int64_t utime) { return middle && RunTimeBase{0, middle}.is_sound(utime); };
   std::vector<std::int64_t> times;
   std::optional<std::int64_t> reached;
   for (const Logged& entry : collected.logged) {  // messages before the first valid time get that time

@@ -49,7 +49,7 @@ RunFiles run_files(const std::string& out, const std::string& name, const std::s
   return files;
 }
 
-void require_free(const Outputs& outputs, const std::vector<std::string>& inputs) {
+void require_free(const OutputFiles& outputs, const std::vector<std::string>& inputs) {
   for (const std::string& path : outputs.paths) {
     if (path.empty() || path == "-" || !holds_something(path)) continue;
     for (const std::string& input : inputs)

@@ -24,15 +24,15 @@ struct RunFiles {
 RunFiles run_files(const std::string& out, const std::string& name, const std::string& log,
                    const std::string& csv, const std::string& scenario = "");
 
-// Outputs of a command, and whether --force allows it to replace existing ones.
-struct Outputs {
+// OutputFiles of a command, and whether --force allows it to replace existing ones.
+struct OutputFiles {
   std::vector<std::string> paths;  // files and folders; empty and "-" (standard output) are ignored
   bool may_replace = false;
 };
 
 // Throws InvalidArgument when one of `outputs` exists with content and may not be replaced, and always when
 // it is one of `inputs`, the files that the command reads. Devices, pipes and empty files may be written.
-void require_free(const Outputs& outputs, const std::vector<std::string>& inputs = {});
+void require_free(const OutputFiles& outputs, const std::vector<std::string>& inputs = {});
 
 // Returns the log with this name and its existing parts (rotated logs have several).
 std::vector<std::string> files_of_log(const std::string& path);

@@ -9,17 +9,17 @@
 
 #include "bus/version.h"
 #include "core/atomic_file.h"
-#include "runs/export/mission_export.h"
 #include "runs/export/netcdf_output.h"
+#include "runs/export/run_export.h"
 #include "runs/foxglove/foxglove_messages.h"
-#include "runs/timeline/mission_store.h"
-#include "runs/timeline/mission_vehicle.h"
+#include "runs/timeline/run_timeline.h"
 #include "runs/timeline/timed_series.h"
+#include "runs/timeline/vehicle_record.h"
 
 namespace halocline::clients {
 namespace {
 
-struct Quantity {
+struct TrackVariable {
   const char* name;
   const char* standard_name;  // CF standard name; empty: none
   const char* unit;
@@ -27,10 +27,10 @@ struct Quantity {
   std::function<double(const Timed<TrackPoint>&)> value;
 };
 
-std::vector<Quantity> quantities(const MissionStore& mission) {
+std::vector<TrackVariable> quantities(const RunTimeline& timeline) {
   constexpr double kDegrees = 180 / std::numbers::pi;
-  const double surface_m = mission.scenario().sea_surface_z_m;
-  std::vector<Quantity> all{
+  const double surface_m = timeline.scenario().sea_surface_z_m;
+  std::vector<TrackVariable> all{
       {"time", "time", "seconds since 1970-01-01 00:00:00", "simulation time",
        [](const auto& e) { return e.at.seconds(); }},
       {"depth", "depth", "m", "below the sea surface",
@@ -43,7 +43,7 @@ std::vector<Quantity> quantities(const MissionStore& mission) {
        [](const auto& e) { return e.value.attitude.yaw * kDegrees + (e.value.attitude.yaw < 0 ? 360 : 0); }},
       {"speed", "platform_speed_wrt_ground", "m s-1", "over ground",
        [](const auto& e) { return e.value.speed_mps; }}};
-  const auto frame = frame_of(mission);
+  const auto frame = frame_of(timeline);
   if (!frame) return all;
   const auto place = [frame](const Timed<TrackPoint>& entry) {
     return place_of(*frame, entry.value.position_ned_m);
@@ -55,7 +55,7 @@ std::vector<Quantity> quantities(const MissionStore& mission) {
   return all;
 }
 
-void write_quantity(NetcdfOutput& file, const MissionStore& mission, const Quantity& quantity,
+void write_quantity(NetcdfOutput& file, const RunTimeline& timeline, const TrackVariable& quantity,
                     int observations) {
   const int variable = file.variable(quantity.name, NetcdfOutput::Type::kDouble, {observations});
   const std::string name = quantity.name;
@@ -72,19 +72,19 @@ void write_quantity(NetcdfOutput& file, const MissionStore& mission, const Quant
                    : name == "lat"   ? "Y"
                                      : "X");
   if (!is_axis)
-    file.attribute(variable, "coordinates", frame_of(mission) ? "time lat lon depth" : "time depth");
+    file.attribute(variable, "coordinates", frame_of(timeline) ? "time lat lon depth" : "time depth");
   std::vector<double> values;
-  for (const MissionVehicle& vehicle : mission.vehicles()) {
+  for (const VehicleRecord& vehicle : timeline.vehicles()) {
     for (const Timed<TrackPoint>& entry : vehicle.track.all()) values.push_back(quantity.value(entry));
   }
   file.put(variable, values);
 }
 
-void write_file(const MissionStore& mission, const std::string& path) {
+void write_file(const RunTimeline& timeline, const std::string& path) {
   std::vector<const char*> names;
   std::vector<int> sizes;
   std::size_t total = 0;
-  for (const MissionVehicle& vehicle : mission.vehicles()) {
+  for (const VehicleRecord& vehicle : timeline.vehicles()) {
     names.push_back(vehicle.name.c_str());
     sizes.push_back(static_cast<int>(vehicle.track.size()));
     total += vehicle.track.size();
@@ -94,7 +94,7 @@ void write_file(const MissionStore& mission, const std::string& path) {
   file.attribute("Conventions", "CF-1.8");
   file.attribute("featureType", "trajectory");
   file.attribute("title",
-                 "Tracks of " + (mission.scenario().name.empty() ? "a mission" : mission.scenario().name));
+                 "Tracks of " + (timeline.scenario().name.empty() ? "a run" : timeline.scenario().name));
   file.attribute("source", std::string("halocline ") + bus::kVersion);
   const int trajectories = file.dimension("trajectory", names.size()),
             observations = file.dimension("obs", total);
@@ -106,7 +106,8 @@ void write_file(const MissionStore& mission, const std::string& path) {
   file.attribute(size, "long_name", "number of states of the vehicle");
   file.attribute(size, "sample_dimension", "obs");
   file.put(size, sizes);
-  for (const Quantity& quantity : quantities(mission)) write_quantity(file, mission, quantity, observations);
+  for (const TrackVariable& quantity : quantities(timeline))
+    write_quantity(file, timeline, quantity, observations);
   file.close();
   replacement.commit();
 }
@@ -116,6 +117,6 @@ void write_file(const MissionStore& mission, const std::string& path) {
 
 extern "C" halocline::clients::TracksWriter halocline_write_tracks_netcdf;
 
-void halocline_write_tracks_netcdf(const halocline::clients::MissionStore& mission, const std::string& path) {
-  halocline::clients::write_file(mission, path);
+void halocline_write_tracks_netcdf(const halocline::clients::RunTimeline& timeline, const std::string& path) {
+  halocline::clients::write_file(timeline, path);
 }

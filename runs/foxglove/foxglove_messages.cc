@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "core/frames.h"
-#include "runs/timeline/mission_vehicle.h"
 #include "runs/timeline/packet_book.h"
 #include "runs/timeline/packet_reasons.h"
+#include "runs/timeline/vehicle_record.h"
 
 namespace halocline::clients {
 namespace {
@@ -47,7 +47,7 @@ json entity(const std::string& id, SimTime at) {
           {"texts", json::array()}};
 }
 
-json vehicle_entity(const MissionVehicle& vehicle, const TrackPoint& point, SimTime at) {
+json vehicle_entity(const VehicleRecord& vehicle, const TrackPoint& point, SimTime at) {
   constexpr double kLength_m = 20;
   json shown = entity("vehicle-" + vehicle.name, at);
   shown["arrows"].push_back(
@@ -76,10 +76,10 @@ json colour_of_snr(double snr_db) {
                    : colour(faded, 0.45 + 0.5 * faded, 0.7 + 0.3 * faded, 0.7);
 }
 
-json links_entity(const MissionStore& mission, SimTime at) {
+json links_entity(const RunTimeline& timeline, SimTime at) {
   json points = json::array(), colours = json::array();
-  for (const link_t* row : mission.links().rows_at(at, kLinksShown)) {
-    const auto *from = mission.find(row->transmitter_id), *to = mission.find(row->receiver_id);
+  for (const link_t* row : timeline.links().rows_at(at, kLinksShown)) {
+    const auto *from = timeline.find(row->transmitter_id), *to = timeline.find(row->receiver_id);
     if (from == nullptr || to == nullptr || row->receivable == 0) continue;
     const auto here = state_at(from->track, at), there = state_at(to->track, at);
     if (!here || !there) continue;
@@ -100,9 +100,9 @@ json links_entity(const MissionStore& mission, SimTime at) {
   return shown;
 }
 
-json wave_entity(const MissionStore& mission, const PacketRecord& packet, SimTime at) {
+json wave_entity(const RunTimeline& timeline, const PacketRecord& packet, SimTime at) {
   constexpr double kSoundSpeed_mps = 1500;
-  const MissionVehicle* source = mission.find(packet.name.source_id);
+  const VehicleRecord* source = timeline.find(packet.name.source_id);
   const auto place = source == nullptr ? std::nullopt : state_at(source->track, packet.at());
   if (!place) return nullptr;
   const double size_m = 2 * kSoundSpeed_mps * (at - packet.at()).seconds();
@@ -122,23 +122,23 @@ json foxglove_time(SimTime at) {
   return {{"sec", ns / kSecond_ns}, {"nsec", ns % kSecond_ns}};
 }
 
-json foxglove_scene(const MissionStore& mission, SimTime at, std::span<const PacketRecord* const> packets) {
+json foxglove_scene(const RunTimeline& timeline, SimTime at, std::span<const PacketRecord* const> packets) {
   json entities = json::array();
-  for (const MissionVehicle& vehicle : mission.vehicles()) {
+  for (const VehicleRecord& vehicle : timeline.vehicles()) {
     if (const auto state = state_at(vehicle.track, at))
       entities.push_back(vehicle_entity(vehicle, state->point, at));
   }
-  entities.push_back(links_entity(mission, at));
+  entities.push_back(links_entity(timeline, at));
   for (const PacketRecord* packet : packets) {
     if (packet->is_refused() || packet->at() > at || packet->end() < at) continue;
-    json wave = wave_entity(mission, *packet, at);
+    json wave = wave_entity(timeline, *packet, at);
     if (!wave.is_null()) entities.push_back(std::move(wave));
   }
   return {{"deletions", json::array()}, {"entities", std::move(entities)}};
 }
 
-std::optional<bathymetry::LocalFrame> frame_of(const MissionStore& mission) {
-  const auto& origin = mission.scenario().origin;
+std::optional<bathymetry::LocalFrame> frame_of(const RunTimeline& timeline) {
+  const auto& origin = timeline.scenario().origin;
   if (!origin) return std::nullopt;
   return bathymetry::LocalFrame(bathymetry::FrameMode::kFlat, origin->latitude_deg * kRadians,
                                 origin->longitude_deg * kRadians);
@@ -149,7 +149,7 @@ PlaceOnEarth place_of(const bathymetry::LocalFrame& frame, const Vec3& position_
   return {point.latitude_rad / kRadians, point.longitude_rad / kRadians, -point.depth_m};
 }
 
-json foxglove_fix(const MissionVehicle& vehicle, const bathymetry::LocalFrame& frame, SimTime at) {
+json foxglove_fix(const VehicleRecord& vehicle, const bathymetry::LocalFrame& frame, SimTime at) {
   const auto state = state_at(vehicle.track, at);
   if (!state) return nullptr;
   const PlaceOnEarth point = place_of(frame, state->point.position_ned_m);
@@ -169,8 +169,8 @@ json foxglove_log(SimTime at, bool is_loss, const std::string& name, const std::
           {"line", 0}};
 }
 
-json foxglove_log_of(const MissionStore& mission, const packet_outcome_t& outcome) {
-  const auto name = [&](std::int32_t id) { return mission.name(id); };
+json foxglove_log_of(const RunTimeline& timeline, const packet_outcome_t& outcome) {
+  const auto name = [&](std::int32_t id) { return timeline.name(id); };
   const std::string packet =
       "Packet " + std::to_string(outcome.packet_sequence) + " of " + name(outcome.source_id) + ": ";
   return foxglove_log(SimTime::from_utime(outcome.utime), outcome.outcome != packet_outcome_t::RECEIVED,

@@ -14,9 +14,9 @@
 #include "bathymetry/terrain/local_frame.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
-#include "runs/timeline/mission_vehicle.h"
 #include "runs/timeline/packet_book.h"
+#include "runs/timeline/run_timeline.h"
+#include "runs/timeline/vehicle_record.h"
 
 namespace halocline::clients {
 
@@ -24,12 +24,12 @@ nlohmann::json foxglove_time(SimTime at);
 
 // Returns a foxglove.SceneUpdate: vehicles with their names, links coloured by SNR, and the wavefronts of
 // those of `packets` that are under way.
-nlohmann::json foxglove_scene(const MissionStore& mission, SimTime at,
+nlohmann::json foxglove_scene(const RunTimeline& timeline, SimTime at,
                               std::span<const PacketRecord* const> packets);
 
 // Returns the simulator's default transformation between the earth and the scenario's frame; nothing when the
 // origin is unknown.
-std::optional<bathymetry::LocalFrame> frame_of(const MissionStore& mission);
+std::optional<bathymetry::LocalFrame> frame_of(const RunTimeline& timeline);
 
 // Position in WGS84; the height is above the datum of depths, positive up.
 struct PlaceOnEarth {
@@ -38,10 +38,10 @@ struct PlaceOnEarth {
 PlaceOnEarth place_of(const bathymetry::LocalFrame& frame, const Vec3& position_ned_m);
 
 // Returns a foxglove.LocationFix; null before the first state.
-nlohmann::json foxglove_fix(const MissionVehicle& vehicle, const bathymetry::LocalFrame& frame, SimTime at);
+nlohmann::json foxglove_fix(const VehicleRecord& vehicle, const bathymetry::LocalFrame& frame, SimTime at);
 
 // Return a foxglove.Log.
 nlohmann::json foxglove_log(SimTime at, bool is_loss, const std::string& name, const std::string& message);
-nlohmann::json foxglove_log_of(const MissionStore& mission, const packet_outcome_t& outcome);
+nlohmann::json foxglove_log_of(const RunTimeline& timeline, const packet_outcome_t& outcome);
 
 }  // namespace halocline::clients

@@ -8,8 +8,8 @@
 
 #include "runs/foxglove/foxglove_messages.h"
 #include "runs/foxglove/foxglove_schemas.h"
-#include "runs/timeline/mission_vehicle.h"
 #include "runs/timeline/packet_book.h"
+#include "runs/timeline/vehicle_record.h"
 
 namespace halocline::clients {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::uint32_t kSceneChannel = 1, kLogChannel = 2;
-constexpr std::size_t kMostSubscriptions = 2000;
+constexpr std::size_t kMaxSubscriptions = 2000;
 constexpr char kMessageData = 1, kTime = 2;
 
 template <class Number>
@@ -29,12 +29,12 @@ std::uint64_t nanoseconds(SimTime at) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(at.nanoseconds(), 0));
 }
 
-// Returns the packets that are under way at one time, of the latest kMostRecent.
-std::vector<const PacketRecord*> recent(const MissionStore& mission, SimTime at) {
-  constexpr std::size_t kMostRecent = 500;
+// Returns the packets that are under way at one time, of the latest kMaxRecent.
+std::vector<const PacketRecord*> recent(const RunTimeline& timeline, SimTime at) {
+  constexpr std::size_t kMaxRecent = 500;
   std::vector<const PacketRecord*> found;
-  const auto& all = mission.packets().all();
-  for (std::size_t i = all.size() - std::min(all.size(), kMostRecent); i < all.size(); ++i) {
+  const auto& all = timeline.packets().all();
+  for (std::size_t i = all.size() - std::min(all.size(), kMaxRecent); i < all.size(); ++i) {
     if (all[i].at() <= at && all[i].end() >= at) found.push_back(&all[i]);
   }
   return found;
@@ -61,9 +61,9 @@ void FoxgloveSession::advertise(const std::string& topic, std::string_view schem
   outbox_(json({{"op", "advertise"}, {"channels", {channel}}}).dump(), false);
 }
 
-void FoxgloveSession::advertise_vehicles(const MissionStore& mission) {
-  if (!frame_of(mission)) return;
-  for (const MissionVehicle& vehicle : mission.vehicles()) {
+void FoxgloveSession::advertise_vehicles(const RunTimeline& timeline) {
+  if (!frame_of(timeline)) return;
+  for (const VehicleRecord& vehicle : timeline.vehicles()) {
     if (fixes_.contains(vehicle.index)) continue;
     advertise("/vehicles/" + vehicle.name + "/position", kLocationFixSchema.name,
               kLocationFixSchema.json_schema);
@@ -71,35 +71,35 @@ void FoxgloveSession::advertise_vehicles(const MissionStore& mission) {
   }
 }
 
-void FoxgloveSession::tick(double steady_s, bool idle, const MissionStore& mission, SimTime at) {
-  if (!idle || steady_s - sent_s_ < kPeriod_s || mission.begin() > mission.end()) return;
+void FoxgloveSession::tick(double steady_s, bool idle, const RunTimeline& timeline, SimTime at) {
+  if (!idle || steady_s - sent_s_ < kPeriod_s || timeline.begin() > timeline.end()) return;
   sent_s_ = steady_s;
-  advertise_vehicles(mission);
+  advertise_vehicles(timeline);
   std::string time(1, kTime);
   put(time, nanoseconds(at));
   outbox_(std::move(time), true);
   if (is_subscribed(kSceneChannel))
-    send_data(kSceneChannel, at, foxglove_scene(mission, at, recent(mission, at)));
-  if (const auto frame = frame_of(mission)) {
+    send_data(kSceneChannel, at, foxglove_scene(timeline, at, recent(timeline, at)));
+  if (const auto frame = frame_of(timeline)) {
     for (const auto& [index, channel] : fixes_) {
       if (!is_subscribed(channel)) continue;
-      const json fix = foxglove_fix(mission.vehicles()[index], *frame, at);
+      const json fix = foxglove_fix(timeline.vehicles()[index], *frame, at);
       if (!fix.is_null()) send_data(channel, at, fix);
     }
   }
-  if (is_subscribed(kLogChannel)) send_outcomes(mission, at);
+  if (is_subscribed(kLogChannel)) send_outcomes(timeline, at);
 }
 
-void FoxgloveSession::send_outcomes(const MissionStore& mission, SimTime at) {
-  constexpr std::size_t kMostRecent = 500;
-  const auto& all = mission.packets().all();
+void FoxgloveSession::send_outcomes(const RunTimeline& timeline, SimTime at) {
+  constexpr std::size_t kMaxRecent = 500;
+  const auto& all = timeline.packets().all();
   const SimTime since = std::exchange(outcomes_until_, at);
   if (since == SimTime::at_once() || since > at) return;
-  for (std::size_t i = all.size() - std::min(all.size(), kMostRecent); i < all.size(); ++i) {
+  for (std::size_t i = all.size() - std::min(all.size(), kMaxRecent); i < all.size(); ++i) {
     for (const packet_outcome_t& outcome : all[i].outcomes) {
       const SimTime decided = SimTime::from_utime(outcome.utime);
       if (decided > since && decided <= at)
-        send_data(kLogChannel, decided, foxglove_log_of(mission, outcome));
+        send_data(kLogChannel, decided, foxglove_log_of(timeline, outcome));
     }
   }
 }
@@ -127,7 +127,7 @@ void FoxgloveSession::take(std::string_view message) {
     const std::string op = request.at("op");
     if (op == "subscribe") {
       for (const json& wanted : request.at("subscriptions")) {
-        if (subscribed_.size() < kMostSubscriptions)
+        if (subscribed_.size() < kMaxSubscriptions)
           subscribed_[wanted.at("id").get<std::uint32_t>()] = wanted.at("channelId").get<std::uint32_t>();
       }
     } else if (op == "unsubscribe") {

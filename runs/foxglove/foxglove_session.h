@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
+#include "runs/timeline/run_timeline.h"
 
 namespace halocline::clients {
 
@@ -28,15 +28,15 @@ class FoxgloveSession {
 
   // Sends what is due at one time of the run, but only when `idle`, that is when the connection has sent
   // everything before.
-  void tick(double steady_s, bool idle, const MissionStore& mission, SimTime at);
+  void tick(double steady_s, bool idle, const RunTimeline& timeline, SimTime at);
   // Takes a message of the client; anything but a request of the protocol is answered by a status.
   void take(std::string_view message);
 
  private:
-  void advertise_vehicles(const MissionStore& mission);
+  void advertise_vehicles(const RunTimeline& timeline);
   void advertise(const std::string& topic, std::string_view schema, std::string_view json_schema);
   void send_data(std::uint32_t channel, SimTime at, const nlohmann::json& message);
-  void send_outcomes(const MissionStore& mission, SimTime at);
+  void send_outcomes(const RunTimeline& timeline, SimTime at);
   bool is_subscribed(std::uint32_t channel) const;
 
   Outbox outbox_;

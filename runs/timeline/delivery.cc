@@ -24,37 +24,37 @@ std::optional<double> median(std::vector<double> values) {
   return *middle;
 }
 
-std::optional<double> median_snr_db(const MissionStore& mission, std::int32_t from_id, std::int32_t to_id,
+std::optional<double> median_snr_db(const RunTimeline& timeline, std::int32_t from_id, std::int32_t to_id,
                                     const std::vector<double>& of_outcomes) {
   std::vector<double> values;
-  for (const auto& entry : mission.links().history(from_id, to_id, *link_column("snr_db"), SimTime::at_once(),
-                                                   SimTime::never(), kSnrSamples))
+  for (const auto& entry : timeline.links().history(from_id, to_id, *link_column("snr_db"),
+                                                    SimTime::at_once(), SimTime::never(), kSnrSamples))
     values.push_back(entry.value);
   return median(values.empty() ? of_outcomes : values);
 }
 
 // Returns the delivery probability in the last link table before the departure; empty when there is no table,
 // or only one older than kFreshTable.
-std::optional<double> predicted(const MissionStore& mission, const packet_outcome_t& o) {
+std::optional<double> predicted(const RunTimeline& timeline, const packet_outcome_t& o) {
   const SimTime departure = SimTime::from_utime(o.departure_utime);
-  const link_t* row = mission.links().row_at(o.source_id, o.receiver_id, departure, kFreshTable);
+  const link_t* row = timeline.links().row_at(o.source_id, o.receiver_id, departure, kFreshTable);
   return row == nullptr ? std::nullopt : std::optional(row->delivery_probability);
 }
 
 }  // namespace
 
-std::vector<PairDelivery> delivery_by_pair(const MissionStore& mission) {
+std::vector<PairDelivery> delivery_by_pair(const RunTimeline& timeline) {
   std::map<OutcomeLedger::Pair, std::vector<double>> snr_of_outcomes;
-  for (const PacketRecord& packet : mission.packets().all()) {
+  for (const PacketRecord& packet : timeline.packets().all()) {
     for (const packet_outcome_t& o : packet.outcomes) {
       if (o.num_paths > 0) snr_of_outcomes[{o.source_id, o.receiver_id}].push_back(o.snr_db);
     }
   }
   std::vector<PairDelivery> pairs;
-  for (const auto& [pair, counts] : mission.ledger().by_pair()) {
+  for (const auto& [pair, counts] : timeline.ledger().by_pair()) {
     const auto [from_id, to_id] = pair;
     pairs.push_back({from_id, to_id, sum(counts), counts[kReceivedOutcome],
-                     median_snr_db(mission, from_id, to_id, snr_of_outcomes[pair])});
+                     median_snr_db(timeline, from_id, to_id, snr_of_outcomes[pair])});
   }
   return pairs;
 }
@@ -67,9 +67,9 @@ double round_step(double least) {
   return 10 * power;
 }
 
-std::vector<RangeDelivery> delivery_by_range(const MissionStore& mission, std::size_t max_steps) {
+std::vector<RangeDelivery> delivery_by_range(const RunTimeline& timeline, std::size_t max_steps) {
   double greatest_m = 1;
-  for (const PacketRecord& packet : mission.packets().all()) {
+  for (const PacketRecord& packet : timeline.packets().all()) {
     for (const packet_outcome_t& o : packet.outcomes) greatest_m = std::max(greatest_m, o.range_m);
   }
   const double step_m = round_step(greatest_m / static_cast<double>(max_steps) * 1.000001);
@@ -78,12 +78,12 @@ std::vector<RangeDelivery> delivery_by_range(const MissionStore& mission, std::s
     double predicted = 0;
   };
   std::map<std::int64_t, Sum> sums;
-  for (const PacketRecord& packet : mission.packets().all()) {
+  for (const PacketRecord& packet : timeline.packets().all()) {
     for (const packet_outcome_t& o : packet.outcomes) {
       Sum& at = sums[static_cast<std::int64_t>(std::floor(o.range_m / step_m))];
       ++at.packets;
       at.received += o.outcome == packet_outcome_t::RECEIVED ? 1 : 0;
-      const auto probability = predicted(mission, o);
+      const auto probability = predicted(timeline, o);
       at.predictions += probability ? 1 : 0;
       at.predicted += probability.value_or(0);
     }

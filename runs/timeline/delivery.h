@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "runs/timeline/mission_store.h"
+#include "runs/timeline/run_timeline.h"
 
 namespace halocline::clients {
 
@@ -24,7 +24,7 @@ struct PairDelivery {
 };
 
 // Returns the delivery of every pair in the ledger, sorted by the ids of sender and receiver.
-std::vector<PairDelivery> delivery_by_pair(const MissionStore& mission);
+std::vector<PairDelivery> delivery_by_pair(const RunTimeline& timeline);
 
 // Packets whose range lies in one step, and the prediction for them.
 struct RangeDelivery {
@@ -35,8 +35,8 @@ struct RangeDelivery {
 
 // Returns the delivery by range, in steps of 1, 2 or 5 times a power of ten, at most `max_steps` of them.
 // Steps without a packet are left out. A prediction counts when its table is at most 10 s older than the
-// departure. Only packets that the mission's packet book still holds are counted.
-std::vector<RangeDelivery> delivery_by_range(const MissionStore& mission, std::size_t max_steps);
+// departure. Only packets that the timeline's packet book still holds are counted.
+std::vector<RangeDelivery> delivery_by_range(const RunTimeline& timeline, std::size_t max_steps);
 
 // Returns the smallest of 1, 2 and 5 times a power of ten that is not below `least`, which must be above 0.
 double round_step(double least);

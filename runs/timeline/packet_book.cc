@@ -37,7 +37,7 @@ SimTime PacketRecord::end() const {
 }
 
 template <class Predicate>
-PacketRecord* PacketBook::newest(const PacketName& name, const Predicate& fits) {
+PacketRecord* PacketBook::newest(const PacketId& name, const Predicate& fits) {
   const auto found = numbers_.find(name);
   if (found == numbers_.end()) return nullptr;
   for (auto number = found->second.rbegin(); number != found->second.rend(); ++number) {
@@ -47,7 +47,7 @@ PacketRecord* PacketBook::newest(const PacketName& name, const Predicate& fits) 
   return nullptr;
 }
 
-PacketRecord& PacketBook::new_packet(const PacketName& name) {
+PacketRecord& PacketBook::new_packet(const PacketId& name) {
   PacketRecord& packet = packets_.emplace_back();
   packet.number = first_ + packets_.size() - 1;
   packet.name = name;
@@ -61,7 +61,7 @@ PacketRecord& PacketBook::touched(PacketRecord& packet) {
 }
 
 void PacketBook::add(const modem_send_t& send, std::int32_t source_id) {
-  const PacketName name{source_id, send.packet_kind, send.session, send.packet_sequence};
+  const PacketId name{source_id, send.packet_kind, send.session, send.packet_sequence};
   const SimTime sent = SimTime::from_utime(send.utime);
   if (newest(name, [&](const PacketRecord& p) { return p.sent == sent; }) != nullptr) return;
   PacketRecord* packet =
@@ -83,7 +83,7 @@ void PacketBook::add(const modem_receipt_t& receipt, std::int32_t source_id) {
     return !p.receipt && (!p.departure || is_same(*p.departure, start));
   };
   PacketRecord* packet = nullptr;
-  PacketName name{source_id, 0, receipt.send_session, receipt.packet_sequence};
+  PacketId name{source_id, 0, receipt.send_session, receipt.packet_sequence};
   for (const std::int8_t kind : kSentKinds) {
     name.kind = kind;
     if (packet == nullptr) packet = newest(name, is_open);
@@ -107,8 +107,7 @@ void PacketBook::add(const modem_receipt_t& receipt, std::int32_t source_id) {
 }
 
 bool PacketBook::add(const packet_outcome_t& outcome) {
-  const PacketName name{outcome.source_id, outcome.packet_kind, outcome.send_session,
-                        outcome.packet_sequence};
+  const PacketId name{outcome.source_id, outcome.packet_kind, outcome.send_session, outcome.packet_sequence};
   const SimTime departure = SimTime::from_utime(outcome.departure_utime);
   const auto fits = [&](const PacketRecord& p) {
     const bool has_outcomes = !p.outcomes.empty() || p.out_of_reach > 0;

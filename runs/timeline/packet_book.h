@@ -21,17 +21,17 @@
 namespace halocline::clients {
 
 // Name by which the messages about a packet are joined.
-struct PacketName {
+struct PacketId {
   std::int32_t source_id = 0;
   std::int8_t kind = 0;  // packet_outcome_t.packet_kind
   std::int64_t session = 0, sequence = 0;
-  auto operator<=>(const PacketName&) const = default;
+  auto operator<=>(const PacketId&) const = default;
 };
 
 // One transmission, or a SEND that was refused or is not yet transmitted.
 struct PacketRecord {
   std::uint64_t number = 0;  // in the order of first messages; never changes
-  PacketName name;
+  PacketId name;
   std::int32_t destination_id = 0;  // 0: broadcast
   std::optional<SimTime> sent;      // time of its SEND, or of the receipt that refused it; empty: not known
   std::int32_t payload_bytes = -1;  // -1: unknown
@@ -80,17 +80,17 @@ class PacketBook {
   void keep_outcomes(std::size_t at_most);
 
  private:
-  PacketRecord& new_packet(const PacketName& name);
+  PacketRecord& new_packet(const PacketId& name);
   PacketRecord& touched(PacketRecord& packet);
   PacketRecord& at_number(std::uint64_t number) { return packets_[number - first_]; }
   // Returns the newest packet of that name for which `fits` is true; null when there is none.
   template <class Predicate>
-  PacketRecord* newest(const PacketName& name, const Predicate& fits);
+  PacketRecord* newest(const PacketId& name, const Predicate& fits);
   void drop_first();
 
   std::deque<PacketRecord> packets_;
   std::uint64_t first_ = 0;  // number of the first packet in packets_
-  std::map<PacketName, std::vector<std::uint64_t>> numbers_;
+  std::map<PacketId, std::vector<std::uint64_t>> numbers_;
   std::size_t outcome_count_ = 0;
   std::uint64_t revision_ = 0;
 };

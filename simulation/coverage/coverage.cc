@@ -182,7 +182,7 @@ class Mapping {
     std::vector<double> ranges;
     for (const std::size_t cell : bearing.cells) ranges.push_back(range_m(cell));
     std::reverse(ranges.begin(), ranges.end());
-    channel_server::SharedLine line = channel_server::SharedLine::of_bearing(std::move(ranges));
+    channel_server::SharedLine line = channel_server::SharedLine::of_ranges(std::move(ranges));
     for (const std::size_t cell : bearing.cells) {
       const double deepest_z_m = surface_z_m_ + bottom.depth_at(range_m(cell)) - kAboveBottomM;
       std::vector<double> z_m = water_z_m(cell);

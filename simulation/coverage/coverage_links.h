@@ -29,10 +29,10 @@ namespace halocline::clients {
 enum class RaySharing {
   kNone,  // a search for each link, as in `halocline link`
   // One search for the depths of a place; paths between depths are interpolated where that is verified
-  // (acoustics/rays/column_rays.h).
+  // (acoustics/rays/depth_fan.h).
   kDepths,
   // One fan of rays for all ranges on a bearing, over the bottom along that bearing
-  // (acoustics/rays/bearings/bearing_rays.h).
+  // (acoustics/rays/bearings/range_fan.h).
   kBearings
 };
 

@@ -20,11 +20,11 @@ namespace {
 
 using Type = NetcdfOutput::Type;
 
-struct Axis {
+struct GridAxis {
   const char *name, *letter, *standard_name, *unit, *meaning;
 };
 
-void define_axis(NetcdfOutput& file, const Axis& axis, int dimension, const std::vector<double>& values) {
+void define_axis(NetcdfOutput& file, const GridAxis& axis, int dimension, const std::vector<double>& values) {
   const int variable = file.variable(axis.name, Type::kDouble, {dimension});
   file.attribute(variable, "standard_name", axis.standard_name);
   file.attribute(variable, "long_name", axis.meaning);

@@ -59,13 +59,13 @@ LiveSea::LiveSea(const ScenarioConfig& config, const bathymetry::PreparedTerrain
 
 template <class Message>
 void LiveSea::keep(std::string channel, const Message& message) {
-  constexpr std::size_t kFew = 1000, kMost = 200'000;  // fewest and most events kept, for any time stamps
+  constexpr std::size_t kFew = 1000, kMax = 200'000;  // fewest and most events kept, for any time stamps
   auto& events = run_.events;
   const SimTime at = SimTime::from_utime(message.utime);
   events.push_back({at, std::move(channel), message});
   // Half of the events are dropped at a time, so that dropping is rare.
   const bool are_late = events[events.size() / 2].at + kKept < at;
-  if (events.size() < kFew || (!are_late && events.size() < kMost)) return;
+  if (events.size() < kFew || (!are_late && events.size() < kMax)) return;
   events.erase(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(events.size() / 2));
 }
 

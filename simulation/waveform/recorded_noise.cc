@@ -30,7 +30,7 @@ namespace {
 
 using acoustics::Samples;
 using channel_server::NoiseDriver;
-using channel_server::NoiseOf;
+using channel_server::NoiseSource;
 
 using Weight = std::function<double(std::int64_t sample)>;
 
@@ -66,7 +66,8 @@ void add_rates(const Recording& run, channel_server::VehicleNoise& noise) {
 // Returns the amplitude of a vehicle's noise at an instant relative to its reference speed or turn rate.
 // Noise power grows with the sixth power of the speed, so amplitude grows with the third:
 //   a = (v / v_ref)^3
-std::function<double(SimTime)> loudness_of(const NoiseOf& noise, const channel_server::VehicleNoise& rates,
+std::function<double(SimTime)> loudness_of(const NoiseSource& noise,
+                                           const channel_server::VehicleNoise& rates,
                                            const VehicleTrack& track) {
   return [&noise, &rates, &track](SimTime at) {
     if (noise.driver == NoiseDriver::kNone) return 1.0;

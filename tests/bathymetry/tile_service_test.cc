@@ -109,7 +109,7 @@ struct BadQuery {
 
 TEST(TileService, RefusesWhatCannotBeAndNamesFieldAndRange) {
   constexpr std::int64_t kHuge = std::numeric_limits<std::int32_t>::max(),
-                         kLeast = std::numeric_limits<std::int32_t>::min();
+                         kMin = std::numeric_limits<std::int32_t>::min();
   const BadQuery bad[] = {
       {{kNan, 0, 10, 5, 5}, "corner_north_m is nan", "-40 to 640"},
       {{0, kInfinity, 10, 5, 5}, "corner_east_m is inf", "-40 to 640"},
@@ -120,7 +120,7 @@ TEST(TileService, RefusesWhatCannotBeAndNamesFieldAndRange) {
       {{600, 600, -10, 5, 5}, "post_spacing_m is -10", "above 0"},
       {{0, 0, kInfinity, 5, 5}, "post_spacing_m is inf", "1e+06"},
       {{0, 0, 10, 0, 5}, "requested_rows is 0", "1 to 10000"},
-      {{0, 0, 10, kLeast, 5}, "requested_rows is -2147483648", "1 to 10000"},
+      {{0, 0, 10, kMin, 5}, "requested_rows is -2147483648", "1 to 10000"},
       {{0, 0, 10, 5, -1}, "requested_columns is -1", "1 to 10000"},
       {{0, 0, 10, kHuge, kHuge}, "requested_rows is 2147483647", "1 to 10000"},
   };

@@ -97,7 +97,7 @@ TEST_F(FlowsOfAllTest, WhatIsMissingIsRequestedAndNamedByChannel) {
   EXPECT_THAT(recorded_, ::testing::Contains("REPAIR_REQUEST"));
 }
 
-TEST(FlowWatchLacking, CountsWhatIsMissingAndWhatWasGivenUpUntilItComes) {
+TEST(FlowWatchLacking, CountsWhatIsMissingAndWhatExpiredUntilItComes) {
   FlowWatch watch;
   watch.on_message(at_ms(0), "STATE.b", 1, 0);
   watch.on_message(at_ms(0), "STATE.b", 1, 4);

@@ -39,17 +39,17 @@ flow_heartbeat_t listing(const std::string& channel, std::int64_t last) {
   return heartbeat;
 }
 
-TEST(RestartedPublisher, AFlowThatBeganWhileItWasARivalIsRequestedWhole) {
-  for (const int rival_heartbeats : {1, 2, 3}) {
+TEST(RestartedPublisher, AFlowThatBeganWhileItWasADuplicateIsRequestedWhole) {
+  for (const int duplicate_heartbeats : {1, 2, 3}) {
     FlowWatch watch;
     FlowRepair receiver("receiver", 1, watch);
     receiver.take_heartbeat(SimTime(), at_ms(0));
     const auto none = [](std::string_view) { return false; };
     const auto all = [](std::string_view) { return true; };
-    for (int i = 0; i < rival_heartbeats; ++i)
+    for (int i = 0; i < duplicate_heartbeats; ++i)
       EXPECT_EQ(receiver.on_heartbeat(at_ms(10'000 + 250 * i), "publisher", heartbeat_of(i), none), 0);
-    const flow_heartbeat_t believed = listing("RECEIVE.auv-7", 2);
-    EXPECT_EQ(receiver.on_heartbeat(at_ms(11'000), "publisher", believed, all), 3) << rival_heartbeats;
+    const flow_heartbeat_t accepted = listing("RECEIVE.auv-7", 2);
+    EXPECT_EQ(receiver.on_heartbeat(at_ms(11'000), "publisher", accepted, all), 3) << duplicate_heartbeats;
     const auto requests = receiver.take_requests(SimTime(), at_ms(11'010));
     ASSERT_EQ(requests.size(), 1u);
     EXPECT_EQ(requests[0].missing_sequence, (std::vector<std::int64_t>{0, 1, 2}));

@@ -74,8 +74,8 @@ TEST(ParseNumber, RealNumbersAreWholeTextsAndFinite) {
 }
 
 TEST(ParseNumber, IntegersFillTheirTypeAndNoMore) {
-  constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
-  EXPECT_EQ(parse_number<std::int64_t>("-9223372036854775808"), kLeast);
+  constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
+  EXPECT_EQ(parse_number<std::int64_t>("-9223372036854775808"), kMin);
   EXPECT_EQ(parse_number<std::uint64_t>("18446744073709551615"), std::numeric_limits<std::uint64_t>::max());
   for (const char* bad : {"9223372036854775808", "1.0", "1e3", ""})
     EXPECT_EQ(parse_number<std::int64_t>(bad), std::nullopt) << bad;

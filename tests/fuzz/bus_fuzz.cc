@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A Bus that repairs, with every channel subscribed to, and a mission's store: messages in any order,
+// A Bus that repairs, with every channel subscribed to, and a timeline's store: messages in any order,
 // repairs, heartbeats, requests and rivals among them, as time goes on.
 #include <memory>
 #include <string>
@@ -12,7 +12,7 @@
 #include "bus/transport/node_identity.h"
 #include "core/check.h"
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
+#include "runs/timeline/run_timeline.h"
 #include "tests/fuzz/bus_message.h"
 #include "tests/fuzz/fuzz_input.h"
 
@@ -42,7 +42,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   bus.set_outbox([](std::string_view, const void*, std::size_t) {});
   subscribe_to_all(bus);
   bus.enable_repair();
-  clients::MissionStore mission;
+  clients::RunTimeline timeline;
   SimTime steady;
   while (!input.is_empty()) {
     if (const auto pause = input.number(); pause != 0) {
@@ -61,7 +61,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     while (lcm.handleTimeout(0) > 0) {
     }
     bus.rethrow_if_failed();
-    mission.add(steady.to_utime(), message.channel, message.bytes);
+    timeline.add(steady.to_utime(), message.channel, message.bytes);
   }
   const bus::BusCounters& counters = bus.counters();
   ensure(counters.gaps >= 0 && counters.lost >= 0, "counters do not wrap");

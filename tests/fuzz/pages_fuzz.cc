@@ -11,9 +11,9 @@
 #include "core/check.h"
 #include "runs/foxglove/foxglove_session.h"
 #include "tests/fuzz/fuzz_input.h"
-#include "tests/viewer/mission_for_pages.h"
+#include "tests/viewer/run_for_pages.h"
+#include "viewer/pages/binary_messages.h"
 #include "viewer/pages/command_desk.h"
-#include "viewer/pages/frames.h"
 #include "viewer/pages/packet_json.h"
 #include "viewer/pages/page_session.h"
 #include "viewer/pages/query_desk.h"
@@ -45,8 +45,8 @@ class Page {
     session_.send(reply);
     const SimTime at = source_.now();
     session_.tick(now_s, true, packets_);
-    foxglove_.tick(now_s, true, source_.mission(), session_.at());
-    commands_.tick(now_s, source_.mission(), at);
+    foxglove_.tick(now_s, true, source_.timeline(), session_.at());
+    commands_.tick(now_s, source_.timeline(), at);
     queries_.tick(now_s);
     ensure(bytes_ < 256u << 20, "what is sent is within bounds");
   }
@@ -55,13 +55,13 @@ class Page {
   void answer(const json& request, json& reply) {
     reply["id"] = request_id(request);
     const std::string ask = text_in(request, "ask");
-    if (ask == "command") return commands_.command(source_.mission(), request);
+    if (ask == "command") return commands_.command(source_.timeline(), request);
     if (ask == "send")
-      return commands_.send(source_.mission(), request, source_.now(), [](const std::string&) {});
+      return commands_.send(source_.timeline(), request, source_.now(), [](const std::string&) {});
     if (ask == "terrain")
       return collect_terrain(queries_, terrain_window_in(request),
                              [](const DepthGrid*, const std::string&) {});
-    if (!session_.take(request)) reply.update(answer_request(source_.mission(), packets_, request));
+    if (!session_.take(request)) reply.update(answer_request(source_.timeline(), packets_, request));
   }
 
   std::size_t bytes_ = 0;

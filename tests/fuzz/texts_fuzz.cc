@@ -38,7 +38,7 @@ void take(fuzz::Input& input) {
       break;
     }
     case 3: {
-      const modem_gateway::Place place = modem_gateway::place_of(text);
+      const modem_gateway::Endpoint place = modem_gateway::place_of(text);
       ensure(modem_gateway::place_of(place.text()) == place, "a place is read as it is written");
       break;
     }

@@ -107,7 +107,7 @@ TEST_F(AttackedProcesses, ASecondConductorEndsAndTheFirstStays) {
   expect_all_running();
 }
 
-TEST_F(AttackedProcesses, OfTwoVehicleSimulatorsAndTwoChannelServersTheFirstAreBelieved) {
+TEST_F(AttackedProcesses, OfTwoVehicleSimulatorsAndTwoChannelServersTheFirstAreAccepted) {
   ASSERT_TRUE(outcomes_come(1));
   for (const char* program : {"halocline-vehicle-sim", "halocline-channel-server"}) {
     const auto rivals = [](const node_status_t& status) { return status.rivals; };
@@ -123,7 +123,7 @@ TEST_F(AttackedProcesses, OfTwoVehicleSimulatorsAndTwoChannelServersTheFirstAreB
 }
 
 // Without a journal its session is another.
-TEST_F(AttackedProcesses, ARestartedServerIsBelievedOnceTheKilledOneIsSilent) {
+TEST_F(AttackedProcesses, ARestartedServerIsAcceptedOnceTheKilledOneIsSilent) {
   ASSERT_TRUE(outcomes_come(1));
   at("halocline-channel-server").signal(SIGKILL);
   processes_["halocline-channel-server"] = run("halocline-channel-server");

@@ -28,7 +28,7 @@
 #include "clients/modem/blocking_modem.h"
 #include "core/sim_time.h"
 #include "tests/integration/bus_listener.h"
-#include "tests/integration/host.h"
+#include "tests/integration/network_host.h"
 #include "tests/support/process.h"
 
 namespace halocline {

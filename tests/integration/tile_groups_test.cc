@@ -25,7 +25,7 @@
 #include "bus/transport/transport.h"
 #include "core/sim_time.h"
 #include "tests/integration/bus_listener.h"
-#include "tests/integration/host.h"
+#include "tests/integration/network_host.h"
 #include "tests/support/process.h"
 
 namespace halocline {

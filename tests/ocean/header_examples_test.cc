@@ -20,7 +20,7 @@ TEST(HeaderExamples, TimesOfTwoDates) {
 }
 
 TEST(HeaderExamples, AUnitOfLength) {
-  const auto unit = unit_in(Quantity::kLength, "km");  // {1000, 0}
+  const auto unit = unit_in(QuantityKind::kLength, "km");  // {1000, 0}
   ASSERT_TRUE(unit);
   EXPECT_EQ((*unit)(2), 2000);
 }

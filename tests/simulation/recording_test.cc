@@ -84,7 +84,7 @@ TEST(Recording, AnswersAreNotPlayed) {
   EXPECT_EQ(recording.ignored, 3);
 }
 
-TEST(Recording, OfAMissionStampedInUnixTimeIsMovedToItsFirstSecond) {
+TEST(Recording, OfARunStampedInUnixTimeIsMovedToItsFirstSecond) {
   TemporaryLog file;
   file.add(kUnix_us, "STATE.auv-1", state_at(kUnix_us));
   file.add(kUnix_us + 10, "SEND.auv-1", send_at(kUnix_us + 2'000'000));

@@ -289,7 +289,7 @@ TEST_F(ScenarioChecks, NamesAreThoseOfVehicles) {
                   HasSubstr("sea.toml:7: vehicle[0].localiser.beacons is 'nobody'")));
 }
 
-TEST_F(ScenarioChecks, MoreVehiclesThanAreFollowedAreRefused) {
+TEST_F(ScenarioChecks, MoreVehiclesThanAreTrackedAreRefused) {
   std::string text;
   for (int i = 1; i <= 16385; ++i)
     text += "[[vehicle]]\nname = \"v" + std::to_string(i) + "\"\nid = " + std::to_string(i) +

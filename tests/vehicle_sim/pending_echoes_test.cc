@@ -27,7 +27,7 @@ TEST(PendingEchoes, AnAnsweredTickLeavesAtOnce) {
   const auto taken = desk.take(at_ms(100));
   ASSERT_TRUE(taken);
   EXPECT_EQ(taken->echoes[0].range_m, 12);
-  EXPECT_EQ(desk.given_up(), 0);
+  EXPECT_EQ(desk.expired(), 0);
 }
 
 TEST(PendingEchoes, AnUnansweredTickLeavesAtItsDeadline) {
@@ -35,7 +35,7 @@ TEST(PendingEchoes, AnUnansweredTickLeavesAtItsDeadline) {
   desk.wait(7, a_tick(100), at_ms(350));
   EXPECT_FALSE(desk.take(at_ms(349)));
   EXPECT_TRUE(desk.take(at_ms(350)));
-  EXPECT_EQ(desk.given_up(), 1);
+  EXPECT_EQ(desk.expired(), 1);
   EXPECT_EQ(desk.answer(7), nullptr);  // too late
   EXPECT_EQ(desk.next_deadline(), SimTime::never());
 }
@@ -64,7 +64,7 @@ TEST(PendingEchoes, ATickWithoutBeamsIsComplete) {
   desk.wait(1, {at_ms(100), {SensorJob{}}, {}, {}}, at_ms(350));
   EXPECT_TRUE(desk.has_complete());
   EXPECT_TRUE(desk.take(at_ms(100)));
-  EXPECT_EQ(desk.given_up(), 0);
+  EXPECT_EQ(desk.expired(), 0);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/dead_reckoning.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
+#include "core/state_extrapolation.h"
 #include "core/units.h"
 #include "tests/bus/runtime/journal_files.h"
 #include "tests/support/tolerance.h"

@@ -17,7 +17,7 @@
 
 #include "bus/bus.h"
 #include "bus/transport/transport.h"
-#include "tests/runs/timeline/mission_fixtures.h"
+#include "tests/runs/timeline/timeline_fixtures.h"
 #include "tests/support/process.h"
 #include "tests/viewer/web_client.h"
 

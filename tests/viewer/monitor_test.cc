@@ -21,7 +21,7 @@
 #include "bus/bus.h"
 #include "bus/messages/channels.h"
 #include "bus/transport/transport.h"
-#include "tests/runs/timeline/mission_fixtures.h"
+#include "tests/runs/timeline/timeline_fixtures.h"
 #include "tests/viewer/monitor_program.h"
 #include "tests/viewer/web_client.h"
 

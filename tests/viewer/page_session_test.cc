@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/check.h"
-#include "tests/viewer/mission_for_pages.h"
+#include "tests/viewer/run_for_pages.h"
 #include "viewer/pages/packet_json.h"
 
 namespace halocline::monitor {
@@ -84,10 +84,10 @@ TEST(PageSession, BusShowsAPacketAgainWhenItsOutcomeCame) {
   testing::FixedSource source(false);
   Page page(source);
   page.tick(0, "packets");
-  testing::add(source.mission(), "SEND.auv-2", clients::testing::send(9, 5, 100 * testing::kSecond));
+  testing::add(source.timeline(), "SEND.auv-2", clients::testing::send(9, 5, 100 * testing::kSecond));
   ASSERT_EQ(page.tick(0.05, "packets").size(), 1u);
   EXPECT_TRUE(page.tick(0.1, "packets").empty());
-  testing::add(source.mission(), "OUTCOME", clients::testing::outcome(9, 4, 5, 100 * testing::kSecond));
+  testing::add(source.timeline(), "OUTCOME", clients::testing::outcome(9, 4, 5, 100 * testing::kSecond));
   const auto found = page.tick(0.15, "packets");
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0]["items"][0]["outcomes"].size(), 1u);

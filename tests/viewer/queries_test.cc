@@ -11,9 +11,9 @@
 
 #include "core/check.h"
 #include "core/sim_time.h"
-#include "tests/viewer/mission_for_pages.h"
+#include "tests/viewer/run_for_pages.h"
+#include "viewer/pages/binary_messages.h"
 #include "viewer/pages/command_desk.h"
-#include "viewer/pages/frames.h"
 #include "viewer/pages/link_view.h"
 #include "viewer/pages/packet_json.h"
 #include "viewer/pages/query_desk.h"
@@ -99,7 +99,7 @@ TEST(QueryDesk, TooManyAtOnceAreRefused) {
   Posted posted;
   QueryDesk desk("monitor-1", posted.post());
   std::string problem;
-  for (std::size_t i = 0; i <= QueryDesk::kMostUnderWay; ++i)
+  for (std::size_t i = 0; i <= QueryDesk::kMaxUnderWay; ++i)
     desk.ask(link_query_t{}, [&](const link_reply_t*, const std::string& text) { problem = text; });
   EXPECT_THAT(problem, HasSubstr("Too many"));
 }
@@ -167,23 +167,23 @@ TEST(TerrainWindow, OverviewIsOfTheWholeExtent) {
 }
 
 TEST(LinkView, QueriesWhereBothWere) {
-  const auto mission = testing::small_mission();
-  auto query = link_query({mission.vehicles()[0], mission.vehicles()[1], SimTime::from_seconds(30)});
+  const auto timeline = testing::small_run();
+  auto query = link_query({timeline.vehicles()[0], timeline.vehicles()[1], SimTime::from_seconds(30)});
   ASSERT_TRUE(query);
   EXPECT_EQ(query->transmitters[0].vehicle_name, "auv-1");
   EXPECT_EQ(query->transmitters[0].position_ned_m[0], 30);
   EXPECT_TRUE(query->wants_paths);
-  use_positions(mission, *query);
+  use_positions(timeline, *query);
   EXPECT_EQ(query->transmitters[0].vehicle_name, "");
-  EXPECT_FALSE(link_query({mission.vehicles()[0], mission.vehicles()[1], SimTime::from_seconds(-1)}));
+  EXPECT_FALSE(link_query({timeline.vehicles()[0], timeline.vehicles()[1], SimTime::from_seconds(-1)}));
 }
 
 TEST(LinkView, BudgetAddsUpToWhatWasComputed) {
-  const auto mission = testing::small_mission();
+  const auto timeline = testing::small_run();
   PacketIndex packets;
-  const LinkSubject link{mission.vehicles()[0], mission.vehicles()[1], SimTime::from_seconds(60)};
+  const LinkSubject link{timeline.vehicles()[0], timeline.vehicles()[1], SimTime::from_seconds(60)};
   const link_reply_t reply = reply_to({});
-  const json view = link_view_json(mission, packets, link, &reply, "");
+  const json view = link_view_json(timeline, packets, link, &reply, "");
   double sum = 0;
   for (const json& row : view["budget"]) {
     if (row["kind"] == "start") sum = row["value"];
@@ -201,23 +201,23 @@ TEST(LinkView, BudgetAddsUpToWhatWasComputed) {
 }
 
 TEST(LinkView, WithoutReplySaysWhy) {
-  const auto mission = testing::small_mission();
+  const auto timeline = testing::small_run();
   PacketIndex packets;
-  const LinkSubject link{mission.vehicles()[0], mission.vehicles()[1], SimTime::from_seconds(60)};
-  const json view = link_view_json(mission, packets, link, nullptr, "The channel server does not answer.");
+  const LinkSubject link{timeline.vehicles()[0], timeline.vehicles()[1], SimTime::from_seconds(60)};
+  const json view = link_view_json(timeline, packets, link, nullptr, "The channel server does not answer.");
   EXPECT_EQ(view["notice"], "The channel server does not answer.");
   EXPECT_EQ(view["range_m"], std::hypot(60, 1500));
 }
 
 TEST(CommandDesk, RepeatsACommandForItsTime) {
   Posted posted;
-  const auto mission = testing::small_mission();
+  const auto timeline = testing::small_run();
   CommandDesk desk(77, posted.post());
-  desk.tick(0, mission, mission.end());
+  desk.tick(0, timeline, timeline.end());
   desk.command(
-      mission,
+      timeline,
       json::parse(R"({"vehicle":0,"propeller_rpm":1000,"rudder_rad":0.1,"stern_plane_rad":0,"for_s":0.25})"));
-  for (const double now_s : {0.05, 0.1, 0.16, 0.27, 0.4, 0.5}) desk.tick(now_s, mission, mission.end());
+  for (const double now_s : {0.05, 0.1, 0.16, 0.27, 0.4, 0.5}) desk.tick(now_s, timeline, timeline.end());
   ASSERT_EQ(posted.messages.size(), 3u);
   const auto command = bus::decoded<vehicle_command_t>(posted.messages[2].second);
   ASSERT_TRUE(command);
@@ -228,9 +228,9 @@ TEST(CommandDesk, RepeatsACommandForItsTime) {
 
 TEST(CommandDesk, RefusesWhatTheBusWould) {
   Posted posted;
-  const auto mission = testing::small_mission();
+  const auto timeline = testing::small_run();
   CommandDesk desk(77, posted.post());
-  const auto command = [&](const char* text) { desk.command(mission, json::parse(text)); };
+  const auto command = [&](const char* text) { desk.command(timeline, json::parse(text)); };
   EXPECT_THROW(command(R"({"vehicle":0,"propeller_rpm":1e9,"rudder_rad":0,"stern_plane_rad":0,"for_s":1})"),
                InvalidArgument);
   EXPECT_THROW(command(R"({"vehicle":0,"propeller_rpm":1,"rudder_rad":9,"stern_plane_rad":0,"for_s":1})"),
@@ -239,7 +239,7 @@ TEST(CommandDesk, RefusesWhatTheBusWould) {
                InvalidArgument);
   EXPECT_THROW(command(R"({"vehicle":0,"propeller_rpm":1,"rudder_rad":0,"stern_plane_rad":0,"for_s":1000})"),
                InvalidArgument);
-  const auto send = [&](const char* text) { desk.send(mission, json::parse(text), mission.end(), {}); };
+  const auto send = [&](const char* text) { desk.send(timeline, json::parse(text), timeline.end(), {}); };
   EXPECT_THROW(send(R"({"vehicle":0,"destination":0,"payload":"x"})"), InvalidArgument);
   EXPECT_THROW(send(R"({"vehicle":0,"destination":1})"), InvalidArgument);
   EXPECT_TRUE(posted.messages.empty());
@@ -247,15 +247,15 @@ TEST(CommandDesk, RefusesWhatTheBusWould) {
 
 TEST(CommandDesk, SendIsAnsweredWithThePacketsKey) {
   Posted posted;
-  auto mission = testing::small_mission();
+  auto timeline = testing::small_run();
   CommandDesk desk(77, posted.post());
   std::string key;
-  desk.send(mission, json::parse(R"({"vehicle":0,"destination":1,"payload":"hi"})"), mission.end(),
+  desk.send(timeline, json::parse(R"({"vehicle":0,"destination":1,"payload":"hi"})"), timeline.end(),
             [&](const std::string& k) { key = k; });
-  desk.tick(0.05, mission, mission.end());
+  desk.tick(0.05, timeline, timeline.end());
   EXPECT_EQ(key, "");
-  mission.add(0, posted.messages[0].first, posted.messages[0].second);
-  desk.tick(0.1, mission, mission.end());
+  timeline.add(0, posted.messages[0].first, posted.messages[0].second);
+  desk.tick(0.1, timeline, timeline.end());
   EXPECT_EQ(key, "p3");
 }
 

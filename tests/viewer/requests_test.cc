@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/check.h"
-#include "tests/viewer/mission_for_pages.h"
+#include "tests/viewer/run_for_pages.h"
 #include "viewer/pages/link_display.h"
 #include "viewer/pages/packet_json.h"
 
@@ -20,9 +20,9 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 json answer(const std::string& request) {
-  const clients::MissionStore mission = testing::small_mission();
+  const clients::RunTimeline timeline = testing::small_run();
   PacketIndex packets;
-  return answer_request(mission, packets, json::parse(request));
+  return answer_request(timeline, packets, json::parse(request));
 }
 
 std::string refusal(const std::string& request) {

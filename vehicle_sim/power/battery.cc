@@ -9,9 +9,9 @@
 namespace halocline::vehicle_sim {
 
 Battery::Battery(const BatterySettings& settings) : settings_(settings) {
-  constexpr double kMost = std::numeric_limits<double>::max();
-  require_in_range(settings.capacity_j, 0, kMost, "capacity of a battery", "J");
-  require_in_range(settings.hotel_w, 0, kMost, "hotel power", "W");
+  constexpr double kMax = std::numeric_limits<double>::max();
+  require_in_range(settings.capacity_j, 0, kMax, "capacity of a battery", "J");
+  require_in_range(settings.hotel_w, 0, kMax, "hotel power", "W");
   require_in_range(settings.shaft_efficiency, 1e-3, 1, "efficiency of the shaft");
 }
 

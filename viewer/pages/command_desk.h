@@ -15,7 +15,7 @@
 #include "bus/messages/message_codec.h"
 #include "bus/messages/messages.h"
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
+#include "runs/timeline/run_timeline.h"
 
 namespace halocline::monitor {
 
@@ -31,11 +31,11 @@ class CommandDesk {
 
   // Repeats a command every kPeriod_s for the requested time; a new command for the vehicle replaces it.
   // Throws InvalidArgument for an invalid request.
-  void command(const clients::MissionStore& mission, const nlohmann::json& request);
+  void command(const clients::RunTimeline& timeline, const nlohmann::json& request);
   // Publishes one SEND at `now`. Throws InvalidArgument for an invalid request.
-  void send(const clients::MissionStore& mission, const nlohmann::json& request, SimTime now, Sent sent);
+  void send(const clients::RunTimeline& timeline, const nlohmann::json& request, SimTime now, Sent sent);
 
-  void tick(double steady_s, const clients::MissionStore& mission, SimTime now);
+  void tick(double steady_s, const clients::RunTimeline& timeline, SimTime now);
 
  private:
   struct Command {
@@ -43,7 +43,7 @@ class CommandDesk {
     double until_s = 0, next_s = 0;
   };
   struct Awaited {
-    clients::PacketName name;
+    clients::PacketId name;
     double until_s;
     Sent sent;
   };

@@ -257,7 +257,7 @@ struct Counts {
   int all = 0, received = 0;
 };
 
-std::vector<LinkValue> received_shares(const clients::MissionStore& mission, const LinkDisplay& display,
+std::vector<LinkValue> received_shares(const clients::RunTimeline& timeline, const LinkDisplay& display,
                                        SimTime at, std::span<const clients::PacketRecord* const> recent) {
   std::map<std::pair<std::int32_t, std::int32_t>, Counts> counts;
   for (const clients::PacketRecord* packet : recent) {
@@ -270,7 +270,7 @@ std::vector<LinkValue> received_shares(const clients::MissionStore& mission, con
   }
   std::vector<LinkValue> values;
   for (const auto& [pair, count] : counts) {
-    const auto *from = mission.find(pair.first), *to = mission.find(pair.second);
+    const auto *from = timeline.find(pair.first), *to = timeline.find(pair.second);
     if (from == nullptr || to == nullptr) continue;
     values.push_back({static_cast<std::uint16_t>(from->index), static_cast<std::uint16_t>(to->index),
                       static_cast<float>(display.factor * count.received / count.all)});
@@ -295,12 +295,12 @@ double shown_value(const LinkDisplay& display, const link_t& link) {
   return display.factor * (column->value(link) + display.offset);
 }
 
-std::vector<LinkValue> shown_values(const clients::MissionStore& mission, const LinkDisplay& display,
+std::vector<LinkValue> shown_values(const clients::RunTimeline& timeline, const LinkDisplay& display,
                                     SimTime at, std::span<const clients::PacketRecord* const> recent) {
-  if (display.key == kReceivedShare) return received_shares(mission, display, at, recent);
+  if (display.key == kReceivedShare) return received_shares(timeline, display, at, recent);
   std::vector<LinkValue> values;
-  for (const link_t* row : mission.links().rows_at(at, kRowsKept)) {
-    const auto *from = mission.find(row->transmitter_id), *to = mission.find(row->receiver_id);
+  for (const link_t* row : timeline.links().rows_at(at, kRowsKept)) {
+    const auto *from = timeline.find(row->transmitter_id), *to = timeline.find(row->receiver_id);
     if (from == nullptr || to == nullptr) continue;
     values.push_back({static_cast<std::uint16_t>(from->index), static_cast<std::uint16_t>(to->index),
                       static_cast<float>(shown_value(display, *row))});

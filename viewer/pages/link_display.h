@@ -9,9 +9,9 @@
 
 #include "bus/messages/messages.h"
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
 #include "runs/timeline/packet_book.h"
-#include "viewer/pages/frames.h"
+#include "runs/timeline/run_timeline.h"
+#include "viewer/pages/binary_messages.h"
 
 namespace halocline::monitor {
 
@@ -53,7 +53,7 @@ std::size_t find_display(std::string_view key);
 double shown_value(const LinkDisplay& display, const link_t& link);
 // Returns the values of all pairs at one time. `recent`: the packets that departed within kShareWindow before
 // it.
-std::vector<LinkValue> shown_values(const clients::MissionStore& mission, const LinkDisplay& display,
+std::vector<LinkValue> shown_values(const clients::RunTimeline& timeline, const LinkDisplay& display,
                                     SimTime at, std::span<const clients::PacketRecord* const> recent);
 
 }  // namespace halocline::monitor

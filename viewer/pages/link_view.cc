@@ -10,8 +10,8 @@
 #include "core/elementary.h"
 #include "core/frames.h"
 #include "runs/timeline/link_history.h"
-#include "runs/timeline/mission_vehicle.h"
 #include "runs/timeline/packet_book.h"
+#include "runs/timeline/vehicle_record.h"
 
 namespace halocline::monitor {
 namespace {
@@ -20,7 +20,7 @@ using nlohmann::json;
 
 constexpr const char* kLevel = "dB re 1 uPa";
 
-link_end_t end_of(const clients::MissionVehicle& vehicle, const Vec3& place) {
+link_end_t end_of(const clients::VehicleRecord& vehicle, const Vec3& place) {
   link_end_t end{};
   end.vehicle_name = vehicle.name;
   for (int i = 0; i < 3; ++i) end.position_ned_m[i] = place[i];
@@ -141,7 +141,7 @@ json budget_json(const LinkSubject& subject, const link_t& link, const link_path
   return fall.take();
 }
 
-json guard_json(const link_t& link, const clients::MissionVehicle& to) {
+json guard_json(const link_t& link, const clients::VehicleRecord& to) {
   if (!to.modem || link.num_paths == 0) return nullptr;
   const double taper_s = to.modem->guard_taper_s < 0 ? to.modem->guard_time_s : to.modem->guard_taper_s;
   return {{"begin_s", link.first_path_delay_s},
@@ -149,20 +149,20 @@ json guard_json(const link_t& link, const clients::MissionVehicle& to) {
           {"taper_s", taper_s}};
 }
 
-json fading_json(const clients::MissionStore& mission, PacketIndex& packets, const LinkSubject& link) {
+json fading_json(const clients::RunTimeline& timeline, PacketIndex& packets, const LinkSubject& link) {
   constexpr SimDuration kRecord = SimDuration::from_milliseconds(600'000);
-  constexpr std::size_t kMostPoints = 600;
+  constexpr std::size_t kMaxPoints = 600;
   const SimTime since = link.at - kRecord;
   json time_s = json::array(), value = json::array(), met = json::array();
   const clients::LinkColumn* column = clients::link_column("sinr_db");
   for (const auto& [at, number] :
-       mission.links().history(link.from.id, link.to.id, *column, since, link.at, kMostPoints)) {
-    const link_t* row = mission.links().row_at(link.from.id, link.to.id, at);
+       timeline.links().history(link.from.id, link.to.id, *column, since, link.at, kMaxPoints)) {
+    const link_t* row = timeline.links().row_at(link.from.id, link.to.id, at);
     time_s.push_back(at.seconds());
     value.push_back(row != nullptr && row->path_state == link_t::PATH_OPEN ? json(number) : json());
   }
-  packets.refresh(mission.packets());
-  for (const clients::PacketRecord* packet : packets.departing(mission.packets(), since, link.at)) {
+  packets.refresh(timeline.packets());
+  for (const clients::PacketRecord* packet : packets.departing(timeline.packets(), since, link.at)) {
     for (const packet_outcome_t& outcome : packet->outcomes) {
       if (outcome.source_id != link.from.id || outcome.receiver_id != link.to.id) continue;
       const bool has_sinr = outcome.acquisition_probability > 0 || outcome.success_probability > 0;
@@ -218,10 +218,10 @@ std::optional<link_query_t> link_query(const LinkSubject& link) {
   return query;
 }
 
-void use_positions(const clients::MissionStore& mission, link_query_t& query) {
+void use_positions(const clients::RunTimeline& timeline, link_query_t& query) {
   for (auto* ends : {&query.transmitters, &query.receivers}) {
     for (link_end_t& end : *ends) {
-      const clients::MissionVehicle* vehicle = mission.find(end.vehicle_name);
+      const clients::VehicleRecord* vehicle = timeline.find(end.vehicle_name);
       end.vehicle_name.clear();
       if (vehicle == nullptr || !vehicle->modem) continue;
       end.modem_choice = link_end_t::MODEM_GIVEN;
@@ -230,7 +230,7 @@ void use_positions(const clients::MissionStore& mission, link_query_t& query) {
   }
 }
 
-json link_view_json(const clients::MissionStore& mission, PacketIndex& packets, const LinkSubject& link,
+json link_view_json(const clients::RunTimeline& timeline, PacketIndex& packets, const LinkSubject& link,
                     const link_reply_t* reply, const std::string& problem) {
   const auto from = state_at(link.from.track, link.at), to = state_at(link.to.track, link.at);
   json view = {{"from", link.from.index},
@@ -245,7 +245,7 @@ json link_view_json(const clients::MissionStore& mission, PacketIndex& packets, 
                {"paths", json::array()},
                {"guard", nullptr},
                {"budget", json::array()},
-               {"fading", fading_json(mission, packets, link)}};
+               {"fading", fading_json(timeline, packets, link)}};
   if (from && to) {
     const Vec3 way = to->point.position_ned_m - from->point.position_ned_m;
     view["range_m"] = elementary::hypot(way.x(), way.y());
@@ -258,7 +258,7 @@ json link_view_json(const clients::MissionStore& mission, PacketIndex& packets, 
   }
   const link_answer_t& answer = reply->answers.front();
   const link_paths_t& paths = reply->link_paths;
-  const double surface_m = mission.scenario().sea_surface_z_m;
+  const double surface_m = timeline.scenario().sea_surface_z_m;
   if (const std::string notice = notice_of(answer); !notice.empty()) view["notice"] = notice;
   if (answer.answer_status != link_answer_t::ANSWERED) return view;
   if (paths.num_seabed > 0)

@@ -10,15 +10,15 @@
 
 #include "bus/messages/messages.h"
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
-#include "runs/timeline/mission_vehicle.h"
+#include "runs/timeline/run_timeline.h"
+#include "runs/timeline/vehicle_record.h"
 #include "viewer/pages/packet_json.h"
 
 namespace halocline::monitor {
 
 struct LinkSubject {
-  const clients::MissionVehicle& from;
-  const clients::MissionVehicle& to;
+  const clients::VehicleRecord& from;
+  const clients::VehicleRecord& to;
   SimTime at;
   std::optional<double> threshold_db = {};  // SINR at which half of the sender's packets survive, dB
 };
@@ -28,10 +28,10 @@ struct LinkSubject {
 std::optional<link_query_t> link_query(const LinkSubject& link);
 // Removes the names from a query about the past, because names refer to the present, and gives the modems
 // explicitly.
-void use_positions(const clients::MissionStore& mission, link_query_t& query);
+void use_positions(const clients::RunTimeline& timeline, link_query_t& query);
 
 // Returns the view. `reply` is null when there is none; `problem` is then shown as the notice.
-nlohmann::json link_view_json(const clients::MissionStore& mission, PacketIndex& packets,
+nlohmann::json link_view_json(const clients::RunTimeline& timeline, PacketIndex& packets,
                               const LinkSubject& link, const link_reply_t* reply, const std::string& problem);
 
 }  // namespace halocline::monitor

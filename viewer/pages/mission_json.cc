@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "bus/version.h"
-#include "runs/timeline/mission_vehicle.h"
 #include "runs/timeline/outcome_classes.h"
+#include "runs/timeline/vehicle_record.h"
 #include "viewer/pages/link_display.h"
 #include "viewer/pages/plan_json.h"
 
@@ -71,7 +71,7 @@ json columns_json() {
 
 json number_or_null(const std::optional<double>& number) { return number ? json(*number) : json(); }
 
-std::optional<double> threshold_db(const Source& source, const clients::MissionVehicle& vehicle) {
+std::optional<double> threshold_db(const Source& source, const clients::VehicleRecord& vehicle) {
   return vehicle.modem ? source.threshold_db(*vehicle.modem) : std::nullopt;
 }
 
@@ -84,7 +84,7 @@ json modem_of(const std::string& family, const Numbers& modem) {
           {"bit_rate_bps", modem.bit_rate_bps}};
 }
 
-json modem_json(const Source& source, const clients::MissionVehicle& vehicle) {
+json modem_json(const Source& source, const clients::VehicleRecord& vehicle) {
   json modem;
   if (vehicle.modem)
     modem = modem_of(vehicle.modem->family, *vehicle.modem);
@@ -99,7 +99,7 @@ json modem_json(const Source& source, const clients::MissionVehicle& vehicle) {
 // Returns the threshold that most vehicles share; null when none is known.
 json threshold_json(const Source& source) {
   std::map<double, int> vehicles;
-  for (const clients::MissionVehicle& vehicle : source.mission().vehicles()) {
+  for (const clients::VehicleRecord& vehicle : source.timeline().vehicles()) {
     if (const auto threshold = threshold_db(source, vehicle)) ++vehicles[*threshold];
   }
   const auto most = std::max_element(vehicles.begin(), vehicles.end(),
@@ -107,7 +107,7 @@ json threshold_json(const Source& source) {
   return most == vehicles.end() ? json() : json(most->first);
 }
 
-json vehicle_json(const Source& source, const clients::MissionVehicle& vehicle, SimTime at) {
+json vehicle_json(const Source& source, const clients::VehicleRecord& vehicle, SimTime at) {
   return {{"index", vehicle.index},
           {"name", vehicle.name},
           {"id", vehicle.id},
@@ -118,8 +118,8 @@ json vehicle_json(const Source& source, const clients::MissionVehicle& vehicle, 
           {"plan", plan_json(vehicle, at)}};
 }
 
-json water_json(const clients::MissionStore& mission, SimTime at) {
-  const auto* water = mission.water().at_or_before(std::max(at, SimTime()));
+json water_json(const clients::RunTimeline& timeline, SimTime at) {
+  const auto* water = timeline.water().at_or_before(std::max(at, SimTime()));
   if (water == nullptr) return nullptr;
   constexpr std::size_t kMaxRows = 200;
   const std::size_t rows = water->value.layer_depth_m.size(), step = rows / kMaxRows + 1;
@@ -133,8 +133,8 @@ json water_json(const clients::MissionStore& mission, SimTime at) {
           {"wind_mps", water->value.wind_speed_mps}};
 }
 
-json terrain_json(const clients::MissionStore& mission) {
-  const auto grid = overview_grid(mission);
+json terrain_json(const clients::RunTimeline& timeline) {
+  const auto grid = overview_grid(timeline);
   if (!grid) return nullptr;
   double least = NAN, greatest = NAN;
   for (const float depth_m : grid->depth_m) {
@@ -167,7 +167,7 @@ const char* bus_text(BusCondition condition) {
 
 json nodes_json(const Source& source, SimTime at) {
   json all = json::array();
-  for (const auto& [name, node] : source.mission().health().nodes()) {
+  for (const auto& [name, node] : source.timeline().health().nodes()) {
     const node_status_t& status = node.status;
     all.push_back({{"name", name},
                    {"age_s", source.age_s(node, at)},
@@ -185,9 +185,9 @@ json nodes_json(const Source& source, SimTime at) {
   return all;
 }
 
-json vehicle_states_json(const clients::MissionStore& mission, SimTime at) {
+json vehicle_states_json(const clients::RunTimeline& timeline, SimTime at) {
   json all = json::array();
-  for (const clients::MissionVehicle& vehicle : mission.vehicles()) {
+  for (const clients::VehicleRecord& vehicle : timeline.vehicles()) {
     json faults = json::array();
     for (const vehicle_fault_t& fault : faults_at(vehicle, at)) faults.push_back(fault_text(fault));
     const std::string activity = activity_at(vehicle, at);
@@ -206,14 +206,14 @@ bool is_of_one_kind(const vehicle_fault_t& a, const vehicle_fault_t& b) {
 }  // namespace
 
 json hello_json(const Source& source, bool may_command) {
-  const clients::MissionStore& mission = source.mission();
-  const bool is_empty = mission.begin() > mission.end();
+  const clients::RunTimeline& timeline = source.timeline();
+  const bool is_empty = timeline.begin() > timeline.end();
   return {{"type", "hello"},
           {"version", 1},
           {"program", fmt::format("halocline-monitor {}", bus::kVersion)},
           {"source", source.is_log() ? "log" : "bus"},
           {"name", source.name()},
-          {"begin_s", is_empty ? 0 : mission.begin().seconds()},
+          {"begin_s", is_empty ? 0 : timeline.begin().seconds()},
           {"end_s", is_empty ? 0 : source.now().seconds()},
           {"may_command", may_command},
           {"limits", source.limits()},
@@ -221,8 +221,8 @@ json hello_json(const Source& source, bool may_command) {
           {"link_columns", columns_json()}};
 }
 
-std::optional<DepthGrid> overview_grid(const clients::MissionStore& mission) {
-  const auto& terrain = mission.terrain();
+std::optional<DepthGrid> overview_grid(const clients::RunTimeline& timeline) {
+  const auto& terrain = timeline.terrain();
   if (!terrain || terrain->rows == 0 || terrain->columns == 0) return std::nullopt;
   return DepthGrid{.south_m = terrain->south_m,
                    .west_m = terrain->west_m,
@@ -233,10 +233,10 @@ std::optional<DepthGrid> overview_grid(const clients::MissionStore& mission) {
 }
 
 json mission_json(const Source& source, SimTime at) {
-  const clients::MissionStore& mission = source.mission();
-  const clients::MissionScenario& scenario = mission.scenario();
+  const clients::RunTimeline& timeline = source.timeline();
+  const clients::RunScenario& scenario = timeline.scenario();
   json vehicles = json::array();
-  for (const clients::MissionVehicle& vehicle : mission.vehicles())
+  for (const clients::VehicleRecord& vehicle : timeline.vehicles())
     vehicles.push_back(vehicle_json(source, vehicle, at));
   json origin;
   if (scenario.origin)
@@ -250,20 +250,20 @@ json mission_json(const Source& source, SimTime at) {
           {"sea_surface_down_m", scenario.sea_surface_z_m},
           {"vehicles", std::move(vehicles)},
           {"threshold_db", threshold_json(source)},
-          {"terrain", terrain_json(mission)},
-          {"water", water_json(mission, at)}};
+          {"terrain", terrain_json(timeline)},
+          {"water", water_json(timeline, at)}};
 }
 
 json state_json(const Source& source, const Playback& playback) {
-  const clients::MissionStore& mission = source.mission();
+  const clients::RunTimeline& timeline = source.timeline();
   const SourceState state = source.state();
-  const bool is_empty = mission.begin() > mission.end();
+  const bool is_empty = timeline.begin() > timeline.end();
   const bool has_states =
-      std::any_of(mission.vehicles().begin(), mission.vehicles().end(),
-                  [](const clients::MissionVehicle& vehicle) { return !vehicle.track.empty(); });
+      std::any_of(timeline.vehicles().begin(), timeline.vehicles().end(),
+                  [](const clients::VehicleRecord& vehicle) { return !vehicle.track.empty(); });
   return {{"type", "state"},
           {"time_s", playback.at().seconds()},
-          {"begin_s", is_empty ? 0 : mission.begin().seconds()},
+          {"begin_s", is_empty ? 0 : timeline.begin().seconds()},
           {"end_s", is_empty ? 0 : source.now().seconds()},
           {"live", playback.is_live()},
           {"playing", playback.is_playing()},
@@ -275,7 +275,7 @@ json state_json(const Source& source, const Playback& playback) {
           {"channel_server", state.channel_server},
           {"real_time_factor", state.real_time_factor ? json(*state.real_time_factor) : json()},
           {"messages_dropped", state.messages_dropped},
-          {"vehicles", vehicle_states_json(mission, playback.at())},
+          {"vehicles", vehicle_states_json(timeline, playback.at())},
           {"nodes", nodes_json(source, playback.at())}};
 }
 
@@ -310,7 +310,7 @@ std::string fault_text(const vehicle_fault_t& fault) {
   }
 }
 
-std::vector<vehicle_fault_t> faults_at(const clients::MissionVehicle& vehicle, SimTime at) {
+std::vector<vehicle_fault_t> faults_at(const clients::VehicleRecord& vehicle, SimTime at) {
   std::vector<vehicle_fault_t> active;
   for (const auto& [from, fault] : vehicle.faults) {
     if (from > at) continue;

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
-#include "runs/timeline/mission_vehicle.h"
-#include "viewer/pages/frames.h"
+#include "runs/timeline/run_timeline.h"
+#include "runs/timeline/vehicle_record.h"
+#include "viewer/pages/binary_messages.h"
 #include "viewer/pages/playback.h"
 #include "viewer/sources/source.h"
 
@@ -23,7 +23,7 @@ nlohmann::json hello_json(const Source& source, bool may_command);
 nlohmann::json mission_json(const Source& source, SimTime at);
 
 // Returns the overview of the terrain; nothing when none is known.
-std::optional<DepthGrid> overview_grid(const clients::MissionStore& mission);
+std::optional<DepthGrid> overview_grid(const clients::RunTimeline& timeline);
 
 nlohmann::json state_json(const Source& source, const Playback& playback);
 // Returns true when two states differ at most in numbers that change all the time.
@@ -32,6 +32,6 @@ bool is_same_condition(const nlohmann::json& state, const nlohmann::json& other)
 // Returns a fault as text: "rudder stuck at 5 degrees".
 std::string fault_text(const vehicle_fault_t& fault);
 // Returns the faults that are active at one time.
-std::vector<vehicle_fault_t> faults_at(const clients::MissionVehicle& vehicle, SimTime at);
+std::vector<vehicle_fault_t> faults_at(const clients::VehicleRecord& vehicle, SimTime at);
 
 }  // namespace halocline::monitor

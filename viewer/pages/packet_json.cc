@@ -6,9 +6,9 @@
 
 #include "core/csv_table.h"
 #include "core/frames.h"
-#include "runs/timeline/mission_vehicle.h"
 #include "runs/timeline/packet_book.h"
 #include "runs/timeline/packet_reasons.h"
+#include "runs/timeline/vehicle_record.h"
 
 namespace halocline::monitor {
 namespace {
@@ -32,14 +32,14 @@ const char* result_name(const clients::PacketRecord& packet) {
   return kNames[*packet.receipt];
 }
 
-json index_of(const clients::MissionStore& mission, std::int32_t id) {
-  const clients::MissionVehicle* vehicle = id == 0 ? nullptr : mission.find(id);
+json index_of(const clients::RunTimeline& timeline, std::int32_t id) {
+  const clients::VehicleRecord* vehicle = id == 0 ? nullptr : timeline.find(id);
   return vehicle == nullptr ? json(-1) : json(vehicle->index);
 }
 
-json outcome_json(const clients::MissionStore& mission, const packet_outcome_t& outcome) {
+json outcome_json(const clients::RunTimeline& timeline, const packet_outcome_t& outcome) {
   const bool has_sinr = outcome.acquisition_probability > 0 || outcome.success_probability > 0;
-  return {{"receiver", index_of(mission, outcome.receiver_id)},
+  return {{"receiver", index_of(timeline, outcome.receiver_id)},
           {"code", static_cast<int>(outcome.outcome)},
           {"arrive_s", clients::arrival_of(outcome).seconds()},
           {"end_s", clients::end_of(outcome).seconds()},
@@ -73,9 +73,9 @@ std::optional<std::uint64_t> packet_number(std::string_view key) {
   return key.starts_with('p') ? parse_number<std::uint64_t>(key.substr(1)) : std::nullopt;
 }
 
-double sound_speed_at(const clients::MissionStore& mission, double depth_m, SimTime at) {
+double sound_speed_at(const clients::RunTimeline& timeline, double depth_m, SimTime at) {
   constexpr double kUnknown = 1500;
-  const auto* water = mission.water().at_or_before(std::max(at, SimTime()));
+  const auto* water = timeline.water().at_or_before(std::max(at, SimTime()));
   if (water == nullptr || water->value.layer_depth_m.empty()) return kUnknown;
   const std::vector<double>&depths = water->value.layer_depth_m, &speeds = water->value.layer_sound_speed_mps;
   const auto below = std::lower_bound(depths.begin(), depths.end(), depth_m);
@@ -86,15 +86,15 @@ double sound_speed_at(const clients::MissionStore& mission, double depth_m, SimT
   return speeds[i - 1] + share * (speeds[i] - speeds[i - 1]);
 }
 
-json packet_json(const clients::MissionStore& mission, const clients::PacketRecord& packet) {
+json packet_json(const clients::RunTimeline& timeline, const clients::PacketRecord& packet) {
   const bool refused = packet.is_refused();
-  const clients::MissionVehicle* sender = mission.find(packet.name.source_id);
+  const clients::VehicleRecord* sender = timeline.find(packet.name.source_id);
   const auto place = sender == nullptr ? std::nullopt : state_at(sender->track, packet.at());
   json outcomes = json::array();
-  for (const packet_outcome_t& outcome : packet.outcomes) outcomes.push_back(outcome_json(mission, outcome));
+  for (const packet_outcome_t& outcome : packet.outcomes) outcomes.push_back(outcome_json(timeline, outcome));
   json shown = {{"key", packet_key(packet)},
-                {"source", index_of(mission, packet.name.source_id)},
-                {"destination", index_of(mission, packet.destination_id)},
+                {"source", index_of(timeline, packet.name.source_id)},
+                {"destination", index_of(timeline, packet.destination_id)},
                 {"kind", clients::packet_kind_name(packet.name.kind)},
                 {"bytes", packet.payload_bytes < 0 ? json() : json(packet.payload_bytes)},
                 {"depart_s", packet.at().seconds()},
@@ -110,16 +110,16 @@ json packet_json(const clients::MissionStore& mission, const clients::PacketReco
     shown["north_m"] = position.x();
     shown["east_m"] = position.y();
     shown["down_m"] = position.z();
-    depth_m = position.z() - mission.scenario().sea_surface_z_m;
+    depth_m = position.z() - timeline.scenario().sea_surface_z_m;
   }
-  shown["wave_speed_mps"] = sound_speed_at(mission, depth_m, packet.at());
+  shown["wave_speed_mps"] = sound_speed_at(timeline, depth_m, packet.at());
   return shown;
 }
 
-json packets_json(const clients::MissionStore& mission,
+json packets_json(const clients::RunTimeline& timeline,
                   std::span<const clients::PacketRecord* const> packets) {
   json items = json::array();
-  for (const clients::PacketRecord* packet : packets) items.push_back(packet_json(mission, *packet));
+  for (const clients::PacketRecord* packet : packets) items.push_back(packet_json(timeline, *packet));
   return items;
 }
 

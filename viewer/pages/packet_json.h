@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
 #include "runs/timeline/packet_book.h"
+#include "runs/timeline/run_timeline.h"
 
 namespace halocline::monitor {
 
@@ -42,11 +42,11 @@ class PacketIndex {
 std::string packet_key(const clients::PacketRecord& packet);
 std::optional<std::uint64_t> packet_number(std::string_view key);
 
-nlohmann::json packet_json(const clients::MissionStore& mission, const clients::PacketRecord& packet);
-nlohmann::json packets_json(const clients::MissionStore& mission,
+nlohmann::json packet_json(const clients::RunTimeline& timeline, const clients::PacketRecord& packet);
+nlohmann::json packets_json(const clients::RunTimeline& timeline,
                             std::span<const clients::PacketRecord* const> packets);
 
 // Returns the sound speed at a depth below the surface, m/s; 1500 when the water is unknown.
-double sound_speed_at(const clients::MissionStore& mission, double depth_m, SimTime at);
+double sound_speed_at(const clients::RunTimeline& timeline, double depth_m, SimTime at);
 
 }  // namespace halocline::monitor

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/check.h"
-#include "runs/timeline/mission_store.h"
 #include "runs/timeline/packet_book.h"
+#include "runs/timeline/run_timeline.h"
 #include "viewer/pages/link_display.h"
 #include "viewer/pages/mission_json.h"
 #include "viewer/pages/request_fields.h"
@@ -25,13 +25,13 @@ PageSession::PageSession(const Source& source, bool may_command, Outbox outbox)
     : source_(source), outbox_(std::move(outbox)), playback_(!source.is_log()), may_command_(may_command) {}
 
 void PageSession::tick(double steady_s, bool idle, PacketIndex& packets) {
-  const clients::MissionStore& mission = source_.mission();
-  playback_.advance(steady_s, mission.begin(), source_.now());
+  const clients::RunTimeline& timeline = source_.timeline();
+  playback_.advance(steady_s, timeline.begin(), source_.now());
   if (std::exchange(greets_, false)) send(hello_json(source_, may_command_));
   send_mission(steady_s);
   send_state(steady_s, std::exchange(state_wanted_, false));
   if (!idle) return;
-  std::string frame = vehicle_frame(mission, playback_.at());
+  std::string frame = vehicle_frame(timeline, playback_.at());
   if (frame != last_frame_) {
     last_frame_ = frame;
     outbox_(std::move(frame), true);
@@ -52,31 +52,31 @@ void PageSession::send_state(double steady_s, bool at_once) {
 void PageSession::send_mission(double steady_s) {
   if (!last_mission_.is_null() && steady_s - mission_seen_s_ < kMissionPeriod) return;
   mission_seen_s_ = steady_s;
-  json mission = mission_json(source_, playback_.at());
-  if (mission == last_mission_) return;
-  send(mission);
-  last_mission_ = std::move(mission);
+  json timeline = mission_json(source_, playback_.at());
+  if (timeline == last_mission_) return;
+  send(timeline);
+  last_mission_ = std::move(timeline);
 }
 
 void PageSession::send_packets(PacketIndex& packets) {
   // Packets of a log are sent shortly before they depart, so that a page need not wait for a tick.
   constexpr double kAhead_s = 0.5;
-  constexpr std::size_t kMostRecent = 2000;
-  const clients::PacketBook& book = source_.mission().packets();
+  constexpr std::size_t kMaxRecent = 2000;
+  const clients::PacketBook& book = source_.timeline().packets();
   const SimTime at = playback_.at(),
                 until = at + SimDuration::from_seconds(kAhead_s * std::max(playback_.speed(), 1.0));
   std::vector<const clients::PacketRecord*> due;
   if (std::exchange(packets_restart_, false)) {
     packets.refresh(book);
     due = packets.departing(book, at - kPacketsShown, until);
-    if (due.size() > kMostRecent) due.erase(due.begin(), due.end() - kMostRecent);
+    if (due.size() > kMaxRecent) due.erase(due.begin(), due.end() - kMaxRecent);
   } else {
     if (until > packets_until_ && !playback_.is_live()) {
       packets.refresh(book);
       due = packets.departing(book, packets_until_ + SimDuration::from_nanoseconds(1), until);
     }
     if (book.revision() != packets_seen_) {
-      const std::size_t looked_at = std::min(book.all().size(), kMostRecent);
+      const std::size_t looked_at = std::min(book.all().size(), kMaxRecent);
       for (auto packet = book.all().end() - static_cast<std::ptrdiff_t>(looked_at);
            packet != book.all().end(); ++packet) {
         const bool is_shown =
@@ -87,23 +87,23 @@ void PageSession::send_packets(PacketIndex& packets) {
   }
   packets_seen_ = book.revision();
   packets_until_ = until;
-  if (!due.empty()) send({{"type", "packets"}, {"items", packets_json(source_.mission(), due)}});
+  if (!due.empty()) send({{"type", "packets"}, {"items", packets_json(source_.timeline(), due)}});
 }
 
 void PageSession::send_links(double steady_s, PacketIndex& packets) {
   constexpr std::size_t kTimeAt = 8, kTimeSize = 8;
   if (watched_.empty() || steady_s - links_seen_s_ < kLinksPeriod) return;
   links_seen_s_ = steady_s;
-  const clients::MissionStore& mission = source_.mission();
+  const clients::RunTimeline& timeline = source_.timeline();
   std::vector<const clients::PacketRecord*> recent;
   for (const std::size_t column : watched_) {
     const LinkDisplay& display = link_displays()[column];
     if (display.key == kReceivedShare && recent.empty()) {
-      packets.refresh(mission.packets());
-      recent = packets.departing(mission.packets(), playback_.at() - kShareWindow, playback_.at());
+      packets.refresh(timeline.packets());
+      recent = packets.departing(timeline.packets(), playback_.at() - kShareWindow, playback_.at());
     }
     std::string frame = link_frame(static_cast<std::uint16_t>(column), playback_.at(),
-                                   shown_values(mission, display, playback_.at(), recent));
+                                   shown_values(timeline, display, playback_.at(), recent));
     std::string contents = frame;
     contents.erase(kTimeAt, kTimeSize);
     std::string& last = last_links_[column];
@@ -115,10 +115,10 @@ void PageSession::send_links(double steady_s, PacketIndex& packets) {
 
 bool PageSession::take(const json& request) {
   const std::string ask = text_in(request, "ask");
-  const clients::MissionStore& mission = source_.mission();
+  const clients::RunTimeline& timeline = source_.timeline();
   if (ask == "play") {
     const bool begins_again = playback_.at() >= source_.now() && source_.is_log();
-    playback_.play(mission.begin(), source_.now());
+    playback_.play(timeline.begin(), source_.now());
     packets_restart_ = packets_restart_ || begins_again;
   } else if (ask == "pause") {
     playback_.pause();

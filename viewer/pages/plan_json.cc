@@ -45,8 +45,7 @@ json leg_of(const vehicle_plan_t& plan) {
 }
 
 // Returns the activity of a vehicle with a capital first letter.
-std::string activity_of(const clients::MissionVehicle& vehicle, const autopilot_status_t& status,
-                        SimTime at) {
+std::string activity_of(const clients::VehicleRecord& vehicle, const autopilot_status_t& status, SimTime at) {
   std::string text = clients::activity_text(status, vehicle.plan_at(at));
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
@@ -54,7 +53,7 @@ std::string activity_of(const clients::MissionVehicle& vehicle, const autopilot_
 
 }  // namespace
 
-json plan_json(const clients::MissionVehicle& vehicle, SimTime at) {
+json plan_json(const clients::VehicleRecord& vehicle, SimTime at) {
   if (vehicle.plans.empty()) return nullptr;
   const auto* known = vehicle.plans.at_or_before(at);
   const vehicle_plan_t& plan = (known == nullptr ? vehicle.plans.front() : *known).value;
@@ -67,12 +66,12 @@ json plan_json(const clients::MissionVehicle& vehicle, SimTime at) {
           {"waypoints", std::move(waypoints)}};
 }
 
-std::string activity_at(const clients::MissionVehicle& vehicle, SimTime at) {
+std::string activity_at(const clients::VehicleRecord& vehicle, SimTime at) {
   const auto* status = vehicle.activity.at_or_before(at);
   return status == nullptr ? "" : activity_of(vehicle, status->value, at);
 }
 
-json activities_json(const clients::MissionVehicle& vehicle, const Window& window) {
+json activities_json(const clients::VehicleRecord& vehicle, const TimeWindow& window) {
   json all = json::array();
   std::string last;
   for (const auto& [at, status] : vehicle.activity.between(window.from, window.to)) {

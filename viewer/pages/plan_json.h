@@ -7,17 +7,17 @@
 #include <nlohmann/json.hpp>
 
 #include "core/sim_time.h"
-#include "runs/timeline/mission_vehicle.h"
+#include "runs/timeline/vehicle_record.h"
 #include "viewer/pages/request_fields.h"
 
 namespace halocline::monitor {
 
 // Returns the plan that was valid at one time, else the first one known; null when none is known.
-nlohmann::json plan_json(const clients::MissionVehicle& vehicle, SimTime at);
+nlohmann::json plan_json(const clients::VehicleRecord& vehicle, SimTime at);
 
 // Returns a sentence such as "Follows leg 2 of 4, avoiding the seabed"; empty when the activity is unknown.
-std::string activity_at(const clients::MissionVehicle& vehicle, SimTime at);
+std::string activity_at(const clients::VehicleRecord& vehicle, SimTime at);
 // Returns the activities within the window, each with the time of its beginning.
-nlohmann::json activities_json(const clients::MissionVehicle& vehicle, const Window& window);
+nlohmann::json activities_json(const clients::VehicleRecord& vehicle, const TimeWindow& window);
 
 }  // namespace halocline::monitor

@@ -27,7 +27,7 @@ void QueryDesk::ask(terrain_query_t query, TileDone done) {
 }
 
 void QueryDesk::begin(Query query) {
-  if (under_way_.size() >= kMostUnderWay) return fail(query, "Too many requests are under way.");
+  if (under_way_.size() >= kMaxUnderWay) return fail(query, "Too many requests are under way.");
   query.begun_s = query.posted_s = now_s_;
   post_(query.channel, query.bytes);
   under_way_.emplace(last_id_, std::move(query));
@@ -65,14 +65,14 @@ void QueryDesk::take(const BusMessage& reply) {
 
 void QueryDesk::tick(double steady_s) {
   now_s_ = steady_s;
-  std::vector<std::int64_t> given_up;
+  std::vector<std::int64_t> expired;
   for (auto& [id, query] : under_way_) {
-    if (now_s_ - query.begun_s > kPatience_s) given_up.push_back(id);
+    if (now_s_ - query.begun_s > kPatience_s) expired.push_back(id);
     if (now_s_ - query.posted_s < kRepeat_s) continue;
     query.posted_s = now_s_;
     post_(query.channel, query.bytes);
   }
-  for (const std::int64_t id : given_up) {
+  for (const std::int64_t id : expired) {
     const auto query = under_way_.extract(id);
     fail(query.mapped(), query.mapped().link_done ? "The channel server does not answer."
                                                   : "The bathymetry service does not answer.");

@@ -19,7 +19,7 @@ namespace halocline::monitor {
 class QueryDesk {
  public:
   static constexpr double kPatience_s = 10;
-  static constexpr std::size_t kMostUnderWay = 64;
+  static constexpr std::size_t kMaxUnderWay = 64;
   using Post = std::function<void(const std::string& channel, bus::Bytes bytes)>;
   // Receives the reply; null when there is none, and `problem` is then a sentence.
   using LinkDone = std::function<void(const link_reply_t* reply, const std::string& problem)>;

@@ -2,14 +2,14 @@
 #include "viewer/pages/request_fields.h"
 
 #include "core/check.h"
-#include "runs/timeline/mission_vehicle.h"
+#include "runs/timeline/vehicle_record.h"
 
 namespace halocline::monitor {
 namespace {
 
 using nlohmann::json;
 
-constexpr double kMostSeconds = 9e9;
+constexpr double kMaxSeconds = 9e9;
 
 }  // namespace
 
@@ -32,20 +32,20 @@ std::string text_in(const json& request, const char* member) {
   return found->get<std::string>();
 }
 
-Window window_in(const json& request) {
-  return {SimTime::from_seconds(number_in(request, "from_s", -kMostSeconds, kMostSeconds)),
-          SimTime::from_seconds(number_in(request, "to_s", -kMostSeconds, kMostSeconds))};
+TimeWindow window_in(const json& request) {
+  return {SimTime::from_seconds(number_in(request, "from_s", -kMaxSeconds, kMaxSeconds)),
+          SimTime::from_seconds(number_in(request, "to_s", -kMaxSeconds, kMaxSeconds))};
 }
 
 std::size_t max_points_in(const json& request) {
-  constexpr std::int64_t kUsual = 1000, kFewest = 8, kMost = 20'000;
+  constexpr std::int64_t kUsual = 1000, kFewest = 8, kMax = 20'000;
   return static_cast<std::size_t>(
-      request.contains("max_points") ? integer_in(request, "max_points", kFewest, kMost) : kUsual);
+      request.contains("max_points") ? integer_in(request, "max_points", kFewest, kMax) : kUsual);
 }
 
-const clients::MissionVehicle& vehicle_in(const clients::MissionStore& mission, const json& request,
-                                          const char* member) {
-  const auto& vehicles = mission.vehicles();
+const clients::VehicleRecord& vehicle_in(const clients::RunTimeline& timeline, const json& request,
+                                         const char* member) {
+  const auto& vehicles = timeline.vehicles();
   require(!vehicles.empty(), "there are no vehicles yet");
   const auto last = static_cast<std::int64_t>(vehicles.size()) - 1;
   return vehicles[static_cast<std::size_t>(integer_in(request, member, 0, last))];

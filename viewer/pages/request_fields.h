@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
-#include "runs/timeline/mission_vehicle.h"
+#include "runs/timeline/run_timeline.h"
+#include "runs/timeline/vehicle_record.h"
 
 namespace halocline::monitor {
 
@@ -21,15 +21,15 @@ std::int64_t integer_in(const nlohmann::json& request, const char* member, std::
                         std::int64_t highest);
 std::string text_in(const nlohmann::json& request, const char* member);
 
-struct Window {
+struct TimeWindow {
   SimTime from, to;
 };
 // Reads the members from_s and to_s.
-Window window_in(const nlohmann::json& request);
+TimeWindow window_in(const nlohmann::json& request);
 // Reads the member max_points; 1000 when it is missing.
 std::size_t max_points_in(const nlohmann::json& request);
 // Reads a vehicle, given by its index.
-const clients::MissionVehicle& vehicle_in(const clients::MissionStore& mission, const nlohmann::json& request,
-                                          const char* member);
+const clients::VehicleRecord& vehicle_in(const clients::RunTimeline& timeline, const nlohmann::json& request,
+                                         const char* member);
 
 }  // namespace halocline::monitor

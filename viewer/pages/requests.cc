@@ -11,10 +11,10 @@
 #include "core/check.h"
 #include "core/sim_time.h"
 #include "runs/timeline/link_history.h"
-#include "runs/timeline/mission_vehicle.h"
 #include "runs/timeline/packet_book.h"
 #include "runs/timeline/packet_reasons.h"
-#include "viewer/pages/frames.h"
+#include "runs/timeline/vehicle_record.h"
+#include "viewer/pages/binary_messages.h"
 #include "viewer/pages/link_display.h"
 #include "viewer/pages/request_fields.h"
 #include "viewer/pages/vehicle_json.h"
@@ -24,31 +24,31 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostPackets = 5000;
+constexpr std::size_t kMaxPackets = 5000;
 
 struct Ask {
-  const clients::MissionStore& mission;
+  const clients::RunTimeline& timeline;
   PacketIndex& packets;
   const json& request;
 
   std::vector<const clients::PacketRecord*> departing(SimTime from, SimTime to) const {
-    packets.refresh(mission.packets());
-    return packets.departing(mission.packets(), from, to);
+    packets.refresh(timeline.packets());
+    return packets.departing(timeline.packets(), from, to);
   }
 };
 
 json answer_packets(const Ask& ask) {
-  const Window window = window_in(ask.request);
+  const TimeWindow window = window_in(ask.request);
   auto found = ask.departing(window.from, window.to);
-  const bool truncated = found.size() > kMostPackets;
-  if (truncated) found.erase(found.begin(), found.end() - kMostPackets);
-  return {{"items", packets_json(ask.mission, found)}, {"truncated", truncated}};
+  const bool truncated = found.size() > kMaxPackets;
+  if (truncated) found.erase(found.begin(), found.end() - kMaxPackets);
+  return {{"items", packets_json(ask.timeline, found)}, {"truncated", truncated}};
 }
 
 json answer_overview(const Ask& ask) {
-  constexpr std::int64_t kMostBins = 400;
-  const Window window = window_in(ask.request);
-  const auto bins = static_cast<std::size_t>(integer_in(ask.request, "bins", 1, kMostBins));
+  constexpr std::int64_t kMaxBins = 400;
+  const TimeWindow window = window_in(ask.request);
+  const auto bins = static_cast<std::size_t>(integer_in(ask.request, "bins", 1, kMaxBins));
   const double width_s = (window.to - window.from).seconds() / static_cast<double>(bins);
   require(width_s > 0, "to_s is not after from_s");
   std::vector<std::int64_t> sent(bins), received(bins), lost(bins);
@@ -65,19 +65,19 @@ json answer_overview(const Ask& ask) {
 }
 
 json answer_tracks(const Ask& ask) {
-  return tracks_json(ask.mission, window_in(ask.request), max_points_in(ask.request));
+  return tracks_json(ask.timeline, window_in(ask.request), max_points_in(ask.request));
 }
 
 json answer_vehicle(const Ask& ask) {
-  return vehicle_series_json(ask.mission, vehicle_in(ask.mission, ask.request, "vehicle"),
+  return vehicle_series_json(ask.timeline, vehicle_in(ask.timeline, ask.request, "vehicle"),
                              window_in(ask.request), max_points_in(ask.request));
 }
 
 json answer_pair(const Ask& ask) {
-  constexpr std::size_t kMostPoints = 2000;
-  const auto &from = vehicle_in(ask.mission, ask.request, "from"),
-             &to = vehicle_in(ask.mission, ask.request, "to");
-  const Window window = window_in(ask.request);
+  constexpr std::size_t kMaxPoints = 2000;
+  const auto &from = vehicle_in(ask.timeline, ask.request, "from"),
+             &to = vehicle_in(ask.timeline, ask.request, "to");
+  const TimeWindow window = window_in(ask.request);
   const std::string key = text_in(ask.request, "column");
   const std::size_t index = find_display(key);
   require(index < link_displays().size(), "there is no column " + key);
@@ -94,8 +94,8 @@ json answer_pair(const Ask& ask) {
   const clients::LinkColumn* column = clients::link_column(display.key);
   if (column != nullptr) {
     for (const auto& [at, number] :
-         ask.mission.links().history(from.id, to.id, *column, window.from, window.to, kMostPoints)) {
-      const link_t* row = ask.mission.links().row_at(from.id, to.id, at);
+         ask.timeline.links().history(from.id, to.id, *column, window.from, window.to, kMaxPoints)) {
+      const link_t* row = ask.timeline.links().row_at(from.id, to.id, at);
       time_s.push_back(at.seconds());
       value.push_back(row == nullptr ? json() : json(shown_value(display, *row)));
     }
@@ -104,16 +104,16 @@ json answer_pair(const Ask& ask) {
 }
 
 json answer_row(const Ask& ask) {
-  const auto &from = vehicle_in(ask.mission, ask.request, "from"),
-             &to = vehicle_in(ask.mission, ask.request, "to");
+  const auto &from = vehicle_in(ask.timeline, ask.request, "from"),
+             &to = vehicle_in(ask.timeline, ask.request, "to");
   const SimTime at = SimTime::from_seconds(number_in(ask.request, "time_s", -9e9, 9e9));
-  const link_t* row = ask.mission.links().row_at(from.id, to.id, at);
+  const link_t* row = ask.timeline.links().row_at(from.id, to.id, at);
   json values = json::array();
   for (const LinkDisplay& display : link_displays()) {
     double value = std::numeric_limits<double>::quiet_NaN();
     if (display.key == kReceivedShare) {
       const auto recent = ask.departing(at - kShareWindow, at);
-      for (const LinkValue& share : shown_values(ask.mission, display, at, recent)) {
+      for (const LinkValue& share : shown_values(ask.timeline, display, at, recent)) {
         if (share.from == from.index && share.to == to.index) value = share.value;
       }
     } else if (row != nullptr) {
@@ -155,7 +155,7 @@ json colliders_json(const Ask& ask, const packet_outcome_t& outcome) {
     const auto found = std::find_if(near.rbegin(), near.rend(), [&](const clients::PacketRecord* packet) {
       return packet->name.source_id == name.source_id && packet->name.sequence == name.packet_sequence;
     });
-    const clients::MissionVehicle* source = ask.mission.find(name.source_id);
+    const clients::VehicleRecord* source = ask.timeline.find(name.source_id);
     if (found != near.rend() && source != nullptr)
       all.push_back({{"key", packet_key(**found)}, {"source", source->index}});
   }
@@ -165,7 +165,7 @@ json colliders_json(const Ask& ask, const packet_outcome_t& outcome) {
 json answer_packet(const Ask& ask) {
   const std::string key = text_in(ask.request, "key");
   const auto number = packet_number(key);
-  const clients::PacketRecord* packet = number ? ask.mission.packets().find(*number) : nullptr;
+  const clients::PacketRecord* packet = number ? ask.timeline.packets().find(*number) : nullptr;
   require(packet != nullptr, "the packet " + key + " is not known, or too old to be kept");
   json reply = {{"key", key},
                 {"receiver", nullptr},
@@ -176,7 +176,7 @@ json answer_packet(const Ask& ask) {
     reply["sentence"] = clients::refusal(packet->receipt.value_or(0));
     return reply;
   }
-  const clients::MissionVehicle& receiver = vehicle_in(ask.mission, ask.request, "receiver");
+  const clients::VehicleRecord& receiver = vehicle_in(ask.timeline, ask.request, "receiver");
   reply["receiver"] = receiver.index;
   const packet_outcome_t* outcome = outcome_at(*packet, receiver.id);
   if (outcome == nullptr) {
@@ -186,7 +186,7 @@ json answer_packet(const Ask& ask) {
     return reply;
   }
   reply["code"] = static_cast<int>(outcome->outcome);
-  reply["sentence"] = clients::sentence(*outcome, [&](std::int32_t id) { return ask.mission.name(id); });
+  reply["sentence"] = clients::sentence(*outcome, [&](std::int32_t id) { return ask.timeline.name(id); });
   for (const clients::LadderStep& step : clients::ladder(*outcome))
     reply["ladder"].push_back(step_json(step));
   reply["colliders"] = colliders_json(ask, *outcome);
@@ -200,8 +200,8 @@ std::int64_t request_id(const json& request) {
   return integer_in(request, "id", 0, std::int64_t{1} << 53);
 }
 
-json answer_request(const clients::MissionStore& mission, PacketIndex& packets, const json& request) {
-  const Ask ask{mission, packets, request};
+json answer_request(const clients::RunTimeline& timeline, PacketIndex& packets, const json& request) {
+  const Ask ask{timeline, packets, request};
   const std::string what = text_in(request, "ask");
   if (what == "packets") return answer_packets(ask);
   if (what == "overview") return answer_overview(ask);

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runs/timeline/mission_store.h"
+#include "runs/timeline/run_timeline.h"
 #include "viewer/pages/packet_json.h"
 
 namespace halocline::monitor {
@@ -17,7 +17,7 @@ std::int64_t request_id(const nlohmann::json& request);
 
 // Returns the members of the reply. Throws InvalidArgument, with a sentence, for a request that cannot be
 // answered.
-nlohmann::json answer_request(const clients::MissionStore& mission, PacketIndex& packets,
+nlohmann::json answer_request(const clients::RunTimeline& timeline, PacketIndex& packets,
                               const nlohmann::json& request);
 
 }  // namespace halocline::monitor

@@ -12,7 +12,7 @@
 namespace halocline::monitor {
 namespace {
 
-constexpr std::size_t kMostPosts = 10'000;  // most posts in one query
+constexpr std::size_t kMaxPostsAtOnce = 10'000;  // most posts in one query
 
 struct Collection {
   DepthGrid grid;
@@ -39,12 +39,12 @@ void take(Collection& collection, std::size_t first_row, const terrain_tile_t* t
 }  // namespace
 
 DepthGrid terrain_window_in(const nlohmann::json& request) {
-  constexpr std::int64_t kMostRows = 257;
+  constexpr std::int64_t kMaxRows = 257;
   DepthGrid window{.south_m = number_in(request, "south_m", -1e7, 1e7),
                    .west_m = number_in(request, "west_m", -1e7, 1e7),
                    .spacing_m = number_in(request, "spacing_m", 0.1, 1e6),
-                   .rows = static_cast<std::uint16_t>(integer_in(request, "rows", 2, kMostRows)),
-                   .columns = static_cast<std::uint16_t>(integer_in(request, "columns", 2, kMostRows)),
+                   .rows = static_cast<std::uint16_t>(integer_in(request, "rows", 2, kMaxRows)),
+                   .columns = static_cast<std::uint16_t>(integer_in(request, "columns", 2, kMaxRows)),
                    .depth_m = {}};
   window.depth_m.assign(std::size_t{window.rows} * window.columns, std::numeric_limits<float>::quiet_NaN());
   return window;
@@ -52,7 +52,7 @@ DepthGrid terrain_window_in(const nlohmann::json& request) {
 
 void collect_terrain(QueryDesk& queries, const DepthGrid& window,
                      const std::function<void(const DepthGrid* grid, const std::string& problem)>& done) {
-  const std::size_t rows_at_once = std::max<std::size_t>(kMostPosts / window.columns, 1);
+  const std::size_t rows_at_once = std::max<std::size_t>(kMaxPostsAtOnce / window.columns, 1);
   auto collection = std::make_shared<Collection>();
   *collection = {window, (window.rows + rows_at_once - 1) / rows_at_once, done};
   for (std::size_t row = 0; row < window.rows; row += rows_at_once) {
@@ -69,7 +69,7 @@ void collect_terrain(QueryDesk& queries, const DepthGrid& window,
 }
 
 void collect_overview(QueryDesk& queries, const std::function<void(const terrain_tile_t& overview)>& done) {
-  constexpr double kMostIntervals = 96;
+  constexpr double kMaxIntervals = 96;
   terrain_query_t any{};  // any query, for the extent in its reply
   any.post_spacing_m = 1;
   any.requested_rows = any.requested_columns = 1;
@@ -81,7 +81,7 @@ void collect_overview(QueryDesk& queries, const std::function<void(const terrain
     terrain_query_t whole{};
     whole.corner_north_m = tile->extent_south_m;
     whole.corner_east_m = tile->extent_west_m;
-    whole.post_spacing_m = std::max(std::max(north_m, east_m) / kMostIntervals, tile->finest_spacing_m);
+    whole.post_spacing_m = std::max(std::max(north_m, east_m) / kMaxIntervals, tile->finest_spacing_m);
     whole.requested_rows = static_cast<std::int32_t>(north_m / whole.post_spacing_m) + 1;
     whole.requested_columns = static_cast<std::int32_t>(east_m / whole.post_spacing_m) + 1;
     queries.ask(std::move(whole), [done](const terrain_tile_t* overview, const std::string&) {

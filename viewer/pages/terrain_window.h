@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/messages/messages.h"
-#include "viewer/pages/frames.h"
+#include "viewer/pages/binary_messages.h"
 #include "viewer/pages/query_desk.h"
 
 namespace halocline::monitor {

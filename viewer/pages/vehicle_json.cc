@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/elementary.h"
-#include "runs/timeline/mission_vehicle.h"
 #include "runs/timeline/timed_series.h"
+#include "runs/timeline/vehicle_record.h"
 #include "viewer/pages/mission_json.h"
 #include "viewer/pages/plan_json.h"
 
@@ -30,7 +30,7 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 
 class Panels {
  public:
-  Panels(const Window& window, std::size_t max_points) : window_(window), max_points_(max_points) {}
+  Panels(const TimeWindow& window, std::size_t max_points) : window_(window), max_points_(max_points) {}
 
   void begin(const char* key, const char* label, const char* unit, int digits, bool downward = false) {
     end();
@@ -68,7 +68,7 @@ class Panels {
     panel_ = json();
   }
 
-  Window window_;
+  TimeWindow window_;
   std::size_t max_points_;
   json panel_, panels_ = json::array();
 };
@@ -90,14 +90,13 @@ double compass_deg(double angle_rad) {
   return angle_rad < 0 ? angle_rad * kDegrees + 360 : angle_rad * kDegrees;
 }
 
-void add_motion(Panels& panels, const clients::MissionStore& mission,
-                const clients::MissionVehicle& vehicle) {
+void add_motion(Panels& panels, const clients::RunTimeline& timeline, const clients::VehicleRecord& vehicle) {
   using clients::TrackPoint;
   using Sensors = vehicle_sensors_t;
   using Status = autopilot_status_t;
-  const double surface_m = mission.scenario().sea_surface_z_m;
+  const double surface_m = timeline.scenario().sea_surface_z_m;
   const auto seabed_m = [&](const TrackPoint& p) {
-    return mission.seabed_m(p.position_ned_m.x(), p.position_ned_m.y());
+    return timeline.seabed_m(p.position_ned_m.x(), p.position_ned_m.y());
   };
   panels.begin("depth", "Depth", "m", 1, /*downward=*/true);
   panels.add("actual", "actual", vehicle.track, [](const TrackPoint& p) { return p.position_ned_m.z(); });
@@ -128,7 +127,7 @@ void add_motion(Panels& panels, const clients::MissionStore& mission,
              [](const TrackPoint& p) { return p.attitude.pitch * kDegrees; });
 }
 
-void add_actuators(Panels& panels, const clients::MissionVehicle& vehicle) {
+void add_actuators(Panels& panels, const clients::VehicleRecord& vehicle) {
   using Sensors = vehicle_sensors_t;
   using Command = vehicle_command_t;
   panels.begin("propeller", "Propeller", "rpm", 0);
@@ -153,7 +152,7 @@ double deviation_m(const position_estimate_t& estimate) {
   return std::sqrt(std::max(0.0, estimate.covariance_ned_m2[0] + estimate.covariance_ned_m2[4]));
 }
 
-json estimate_json(const clients::MissionVehicle& vehicle, const Window& window, std::size_t max_points) {
+json estimate_json(const clients::VehicleRecord& vehicle, const TimeWindow& window, std::size_t max_points) {
   std::vector<Timed<position_estimate_t>> known;
   for (const auto& entry : vehicle.estimates.between(window.from, window.to)) {
     if (entry.value.estimate_status != position_estimate_t::NONE) known.push_back(entry);
@@ -176,7 +175,7 @@ json estimate_json(const clients::MissionVehicle& vehicle, const Window& window,
   return shown;
 }
 
-json faults_json(const clients::MissionVehicle& vehicle) {
+json faults_json(const clients::VehicleRecord& vehicle) {
   json all = json::array();
   for (const auto& [at, fault] : vehicle.faults) {
     const std::string label = fault_text(fault);
@@ -194,7 +193,7 @@ json faults_json(const clients::MissionVehicle& vehicle) {
   return all;
 }
 
-json safe_states_json(const clients::MissionVehicle& vehicle, const Window& window) {
+json safe_states_json(const clients::VehicleRecord& vehicle, const TimeWindow& window) {
   json all = json::array();
   bool is_safe = false;
   for (const auto& [at, sensors] : vehicle.sensors.between(window.from, window.to)) {
@@ -207,10 +206,10 @@ json safe_states_json(const clients::MissionVehicle& vehicle, const Window& wind
 
 }  // namespace
 
-json vehicle_series_json(const clients::MissionStore& mission, const clients::MissionVehicle& vehicle,
-                         const Window& window, std::size_t max_points) {
+json vehicle_series_json(const clients::RunTimeline& timeline, const clients::VehicleRecord& vehicle,
+                         const TimeWindow& window, std::size_t max_points) {
   Panels panels(window, max_points);
-  add_motion(panels, mission, vehicle);
+  add_motion(panels, timeline, vehicle);
   add_actuators(panels, vehicle);
   panels.begin("error", "Error of the estimate", "m", 1);
   panels.add("error", "actual", vehicle.estimates, horizontal_error_m);
@@ -223,9 +222,9 @@ json vehicle_series_json(const clients::MissionStore& mission, const clients::Mi
           {"safe_state", safe_states_json(vehicle, window)}};
 }
 
-json tracks_json(const clients::MissionStore& mission, const Window& window, std::size_t max_points) {
+json tracks_json(const clients::RunTimeline& timeline, const TimeWindow& window, std::size_t max_points) {
   json tracks = json::array();
-  for (const clients::MissionVehicle& vehicle : mission.vehicles()) {
+  for (const clients::VehicleRecord& vehicle : timeline.vehicles()) {
     json time_s = json::array(), north_m = json::array(), east_m = json::array(), down_m = json::array();
     for (const auto& [at, point] : decimated_track(vehicle.track, window.from, window.to, max_points)) {
       time_s.push_back(at.seconds());

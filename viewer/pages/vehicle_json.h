@@ -6,18 +6,18 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runs/timeline/mission_store.h"
-#include "runs/timeline/mission_vehicle.h"
+#include "runs/timeline/run_timeline.h"
+#include "runs/timeline/vehicle_record.h"
 #include "viewer/pages/request_fields.h"
 
 namespace halocline::monitor {
 
-nlohmann::json vehicle_series_json(const clients::MissionStore& mission,
-                                   const clients::MissionVehicle& vehicle, const Window& window,
+nlohmann::json vehicle_series_json(const clients::RunTimeline& timeline,
+                                   const clients::VehicleRecord& vehicle, const TimeWindow& window,
                                    std::size_t max_points);
 
 // Returns the tracks of all vehicles.
-nlohmann::json tracks_json(const clients::MissionStore& mission, const Window& window,
+nlohmann::json tracks_json(const clients::RunTimeline& timeline, const TimeWindow& window,
                            std::size_t max_points);
 
 }  // namespace halocline::monitor

@@ -7,8 +7,8 @@
 
 #include "core/frames.h"
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
 #include "runs/timeline/packet_reasons.h"
+#include "runs/timeline/run_timeline.h"
 
 namespace halocline::clients {
 

@@ -12,9 +12,9 @@
 #include "core/elementary.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
-#include "runs/timeline/mission_vehicle.h"
 #include "runs/timeline/plan_texts.h"
 #include "runs/timeline/timed_series.h"
+#include "runs/timeline/vehicle_record.h"
 #include "viewer/report/chart_texts.h"
 #include "viewer/report/picture.h"
 #include "viewer/report/svg.h"
@@ -23,7 +23,7 @@
 namespace halocline::clients {
 namespace {
 
-constexpr std::size_t kMostPoints = 600;
+constexpr std::size_t kMaxPoints = 600;
 constexpr double kChartWidth_px = 1120, kStrip_px = 92;
 
 double depth_m(const TrackPoint& point) { return point.position_ned_m.z(); }
@@ -33,32 +33,32 @@ struct DepthRange {
   bool is_seabed_cut = false;          // the seabed is far below every vehicle
 };
 
-bool has_moved(const MissionVehicle& vehicle) { return vehicle.track.size() > 1 && !vehicle.is_at_rest(); }
+bool has_moved(const VehicleRecord& vehicle) { return vehicle.track.size() > 1 && !vehicle.is_at_rest(); }
 
 // Returns the vehicles that are drawn: those that moved farthest, in the order of the run.
-std::vector<const MissionVehicle*> shown_vehicles(const MissionStore& mission) {
-  std::vector<std::pair<double, const MissionVehicle*>> by_way;
-  for (const MissionVehicle& vehicle : mission.vehicles()) {
+std::vector<const VehicleRecord*> shown_vehicles(const RunTimeline& timeline) {
+  std::vector<std::pair<double, const VehicleRecord*>> by_way;
+  for (const VehicleRecord& vehicle : timeline.vehicles()) {
     if (has_moved(vehicle)) by_way.emplace_back(-vehicle.distance_m(), &vehicle);
   }
   std::stable_sort(by_way.begin(), by_way.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   by_way.resize(std::min(by_way.size(), kDepthStrips));
-  std::vector<const MissionVehicle*> shown;
+  std::vector<const VehicleRecord*> shown;
   for (const auto& [way, vehicle] : by_way) shown.push_back(vehicle);
   std::sort(shown.begin(), shown.end(), [](auto* a, auto* b) { return a->index < b->index; });
   return shown;
 }
 
-DepthRange depth_range(const MissionStore& mission, const std::vector<const MissionVehicle*>& vehicles) {
+DepthRange depth_range(const RunTimeline& timeline, const std::vector<const VehicleRecord*>& vehicles) {
   double deepest_m = 1, seabed_m = 0, highest_m = 0;
-  for (const MissionVehicle* vehicle : vehicles) {
+  for (const VehicleRecord* vehicle : vehicles) {
     for (const auto& entry :
-         decimated_track(vehicle->track, SimTime::at_once(), SimTime::never(), kMostPoints)) {
+         decimated_track(vehicle->track, SimTime::at_once(), SimTime::never(), kMaxPoints)) {
       const Vec3& place = entry.value.position_ned_m;
       deepest_m = std::max(deepest_m, place.z());
       highest_m = std::min(highest_m, place.z());
-      const double bottom_m = mission.seabed_m(place.x(), place.y());
+      const double bottom_m = timeline.seabed_m(place.x(), place.y());
       if (!std::isnan(bottom_m)) seabed_m = std::max(seabed_m, bottom_m);
     }
   }
@@ -68,9 +68,9 @@ DepthRange depth_range(const MissionStore& mission, const std::vector<const Miss
 
 class DepthStrip {
  public:
-  DepthStrip(const MissionStore& mission, const MissionVehicle& vehicle, const DepthRange& range,
+  DepthStrip(const RunTimeline& timeline, const VehicleRecord& vehicle, const DepthRange& range,
              const TimeAxis& axis, bool is_last)
-      : mission_(mission), vehicle_(vehicle), range_(range), axis_(axis) {
+      : timeline_(timeline), vehicle_(vehicle), range_(range), axis_(axis) {
     picture_.width_px = kChartWidth_px;
     picture_.height_px = kStrip_px + (is_last ? 54 : 10);
     picture_.left_px = 190;
@@ -85,11 +85,11 @@ class DepthStrip {
   }
 
   std::string svg() {
-    const auto points = decimated_track(vehicle_.track, SimTime::at_once(), SimTime::never(), kMostPoints);
+    const auto points = decimated_track(vehicle_.track, SimTime::at_once(), SimTime::never(), kMaxPoints);
     std::string track = "$track << EOD\n", seabed;
     for (const auto& point : points) {
       const Vec3& place = point.value.position_ned_m;
-      const double bottom_m = mission_.seabed_m(place.x(), place.y());
+      const double bottom_m = timeline_.seabed_m(place.x(), place.y());
       track += row(point.at, place.z());
       if (std::isnan(bottom_m)) continue;
       seabed += row(point.at, std::min(bottom_m, range_.greatest_m));
@@ -139,7 +139,7 @@ class DepthStrip {
 
   // Returns the commanded depth over time. Empty lines interrupt the curve where nothing is commanded.
   std::string commanded_rows() const {
-    const auto chosen = decimated(vehicle_.activity.all(), kMostPoints,
+    const auto chosen = decimated(vehicle_.activity.all(), kMaxPoints,
                                   [](const autopilot_status_t& status) { return status.commanded_z_m; });
     std::string rows;
     for (const auto& [at, status] : chosen)
@@ -175,7 +175,7 @@ class DepthStrip {
     const std::size_t step = std::max<std::size_t>(points.size() / 100, 1);
     for (std::size_t i = 0; i < points.size(); i += step) {
       const Vec3& place = points[i].value.position_ned_m;
-      const double bottom_m = mission_.seabed_m(place.x(), place.y());
+      const double bottom_m = timeline_.seabed_m(place.x(), place.y());
       const std::string below = std::isnan(bottom_m) ? "" : fmt::format(", seabed at {:.0f} m", bottom_m);
       picture_.overlay += fmt::format(
           R"(<circle cx="{}" cy="{}" r="5" class="point">{}</circle>)",
@@ -185,8 +185,8 @@ class DepthStrip {
     }
   }
 
-  const MissionStore& mission_;
-  const MissionVehicle& vehicle_;
+  const RunTimeline& timeline_;
+  const VehicleRecord& vehicle_;
   DepthRange range_;
   TimeAxis axis_;
   Picture picture_;
@@ -195,32 +195,32 @@ class DepthStrip {
 
 }  // namespace
 
-std::string depth_chart(const MissionStore& mission) {
-  const auto vehicles = shown_vehicles(mission);
+std::string depth_chart(const RunTimeline& timeline) {
+  const auto vehicles = shown_vehicles(timeline);
   if (vehicles.empty()) return "";
-  const DepthRange range = depth_range(mission, vehicles);
-  const TimeAxis axis = time_axis(std::max(mission.begin(), SimTime()), mission.end(), 12);
+  const DepthRange range = depth_range(timeline, vehicles);
+  const TimeAxis axis = time_axis(std::max(timeline.begin(), SimTime()), timeline.end(), 12);
   std::string strips;
-  for (const MissionVehicle* vehicle : vehicles)
-    strips += DepthStrip(mission, *vehicle, range, axis, vehicle == vehicles.back()).svg();
+  for (const VehicleRecord* vehicle : vehicles)
+    strips += DepthStrip(timeline, *vehicle, range, axis, vehicle == vehicles.back()).svg();
   return strips;
 }
 
-bool is_seabed_drawn(const MissionStore& mission) {
-  return mission.terrain() && !depth_range(mission, shown_vehicles(mission)).is_seabed_cut;
+bool is_seabed_drawn(const RunTimeline& timeline) {
+  return timeline.terrain() && !depth_range(timeline, shown_vehicles(timeline)).is_seabed_cut;
 }
 
-std::string left_out_strips(const MissionStore& mission) {
-  const auto moved = std::count_if(mission.vehicles().begin(), mission.vehicles().end(), has_moved);
+std::string left_out_strips(const RunTimeline& timeline) {
+  const auto moved = std::count_if(timeline.vehicles().begin(), timeline.vehicles().end(), has_moved);
   const auto left_out = moved - static_cast<std::ptrdiff_t>(kDepthStrips);
   return left_out > 0 ? fmt::format("{} vehicles with shorter ways are left out. ", left_out) : "";
 }
 
-std::string resting_vehicles(const MissionStore& mission) {
+std::string resting_vehicles(const RunTimeline& timeline) {
   constexpr std::size_t kNamed = 12;
   std::string names;
   std::size_t count = 0;
-  for (const MissionVehicle& vehicle : mission.vehicles()) {
+  for (const VehicleRecord& vehicle : timeline.vehicles()) {
     if (vehicle.track.empty() || !vehicle.is_at_rest() || ++count > kNamed) continue;
     names += fmt::format("{}{} ({:.0f} m)", names.empty() ? "" : ", ", vehicle.name,
                          depth_m(vehicle.track.front().value));

@@ -11,10 +11,10 @@
 
 #include "core/elementary.h"
 #include "core/frames.h"
-#include "runs/timeline/mission_vehicle.h"
 #include "runs/timeline/outcome_classes.h"
 #include "runs/timeline/packet_book.h"
 #include "runs/timeline/packet_reasons.h"
+#include "runs/timeline/vehicle_record.h"
 #include "viewer/report/chart_texts.h"
 #include "viewer/report/svg.h"
 
@@ -22,7 +22,7 @@ namespace halocline::clients {
 namespace {
 
 constexpr double kCell_px = 14;
-constexpr std::size_t kMost = 200;  // maximum number of marks: the squares grow until no more are left
+constexpr std::size_t kMax = 200;  // maximum number of marks: the squares grow until no more are left
 
 // Losses of one class of outcomes in one square.
 struct Cluster {
@@ -34,12 +34,12 @@ struct Cluster {
 // Clusters keyed by square and class of outcomes.
 using Clusters = std::map<std::array<int, 3>, Cluster>;
 
-Clusters clusters_of(const MissionStore& mission, const PacketLinks& links, const Picture& chart,
+Clusters clusters_of(const RunTimeline& timeline, const PacketLinks& links, const Picture& chart,
                      double cell_px) {
   Clusters clusters;
-  for (const PacketRecord& packet : mission.packets().all()) {
+  for (const PacketRecord& packet : timeline.packets().all()) {
     for (const packet_outcome_t& o : packet.outcomes) {
-      const MissionVehicle* receiver = mission.find(o.receiver_id);
+      const VehicleRecord* receiver = timeline.find(o.receiver_id);
       if (o.outcome == packet_outcome_t::RECEIVED || receiver == nullptr) continue;
       const auto state = state_at(receiver->track, arrival_of(o));
       if (!state) continue;
@@ -60,14 +60,14 @@ Clusters clusters_of(const MissionStore& mission, const PacketLinks& links, cons
 
 }  // namespace
 
-std::string loss_marks(const MissionStore& mission, const PacketLinks& links, const Picture& chart) {
-  const auto name = [&](std::int32_t id) { return mission.name(id); };
+std::string loss_marks(const RunTimeline& timeline, const PacketLinks& links, const Picture& chart) {
+  const auto name = [&](std::int32_t id) { return timeline.name(id); };
   std::string svg;
   double cell_px = kCell_px;
-  Clusters clusters = clusters_of(mission, links, chart, cell_px);
-  while (clusters.size() > kMost && cell_px < chart.width_px) {
+  Clusters clusters = clusters_of(timeline, links, chart, cell_px);
+  while (clusters.size() > kMax && cell_px < chart.width_px) {
     cell_px *= 1.5;
-    clusters = clusters_of(mission, links, chart, cell_px);
+    clusters = clusters_of(timeline, links, chart, cell_px);
   }
   for (const auto& [key, cluster] : clusters) {
     const OutcomeClass& c = outcome_classes()[static_cast<std::size_t>(key[0])];

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "runs/timeline/mission_store.h"
+#include "runs/timeline/run_timeline.h"
 #include "viewer/report/packet_links.h"
 #include "viewer/report/picture.h"
 
@@ -13,6 +13,6 @@ namespace halocline::clients {
 // Returns SVG elements. Losses that would overlap share one mark: one for each class of outcomes in a square
 // of 14 pixels, or larger squares when there would be more than 200 marks. A mark links to the row of its
 // first packet in the table of losses.
-std::string loss_marks(const MissionStore& mission, const PacketLinks& links, const Picture& chart);
+std::string loss_marks(const RunTimeline& timeline, const PacketLinks& links, const Picture& chart);
 
 }  // namespace halocline::clients

@@ -32,10 +32,10 @@ struct Window {
 
 class Lanes {
  public:
-  Lanes(const MissionStore& mission, PacketLinks& links) : mission_(mission), links_(links) {}
+  Lanes(const RunTimeline& timeline, PacketLinks& links) : timeline_(timeline), links_(links) {}
 
   PacketLanes drawn() {
-    for (const PacketRecord& packet : mission_.packets().all()) packets_.push_back(&packet);
+    for (const PacketRecord& packet : timeline_.packets().all()) packets_.push_back(&packet);
     std::stable_sort(packets_.begin(), packets_.end(),
                      [](const PacketRecord* a, const PacketRecord* b) { return a->at() < b->at(); });
     if (packets_.empty()) return {};
@@ -44,13 +44,11 @@ class Lanes {
     std::string svg;
     for (int row = 0; row < rows_; ++row) svg += row_of(row);
     const double height = rows_ * row_height() - kRowGap_px;
-    return {
-        fmt::format(
-            R"(<svg viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img" aria-label="Time )"
-            R"(line of packets">)",
-            px(kWidth_px), px(height)) +
-            svg + "</svg>\n",
-        note()};
+    return {fmt::format(R"(<svg viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img" aria-label="Time )"
+                        R"(line of packets">)",
+                        px(kWidth_px), px(height)) +
+                svg + "</svg>\n",
+            note()};
   }
 
  private:
@@ -80,7 +78,7 @@ class Lanes {
     }
     std::sort(durations_s.begin(), durations_s.end());
     const double usual_s = durations_s.empty() ? 1 : std::max(durations_s[durations_s.size() / 2], 1e-3);
-    const Window all{std::max(mission_.begin(), SimTime()).seconds(), mission_.end().seconds()};
+    const Window all{std::max(timeline_.begin(), SimTime()).seconds(), timeline_.end().seconds()};
     const double span_s = std::max(all.end_s - all.begin_s, 1.0);
     const double px_per_s = kPacket_px / usual_s, width_px = kWidth_px - kLeft_px - kRight_px;
     const double row_s = width_px / px_per_s;
@@ -139,9 +137,9 @@ class Lanes {
     std::string svg = axis();
     for (const auto& [id, lane] : lanes_) {
       svg +=
-          swatch(mission_.find(id), 11, lane_y(lane) + 16) +
+          swatch(timeline_.find(id), 11, lane_y(lane) + 16) +
           fmt::format(R"(<text x="28" y="{}" class="lane">{}</text><path d="M{} {}H{}" class="lane-line"/>)",
-                      px(lane_y(lane) + 21), escaped_xml(mission_.name(id)), px(kLeft_px),
+                      px(lane_y(lane) + 21), escaped_xml(timeline_.name(id)), px(kLeft_px),
                       px(lane_y(lane) + kLane_px - 2), px(kWidth_px - kRight_px));
     }
     // Thin lines are drawn first, and bars above them.
@@ -163,10 +161,9 @@ class Lanes {
     const double bottom = top_ + static_cast<double>(lanes_.size()) * kLane_px;
     std::string svg;
     for (double t = std::ceil(row_.begin_s / axis.step_s) * axis.step_s; t <= row_.end_s; t += axis.step_s) {
-      svg += fmt::format(
-          R"(<path d="M{0} {1}V{2}" class="grid"/>)"
-          R"(<text x="{0}" y="{3}" text-anchor="middle" class="tick">{4:g} {5}</text>)",
-          px(x(t)), px(top_), px(bottom), px(bottom + 16), t / axis.unit_s, axis.unit);
+      svg += fmt::format(R"(<path d="M{0} {1}V{2}" class="grid"/>)"
+                         R"(<text x="{0}" y="{3}" text-anchor="middle" class="tick">{4:g} {5}</text>)",
+                         px(x(t)), px(top_), px(bottom), px(bottom + 16), t / axis.unit_s, axis.unit);
     }
     return svg;
   }
@@ -187,8 +184,8 @@ class Lanes {
   std::string transmission(const PacketRecord& packet, std::size_t lane) {
     const double begin_s = packet.at().seconds();
     const std::string title = fmt::format(
-        "{}:{} to {} at {}{}", mission_.name(packet.name.source_id), packet.name.sequence,
-        packet.destination_id == 0 ? "all" : mission_.name(packet.destination_id), time_text(begin_s),
+        "{}:{} to {} at {}{}", timeline_.name(packet.name.source_id), packet.name.sequence,
+        packet.destination_id == 0 ? "all" : timeline_.name(packet.destination_id), time_text(begin_s),
         packet.payload_bytes >= 0 ? fmt::format(", {} bytes", packet.payload_bytes) : "");
     if (packet.is_refused()) {
       if (begin_s < row_.begin_s) return "";
@@ -200,7 +197,7 @@ class Lanes {
     if (right <= left) return "";
     return fmt::format(R"(<rect x="{}" y="{}" width="{}" height="13" class="sent {}">{}</rect>)", px(left),
                        px(lane_y(lane) + 2), px(std::max(right - left, 1.5)),
-                       classes_of(mission_.find(packet.name.source_id)),
+                       classes_of(timeline_.find(packet.name.source_id)),
                        hover(title + fmt::format(", {:.2f} s long", packet.duration_s)));
   }
 
@@ -211,7 +208,7 @@ class Lanes {
     const double begin_s = arrival_of(o).seconds(), end_s = end_of(o).seconds();
     const double y = lane_y(lanes_.at(o.receiver_id)) + 17, left = clamped_x(begin_s),
                  right = clamped_x(end_s);
-    const auto name = [&](std::int32_t id) { return mission_.name(id); };
+    const auto name = [&](std::int32_t id) { return timeline_.name(id); };
     const std::string title = packet_title(o, name) +
                               fmt::format(", arrives after {:.3f} s. ", o.travel_time_s) + sentence(o, name);
     if (right <= left) return;
@@ -238,7 +235,7 @@ class Lanes {
     bars += is_lost && begins_here ? marked(loss, classes, bar) : "<g" + classes + ">" + bar + "</g>";
   }
 
-  const MissionStore& mission_;
+  const RunTimeline& timeline_;
   PacketLinks& links_;
   std::vector<const PacketRecord*> packets_;   // sorted by departure
   std::map<std::int32_t, std::size_t> lanes_;  // keyed by vehicle id
@@ -251,8 +248,8 @@ class Lanes {
 
 }  // namespace
 
-PacketLanes packet_lanes(const MissionStore& mission, PacketLinks& links) {
-  return Lanes(mission, links).drawn();
+PacketLanes packet_lanes(const RunTimeline& timeline, PacketLinks& links) {
+  return Lanes(timeline, links).drawn();
 }
 
 }  // namespace halocline::clients

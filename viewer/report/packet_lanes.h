@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "runs/timeline/mission_store.h"
+#include "runs/timeline/run_timeline.h"
 #include "viewer/report/packet_links.h"
 
 namespace halocline::clients {
@@ -22,6 +22,6 @@ struct PacketLanes {
 
 // Draws the whole run if it fits, otherwise the interval with the most departures among those short enough.
 // Adds the marks that it draws to `links`.
-PacketLanes packet_lanes(const MissionStore& mission, PacketLinks& links);
+PacketLanes packet_lanes(const RunTimeline& timeline, PacketLinks& links);
 
 }  // namespace halocline::clients

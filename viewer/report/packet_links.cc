@@ -14,7 +14,7 @@ std::string link(const std::string& id, const std::string& content) {
 
 }  // namespace
 
-PacketLinks::PacketLinks(const MissionStore& mission, std::string prefix) : prefix_(std::move(prefix)) {
+PacketLinks::PacketLinks(const RunTimeline& timeline, std::string prefix) : prefix_(std::move(prefix)) {
   const auto add = [&](const Loss& loss) {
     if (listed_.size() >= kLossesListed) {
       ++left_out_;
@@ -23,7 +23,7 @@ PacketLinks::PacketLinks(const MissionStore& mission, std::string prefix) : pref
       rows_.insert(key_of(loss));
     }
   };
-  for (const PacketRecord* packet : mission.packets().between(SimTime::at_once(), SimTime::never())) {
+  for (const PacketRecord* packet : timeline.packets().between(SimTime::at_once(), SimTime::never())) {
     if (packet->is_refused()) add({packet, nullptr});
     for (const packet_outcome_t& outcome : packet->outcomes) {
       if (outcome.outcome != packet_outcome_t::RECEIVED) add({packet, &outcome});

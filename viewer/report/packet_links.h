@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "runs/timeline/mission_store.h"
 #include "runs/timeline/packet_book.h"
+#include "runs/timeline/run_timeline.h"
 
 namespace halocline::clients {
 
@@ -27,7 +27,7 @@ struct Loss {
 class PacketLinks {
  public:
   // Collects the losses. `prefix` starts every id: a page on two runs needs two prefixes.
-  explicit PacketLinks(const MissionStore& mission, std::string prefix = "");
+  explicit PacketLinks(const RunTimeline& timeline, std::string prefix = "");
 
   // Return the losses that the table lists, sorted by departure, and the number of further ones.
   const std::vector<Loss>& listed() const { return listed_; }

@@ -21,8 +21,8 @@ constexpr double kLevel = 0.95;
 
 }  // namespace
 
-std::string range_chart(const MissionStore& mission) {
-  const std::vector<RangeDelivery> ranges = delivery_by_range(mission, kSteps);
+std::string range_chart(const RunTimeline& timeline) {
+  const std::vector<RangeDelivery> ranges = delivery_by_range(timeline, kSteps);
   if (ranges.empty()) return "";
   const bool in_km = ranges.back().to_m >= 2000;
   const double unit_m = in_km ? 1000 : 1;

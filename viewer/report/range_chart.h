@@ -5,11 +5,11 @@
 
 #include <string>
 
-#include "runs/timeline/mission_store.h"
+#include "runs/timeline/run_timeline.h"
 
 namespace halocline::clients {
 
 // Returns an SVG element; empty without outcomes. Throws as run_gnuplot (plot.h).
-std::string range_chart(const MissionStore& mission);
+std::string range_chart(const RunTimeline& timeline);
 
 }  // namespace halocline::clients

@@ -9,14 +9,14 @@
 #include <fmt/format.h>
 
 #include "runs/plot/plot.h"
-#include "runs/timeline/mission_summary.h"
 #include "runs/timeline/outcome_classes.h"
+#include "runs/timeline/run_summary.h"
 #include "viewer/report/chart_texts.h"
 #include "viewer/report/depth_chart.h"
-#include "viewer/report/mission_chart.h"
 #include "viewer/report/packet_lanes.h"
 #include "viewer/report/packet_links.h"
 #include "viewer/report/range_chart.h"
+#include "viewer/report/run_chart.h"
 #include "viewer/report/svg.h"
 #include "viewer/report/tables.h"
 
@@ -52,12 +52,12 @@ std::string or_sentence(const std::string& html, const char* when_empty) {
 struct PagePart {
   PagePart(const ReportPart& report_part, const std::string& prefix)
       : part(report_part),
-        mission(part.mission),
-        links(mission, prefix),
-        lanes(packet_lanes(mission, links)) {}
+        timeline(part.timeline),
+        links(timeline, prefix),
+        lanes(packet_lanes(timeline, links)) {}
 
   const ReportPart& part;
-  const MissionStore& mission;
+  const RunTimeline& timeline;
   PacketLinks links;
   PacketLanes lanes;
 };
@@ -78,42 +78,42 @@ std::string legend() {
 }
 
 std::string chart_section(const PagePart& part) {
-  const MissionStore& mission = part.mission;
+  const RunTimeline& timeline = part.timeline;
   std::string samples =
       sample(R"(<circle cx="11" cy="5" r="4" class="start"/>)", "start") +
       sample(R"svg(<path d="M0-6L4 4L0 2L-4 4Z" transform="translate(11 6)" class="vehicle"/>)svg",
              "last place and heading") +
       sample(R"(<rect x="7" y="1" width="8" height="8" class="vehicle"/>)", "at rest");
-  if (has_details(mission))
+  if (has_details(timeline))
     samples +=
         sample(R"(<circle cx="11" cy="5" r="2.6" class="time"/>)",
-               "every " + step_text(time_dots_s(mission))) +
+               "every " + step_text(time_dots_s(timeline))) +
         sample(R"(<path d="M0 5H22" class="plan"/><rect x="8" y="2" width="6" height="6" class="waypoint"/>)",
                "plan and waypoints");
   std::string caption =
       "Each vehicle has one colour on this page. Dotted lines between vehicles are as wide as the share of "
       "packets received. "
       "Marks beside a track: packets lost there; a click leads to one of them in the list below.";
-  if (mission.terrain()) caption += " Contours in metres, light from the north-west.";
-  caption += left_out_tracks(mission);
-  return picture([&] { return mission_chart(mission, part.links); },
+  if (timeline.terrain()) caption += " Contours in metres, light from the north-west.";
+  caption += left_out_tracks(timeline);
+  return picture([&] { return run_chart(timeline, part.links); },
                  "No vehicle published a state, so there is no chart.") +
          legend_of(samples) + legend() + paragraph(caption);
 }
 
 std::string depth_section(const PagePart& part) {
-  const MissionStore& mission = part.mission;
+  const RunTimeline& timeline = part.timeline;
   std::string samples =
       sample(R"(<path d="M0 5H22" class="track"/>)", "depth of the vehicle, in its colour") +
       sample(R"(<path d="M0 5H22" class="commanded"/>)", "commanded depth");
   std::string caption = "Depths in metres below the surface. ";
-  if (is_seabed_drawn(mission))
+  if (is_seabed_drawn(timeline))
     samples += sample(R"(<path d="M0 3H22V10H0Z" class="seabed"/><path d="M0 3H22" class="seabed-edge"/>)",
                       "seabed below the vehicle");
-  else if (mission.terrain())
+  else if (timeline.terrain())
     caption += "The seabed lies far below what is drawn; its depth stands at the left. ";
-  return picture([&] { return depth_chart(mission); }, "No vehicle moved.") + legend_of(samples) +
-         paragraph(escaped_xml(caption + left_out_strips(mission) + resting_vehicles(mission)));
+  return picture([&] { return depth_chart(timeline); }, "No vehicle moved.") + legend_of(samples) +
+         paragraph(escaped_xml(caption + left_out_strips(timeline) + resting_vehicles(timeline)));
 }
 
 std::string lanes_section(const PagePart& part) {
@@ -129,14 +129,14 @@ std::string lanes_section(const PagePart& part) {
 }
 
 std::string matrix_section(const PagePart& part) {
-  return or_sentence(link_matrix(part.mission), "No packet had an outcome.") +
+  return or_sentence(link_matrix(part.timeline), "No packet had an outcome.") +
          paragraph(
              "Share of the row's packets that the column received, whomever they were addressed to; median "
              "SNR.");
 }
 
 std::string range_section(const PagePart& part) {
-  return picture([&] { return range_chart(part.mission); }, "No packet had an outcome.") +
+  return picture([&] { return range_chart(part.timeline); }, "No packet had an outcome.") +
          paragraph(
              "Circles: packets received, with the 95 % interval of as many independent packets. Dashed: the "
              "mean of what the "
@@ -144,7 +144,7 @@ std::string range_section(const PagePart& part) {
 }
 
 std::string ledger_section(const PagePart& part) {
-  return or_sentence(outcome_table(part.mission, part.links), "No packet had an outcome.") +
+  return or_sentence(outcome_table(part.timeline, part.links), "No packet had an outcome.") +
          paragraph(
              "One outcome for each packet at each vehicle that could have received it. A cause leads to the "
              "first "
@@ -152,16 +152,16 @@ std::string ledger_section(const PagePart& part) {
 }
 
 std::string losses_section(const PagePart& part) {
-  return or_sentence(loss_table(part.mission, part.links), "No packet was lost.");
+  return or_sentence(loss_table(part.timeline, part.links), "No packet was lost.");
 }
 
 std::string nodes_section(const PagePart& part) {
-  return or_sentence(node_table(part.mission), "Every program received everything.");
+  return or_sentence(node_table(part.timeline), "Every program received everything.");
 }
 
 // Shows the scenario without the files that its configuration carries, which may have megabytes.
 std::string scenario_section(const PagePart& part) {
-  const std::string& toml = part.mission.scenario().toml;
+  const std::string& toml = part.timeline.scenario().toml;
   if (toml.empty()) return paragraph("The log does not hold it, and no file lies beside it.");
   const auto files = toml.find("\n[[file]]\n");
   return "<pre>" + escaped_xml(toml.substr(0, files)) + "</pre>\n" +
@@ -189,17 +189,17 @@ constexpr Section kSections[] = {
 };
 
 std::string facts(const ReportPart& part) {
-  const MissionStore& mission = part.mission;
-  const MissionScenario& scenario = mission.scenario();
+  const RunTimeline& timeline = part.timeline;
+  const RunScenario& scenario = timeline.scenario();
   std::vector<std::string> texts;
-  if (mission.begin() <= mission.end())
-    texts.push_back(time_text(mission.begin().seconds()) + " to " + time_text(mission.end().seconds()));
-  texts.push_back(fmt::format("{} vehicles", mission.vehicles().size()));
+  if (timeline.begin() <= timeline.end())
+    texts.push_back(time_text(timeline.begin().seconds()) + " to " + time_text(timeline.end().seconds()));
+  texts.push_back(fmt::format("{} vehicles", timeline.vehicles().size()));
   if (!scenario.name.empty()) texts.push_back(fmt::format("seed {}", scenario.seed));
   if (const auto& origin = scenario.origin)
     texts.push_back(fmt::format("origin {:.4f}°, {:.4f}°", origin->latitude_deg, origin->longitude_deg));
-  if (!mission.water().empty()) {
-    const environment_t& water = mission.water().front().value;
+  if (!timeline.water().empty()) {
+    const environment_t& water = timeline.water().front().value;
     texts.push_back(fmt::format("wind {:.1f} m/s", water.wind_speed_mps));
   }
   texts.push_back(part.log);
@@ -209,11 +209,11 @@ std::string facts(const ReportPart& part) {
 }
 
 std::string heading(const ReportPart& part) {
-  const MissionScenario& scenario = part.mission.scenario();
-  std::string html = "<h1>" + escaped_xml(scenario.name.empty() ? "A mission" : scenario.name) + "</h1>\n";
+  const RunScenario& scenario = part.timeline.scenario();
+  std::string html = "<h1>" + escaped_xml(scenario.name.empty() ? "A run" : scenario.name) + "</h1>\n";
   html += paragraph(escaped_xml(scenario.description), "lead") + paragraph(facts(part));
   html += "<table class=\"summary\">\n";
-  for (const SummaryRow& row : mission_summary(part.mission))
+  for (const SummaryRow& row : run_summary(part.timeline))
     html += "<tr><th>" + escaped_xml(row.key) + "</th><td>" + escaped_xml(row.text) + "</td></tr>\n";
   html += "</table>\n";
   for (const std::string& remark : part.remarks) html += paragraph(escaped_xml(remark), "remark");
@@ -285,7 +285,7 @@ std::string comparison_html(const Comparison& comparison) {
 }
 
 std::string title_of(const ReportPart& part) {
-  const std::string& name = part.mission.scenario().name;
+  const std::string& name = part.timeline.scenario().name;
   return name.empty() ? part.log : name;
 }
 

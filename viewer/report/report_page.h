@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "runs/analysis/comparison.h"
-#include "runs/timeline/mission_store.h"
+#include "runs/timeline/run_timeline.h"
 
 namespace halocline::clients {
 
 // One of the logs of a report.
 struct ReportPart {
   std::string log;  // name of the log
-  const MissionStore& mission;
+  const RunTimeline& timeline;
   std::vector<std::string> remarks = {};  // sentences: damage, times shifted
 };
 

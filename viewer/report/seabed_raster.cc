@@ -29,7 +29,7 @@ double cubic(double a, double b, double c, double d, double t) {
 }
 
 // Returns the bicubic surface at a position, m; NaN when one of the sixteen surrounding posts is missing.
-double smooth_depth_m(const MissionTerrain& terrain, double north_m, double east_m) {
+double smooth_depth_m(const TerrainOverview& terrain, double north_m, double east_m) {
   const double row = (north_m - terrain.south_m) / terrain.north_spacing_m;
   const double column = (east_m - terrain.west_m) / terrain.east_spacing_m;
   const auto last_row = static_cast<std::ptrdiff_t>(terrain.rows) - 1;
@@ -48,7 +48,7 @@ double smooth_depth_m(const MissionTerrain& terrain, double north_m, double east
   return cubic(along[0], along[1], along[2], along[3], row - static_cast<double>(r));
 }
 
-double depth_m(const MissionTerrain& terrain, double north_m, double east_m) {
+double depth_m(const TerrainOverview& terrain, double north_m, double east_m) {
   const double linear = terrain.depth_at_m(north_m, east_m);
   if (std::isnan(linear)) return linear;
   const double smooth = smooth_depth_m(terrain, north_m, east_m);
@@ -95,7 +95,7 @@ std::array<std::uint8_t, 3> deep_colour(double share) {
   return colour;
 }
 
-SeabedRaster seabed_raster(const MissionTerrain& terrain, const MapExtent& extent, std::size_t width,
+SeabedRaster seabed_raster(const TerrainOverview& terrain, const MapExtent& extent, std::size_t width,
                            std::size_t height) {
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
   SeabedRaster raster{

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "runs/timeline/mission_terrain.h"
+#include "runs/timeline/terrain_overview.h"
 
 namespace halocline::clients {
 
@@ -29,7 +29,7 @@ std::array<std::uint8_t, 3> deep_colour(double share);
 
 // Draws the seabed. Between posts it is a bicubic surface (Catmull and Rom 1974), next to posts without
 // terrain a bilinear one.
-SeabedRaster seabed_raster(const MissionTerrain& terrain, const MapExtent& extent, std::size_t width,
+SeabedRaster seabed_raster(const TerrainOverview& terrain, const MapExtent& extent, std::size_t width,
                            std::size_t height);
 
 }  // namespace halocline::clients

@@ -38,19 +38,18 @@ std::string matrix_cell(const PairDelivery& pair, const std::string& from, const
 }
 
 std::string ledger_row(const OutcomeClass& c, const std::string& name, std::int64_t count, std::int64_t all) {
-  return fmt::format(
-      R"(<tr><td>{} {}</td><td class="number">{}</td><td class="number">{}<span class="unit">)"
-      R"( %</span></td><td class="share"><i class="c-{}" style="width:{}%"></i></td></tr>)"
-      "\n",
-      inline_mark(c), name, count, percent(count, all), c.key, percent(count, all));
+  return fmt::format(R"(<tr><td>{} {}</td><td class="number">{}</td><td class="number">{}<span class="unit">)"
+                     R"( %</span></td><td class="share"><i class="c-{}" style="width:{}%"></i></td></tr>)"
+                     "\n",
+                     inline_mark(c), name, count, percent(count, all), c.key, percent(count, all));
 }
 
 }  // namespace
 
-std::string link_matrix(const MissionStore& mission) {
+std::string link_matrix(const RunTimeline& timeline) {
   std::map<std::pair<std::int32_t, std::int32_t>, PairDelivery> pairs;
   std::vector<std::int32_t> ids;
-  for (const PairDelivery& pair : delivery_by_pair(mission)) {
+  for (const PairDelivery& pair : delivery_by_pair(timeline)) {
     pairs[{pair.from_id, pair.to_id}] = pair;
     ids.push_back(pair.from_id);
     ids.push_back(pair.to_id);
@@ -61,14 +60,14 @@ std::string link_matrix(const MissionStore& mission) {
   const std::size_t left_out = ids.size() > kMatrixVehicles ? ids.size() - kMatrixVehicles : 0;
   ids.resize(ids.size() - left_out);
   std::string html = "<div class=\"wide\"><table class=\"matrix\"><tr><th>from \\ to</th>";
-  for (const std::int32_t id : ids) html += "<th>" + escaped_xml(mission.name(id)) + "</th>";
+  for (const std::int32_t id : ids) html += "<th>" + escaped_xml(timeline.name(id)) + "</th>";
   html += "</tr>\n";
   for (const std::int32_t from : ids) {
-    html += "<tr><th>" + escaped_xml(mission.name(from)) + "</th>";
+    html += "<tr><th>" + escaped_xml(timeline.name(from)) + "</th>";
     for (const std::int32_t to : ids) {
       const auto pair = pairs.find({from, to});
-      html +=
-          pair != pairs.end() ? matrix_cell(pair->second, mission.name(from), mission.name(to)) : "<td></td>";
+      html += pair != pairs.end() ? matrix_cell(pair->second, timeline.name(from), timeline.name(to))
+                                  : "<td></td>";
     }
     html += "</tr>\n";
   }
@@ -77,11 +76,11 @@ std::string link_matrix(const MissionStore& mission) {
   return html;
 }
 
-std::string outcome_table(const MissionStore& mission, const PacketLinks& links) {
-  const OutcomeCounts& counts = mission.ledger().total();
+std::string outcome_table(const RunTimeline& timeline, const PacketLinks& links) {
+  const OutcomeCounts& counts = timeline.ledger().total();
   const std::int64_t all = sum(counts);
   std::map<std::int8_t, std::int64_t> refused;
-  for (const PacketRecord& packet : mission.packets().all()) {
+  for (const PacketRecord& packet : timeline.packets().all()) {
     if (packet.is_refused()) ++refused[*packet.receipt];
   }
   if (all == 0 && refused.empty()) return "";
@@ -110,9 +109,9 @@ std::string outcome_table(const MissionStore& mission, const PacketLinks& links)
   return html + "</table>\n";
 }
 
-std::string loss_table(const MissionStore& mission, const PacketLinks& links) {
+std::string loss_table(const RunTimeline& timeline, const PacketLinks& links) {
   if (links.listed().empty()) return "";
-  const auto name = [&](std::int32_t id) { return mission.name(id); };
+  const auto name = [&](std::int32_t id) { return timeline.name(id); };
   std::string rows;
   for (const Loss& loss : links.listed()) {
     const PacketRecord& packet = *loss.packet;
@@ -142,9 +141,9 @@ std::string loss_table(const MissionStore& mission, const PacketLinks& links) {
   return html;
 }
 
-std::string node_table(const MissionStore& mission) {
+std::string node_table(const RunTimeline& timeline) {
   std::string rows;
-  for (const auto& [name, node] : mission.health().nodes()) {
+  for (const auto& [name, node] : timeline.health().nodes()) {
     const node_status_t& s = node.status;
     const bool is_sound = s.gaps + s.lost + s.late + s.messages_refused == 0 && node.held_real_time();
     if (is_sound && node.incarnations < 2) continue;

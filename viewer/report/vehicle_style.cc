@@ -23,16 +23,16 @@ constexpr std::array<const char*, 4> kDashes{"none", "7 3", "2 3", "9 3 2 3"};
 
 const std::array<VehicleColour, kVehicleColours>& vehicle_colours() { return kColours; }
 
-std::string colour_of(const MissionVehicle& vehicle) {
+std::string colour_of(const VehicleRecord& vehicle) {
   return fmt::format("v-{}", vehicle.index % kVehicleColours);
 }
 
-std::string classes_of(const MissionVehicle* vehicle) {
+std::string classes_of(const VehicleRecord* vehicle) {
   if (vehicle == nullptr) return "";
   return fmt::format("{} dash-{}", colour_of(*vehicle), vehicle->index / kVehicleColours % kDashes.size());
 }
 
-std::string swatch(const MissionVehicle* vehicle, double x, double y) {
+std::string swatch(const VehicleRecord* vehicle, double x, double y) {
   return fmt::format(R"(<path d="M{} {}h22" class="swatch {}"/>)", px(x - 11), px(y), classes_of(vehicle));
 }
 

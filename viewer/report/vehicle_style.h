@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <string>
 
-#include "runs/timeline/mission_vehicle.h"
+#include "runs/timeline/vehicle_record.h"
 
 namespace halocline::clients {
 
@@ -25,12 +25,12 @@ inline constexpr std::size_t kVehicleColours = 8;
 const std::array<VehicleColour, kVehicleColours>& vehicle_colours();
 
 // Returns the page's variable for the vehicle's colour: "v-3".
-std::string colour_of(const MissionVehicle& vehicle);
+std::string colour_of(const VehicleRecord& vehicle);
 // Returns the classes of a line for the vehicle: "v-3 dash-1"; empty for null, a line in the colour of text.
-std::string classes_of(const MissionVehicle* vehicle);
+std::string classes_of(const VehicleRecord* vehicle);
 
 // Returns a short piece of the vehicle's line, centred on (x, y), for the label of a lane.
-std::string swatch(const MissionVehicle* vehicle, double x, double y);
+std::string swatch(const VehicleRecord* vehicle, double x, double y);
 
 // Return the style sheet of vehicles: their colours for one scheme, and the classes of lines.
 std::string vehicle_style(bool on_dark);

@@ -7,8 +7,8 @@
 #include "bus/messages/channels.h"
 #include "bus/runtime/node_process.h"
 #include "bus/transport/transport.h"
-#include "runs/timeline/mission_vehicle.h"
 #include "runs/timeline/node_health.h"
+#include "runs/timeline/vehicle_record.h"
 #include "viewer/sources/handover.h"
 #include "viewer/sources/modems.h"
 
@@ -26,26 +26,26 @@ BusSource::BusSource(const std::string& lcm_url, const std::string& accept, SimD
       history_(history),
       receiver_(url_, bus::accepted_hosts(accept, url_), "monitor"),
       last_message_(bus::steady_now()) {
-  mission_.limit_history(history_);
+  timeline_.limit_history(history_);
 }
 
 void BusSource::begin_run() {
-  mission_ = clients::MissionStore();
-  mission_.limit_history(history_);
+  timeline_ = clients::RunTimeline();
+  timeline_.limit_history(history_);
   configuration_.clear();
   ++run_;
 }
 
 void BusSource::take_scenario_modems() {
-  const std::string& configuration = mission_.scenario().toml;
+  const std::string& configuration = timeline_.scenario().toml;
   if (configuration.empty() || configuration == configuration_) return;
   configuration_ = configuration;
   std::vector<std::string> vehicles;
-  for (const clients::MissionVehicle& vehicle : mission_.vehicles()) {
+  for (const clients::VehicleRecord& vehicle : timeline_.vehicles()) {
     if (vehicle.described && !vehicle.modem) vehicles.push_back(vehicle.name);
   }
-  for (const BusMessage& modem : modems_in(configuration_, vehicles, mission_.end()))
-    mission_.add(modem.stamp_us, modem.channel, modem.bytes);
+  for (const BusMessage& modem : modems_in(configuration_, vehicles, timeline_.end()))
+    timeline_.add(modem.stamp_us, modem.channel, modem.bytes);
 }
 
 void BusSource::update() {
@@ -57,7 +57,7 @@ void BusSource::update() {
     last_message_ = bus::steady_now();
     ++received_;
     if (is_reply_ && is_reply_(message.channel)) replies_.push_back(message);
-    mission_.add(message.stamp_us, message.channel, message.bytes);
+    timeline_.add(message.stamp_us, message.channel, message.bytes);
     if (message.channel == bus::channels::kScenario) take_scenario_modems();
   }
 }
@@ -71,7 +71,7 @@ SourceState BusSource::state() const {
           .silent_s = is_silent ? silent_s : 0,
           .bathymetry = is_alive("bathymetry"),
           .channel_server = is_alive("channel"),
-          .real_time_factor = is_silent ? std::nullopt : mission_.health().real_time_factor(),
+          .real_time_factor = is_silent ? std::nullopt : timeline_.health().real_time_factor(),
           .messages_dropped = receiver_.dropped()};
 }
 
@@ -79,10 +79,10 @@ SourceState BusSource::state() const {
 // at most a second after the last message.
 SimTime BusSource::now() const {
   constexpr SimDuration kAhead = SimDuration::from_milliseconds(1000);
-  const SimTime last = mission_.end();
+  const SimTime last = timeline_.end();
   const auto conductor = receiver_.conductor_time();
   return conductor && last != SimTime::at_once()
-             ? std::max(std::min(*conductor, last + kAhead), mission_.begin())
+             ? std::max(std::min(*conductor, last + kAhead), timeline_.begin())
              : last;
 }
 
@@ -91,7 +91,7 @@ double BusSource::age_s(const clients::NodeRecord& node, SimTime) const {
 }
 
 bool BusSource::is_alive(std::string_view prefix) const {
-  const auto& nodes = mission_.health().nodes();
+  const auto& nodes = timeline_.health().nodes();
   return std::any_of(nodes.begin(), nodes.end(), [&](const auto& node) {
     return node.first.starts_with(prefix) && age_s(node.second, SimTime()) < kAlive_s;
   });

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
-#include "runs/timeline/mission_terrain.h"
 #include "runs/timeline/node_health.h"
+#include "runs/timeline/run_timeline.h"
+#include "runs/timeline/terrain_overview.h"
 #include "viewer/sources/bus_receiver.h"
 #include "viewer/sources/handover.h"
 #include "viewer/sources/source.h"
@@ -25,9 +25,9 @@ class BusSource : public Source {
   BusSource(const std::string& lcm_url, const std::string& accept, SimDuration history);
 
   void update() override;
-  const clients::MissionStore& mission() const override { return mission_; }
+  const clients::RunTimeline& timeline() const override { return timeline_; }
   void set_terrain(const terrain_tile_t& overview) override {
-    mission_.set_terrain(clients::MissionTerrain::from(overview));
+    timeline_.set_terrain(clients::TerrainOverview::from(overview));
   }
   int run() const override { return run_; }
   bool is_log() const override { return false; }
@@ -53,7 +53,7 @@ class BusSource : public Source {
 
   std::string url_;
   SimDuration history_;
-  clients::MissionStore mission_;
+  clients::RunTimeline timeline_;
   BusReceiver receiver_;
   std::function<bool(std::string_view channel)> is_reply_;
   std::vector<BusMessage> replies_;

@@ -85,10 +85,10 @@ LogNodes::~LogNodes() {
 }
 
 void LogNodes::post(const std::string& channel, bus::Bytes bytes) {
-  constexpr std::size_t kMostPosted = 100;
+  constexpr std::size_t kMaxPostedMessages = 100;
   {
     const std::lock_guard lock(mutex_);
-    if (posted_.size() < kMostPosted) posted_.push_back({0, channel, std::move(bytes)});
+    if (posted_.size() < kMaxPostedMessages) posted_.push_back({0, channel, std::move(bytes)});
   }
   posted_or_ended_.notify_one();
 }

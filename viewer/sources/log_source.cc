@@ -9,16 +9,16 @@
 #include "bus/messages/channels.h"
 #include "core/check.h"
 #include "runs/analysis/run_files.h"
-#include "runs/timeline/mission_vehicle.h"
 #include "runs/timeline/node_health.h"
+#include "runs/timeline/vehicle_record.h"
 #include "viewer/sources/handover.h"
 #include "viewer/sources/water_changes.h"
 
 namespace halocline::monitor {
 namespace {
 
-clients::MissionLog log_of(const std::vector<std::string>& logs) {
-  clients::MissionLog log = clients::read_mission(logs);
+clients::LoggedTimeline log_of(const std::vector<std::string>& logs) {
+  clients::LoggedTimeline log = clients::read_timeline(logs);
   clients::print_remarks(std::cerr, log);
   return log;
 }
@@ -28,14 +28,14 @@ clients::MissionLog log_of(const std::vector<std::string>& logs) {
 LogSource::LogSource(const std::vector<std::string>& logs, const std::string& scenario)
     : LogSource(logs, log_of(logs), scenario) {}
 
-LogSource::LogSource(const std::vector<std::string>& logs, clients::MissionLog log,
+LogSource::LogSource(const std::vector<std::string>& logs, clients::LoggedTimeline log,
                      const std::string& scenario)
-    : name_(logs.front()), mission_(std::move(log.mission)) {
+    : name_(logs.front()), timeline_(std::move(log.timeline)) {
   if (!log.is_whole) limits_ = std::move(log.remarks);
-  require(mission_.begin() <= mission_.end(), name_ + " holds no states and no packets");
+  require(timeline_.begin() <= timeline_.end(), name_ + " holds no states and no packets");
   if (!scenario.empty())
     nodes_ = std::make_unique<LogNodes>([scenario] { return bus::ConfigFile::load(scenario); });
-  else if (!mission_.scenario().toml.empty())
+  else if (!timeline_.scenario().toml.empty())
     nodes_ = std::make_unique<LogNodes>([logs] { return clients::recorded_configuration(logs); });
 }
 
@@ -43,10 +43,10 @@ void LogSource::update() {
   if (!nodes_) return;
   for (BusMessage& message : nodes_->take()) {
     const bool is_missing =
-        (message.channel == bus::channels::kTerrain && !mission_.terrain()) ||
-        (message.channel == bus::channels::kScenario && mission_.scenario().name.empty()) ||
+        (message.channel == bus::channels::kTerrain && !timeline_.terrain()) ||
+        (message.channel == bus::channels::kScenario && timeline_.scenario().name.empty()) ||
         lacks_modem(message.channel);
-    if (is_missing) mission_.add(0, message.channel, message.bytes);
+    if (is_missing) timeline_.add(0, message.channel, message.bytes);
     if (is_reply_ && is_reply_(message.channel)) replies_.push_back(std::move(message));
   }
 }
@@ -55,7 +55,7 @@ void LogSource::update() {
 bool LogSource::lacks_modem(std::string_view channel) const {
   constexpr std::string_view kPrefix = bus::channels::kModem.prefix;
   if (!channel.starts_with(kPrefix)) return false;
-  const clients::MissionVehicle* vehicle = mission_.find(channel.substr(kPrefix.size()));
+  const clients::VehicleRecord* vehicle = timeline_.find(channel.substr(kPrefix.size()));
   return vehicle != nullptr && !vehicle->modem;
 }
 
@@ -82,10 +82,10 @@ void LogSource::post(const std::string& channel, bus::Bytes bytes) {
 }
 
 void LogSource::set_water(SimTime at) {
-  const auto* water = mission_.water().at_or_before(std::max(at, SimTime()));
+  const auto* water = timeline_.water().at_or_before(std::max(at, SimTime()));
   if (water == nullptr) return;
   // The water at the beginning of the log is that of its configuration.
-  if (!nodes_water_) nodes_water_ = mission_.water().all().front().value;
+  if (!nodes_water_) nodes_water_ = timeline_.water().all().front().value;
   auto change = change_between(*nodes_water_, water->value);
   if (!change) return;
   change->session = 1;

@@ -14,9 +14,9 @@
 
 #include "bus/messages/messages.h"
 #include "core/sim_time.h"
-#include "runs/analysis/mission_log.h"
-#include "runs/timeline/mission_store.h"
+#include "runs/analysis/read_timeline.h"
 #include "runs/timeline/node_health.h"
+#include "runs/timeline/run_timeline.h"
 #include "viewer/sources/handover.h"
 #include "viewer/sources/log_nodes.h"
 #include "viewer/sources/source.h"
@@ -30,7 +30,7 @@ class LogSource : public Source {
   LogSource(const std::vector<std::string>& logs, const std::string& scenario);
 
   void update() override;
-  const clients::MissionStore& mission() const override { return mission_; }
+  const clients::RunTimeline& timeline() const override { return timeline_; }
   void set_terrain(const terrain_tile_t&) override {}  // update() adds that of the nodes
   int run() const override { return 0; }
   bool is_log() const override { return true; }
@@ -43,18 +43,18 @@ class LogSource : public Source {
     is_reply_ = std::move(is_reply);
   }
   bool names_stand_for_now() const override { return false; }
-  SimTime now() const override { return mission_.end(); }
+  SimTime now() const override { return timeline_.end(); }
   double age_s(const clients::NodeRecord& node, SimTime at) const override;
 
  private:
-  LogSource(const std::vector<std::string>& logs, clients::MissionLog log, const std::string& scenario);
+  LogSource(const std::vector<std::string>& logs, clients::LoggedTimeline log, const std::string& scenario);
   bool lacks_modem(std::string_view channel) const;
   // Changes the water in which the nodes compute to that which the log had at one time.
   void set_water(SimTime at);
 
   std::string name_;
   std::vector<std::string> limits_;  // sentences on unreadable parts; empty for a whole log
-  clients::MissionStore mission_;
+  clients::RunTimeline timeline_;
   std::function<bool(std::string_view channel)> is_reply_;
   std::vector<BusMessage> replies_;
   std::optional<environment_t> nodes_water_;

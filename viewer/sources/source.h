@@ -12,8 +12,8 @@
 
 #include "bus/messages/message_codec.h"
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
 #include "runs/timeline/node_health.h"
+#include "runs/timeline/run_timeline.h"
 #include "viewer/sources/handover.h"
 #include "viewer/sources/modems.h"
 
@@ -33,12 +33,12 @@ class Source {
  public:
   virtual ~Source() = default;
 
-  // Adds the messages since the last call to mission(), and collects replies.
+  // Adds the messages since the last call to timeline(), and collects replies.
   virtual void update() = 0;
-  virtual const clients::MissionStore& mission() const = 0;
+  virtual const clients::RunTimeline& timeline() const = 0;
   // Sets the terrain when no TERRAIN was received.
   virtual void set_terrain(const terrain_tile_t& overview) = 0;
-  // Returns a number that increases when another run begins; mission() then contains nothing of the previous
+  // Returns a number that increases when another run begins; timeline() then contains nothing of the previous
   // one.
   virtual int run() const = 0;
 
@@ -55,7 +55,7 @@ class Source {
   virtual void set_replies(std::function<bool(std::string_view channel)> is_reply) = 0;
   // Returns true when queries by name are answered for the present only.
   virtual bool names_stand_for_now() const = 0;
-  // Returns the newest time; before the first message, a time earlier than mission().begin().
+  // Returns the newest time; before the first message, a time earlier than timeline().begin().
   virtual SimTime now() const = 0;
   // Returns the SINR threshold of a modem, dB (modems.h).
   std::optional<double> threshold_db(const modem_config_t& modem) const { return thresholds_.of(modem); }

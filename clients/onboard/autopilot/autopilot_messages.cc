@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/dead_reckoning.h"
 #include "core/elementary.h"
+#include "core/state_extrapolation.h"
 
 namespace halocline::clients {
 namespace {

@@ -24,8 +24,9 @@
 
 namespace halocline::clients {
 
-// Returns the situation from the true state, extrapolated to `at` (core/dead_reckoning.h). The water speed is
-// the forward component of the velocity over ground; the speed through the water itself is in SENSORS.
+// Returns the situation from the true state, extrapolated to `at` (core/state_extrapolation.h). The water
+// speed is the forward component of the velocity over ground; the speed through the water itself is in
+// SENSORS.
 Situation to_situation(const vehicle_state_t& state, SimTime at);
 
 // Returns the situation at `time_s` from the vehicle's own sensors alone; position and attitude are those of

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/dead_reckoning.h"
+#include "core/state_extrapolation.h"
 
 namespace halocline::clients {
 

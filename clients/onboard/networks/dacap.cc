@@ -61,7 +61,7 @@ class Dacap : public Maca {
 
   void on_threat(SimTime at) override {
     if (state_ == State::kAwaitsLeave || state_ == State::kHasLeave) give_way(at);
-    if (state_ == State::kAwaitsData && !answer_) answer_ = Frame{partner_, {kWarning}};
+    if (state_ == State::kAwaitsData && !answer_) answer_ = MacFrame{partner_, {kWarning}};
   }
 
  private:

@@ -38,9 +38,9 @@ class FloodingRouter : public Router {
     relay_.originate(packet.destination, encode(packet), now);
   }
 
-  void take(const Frame& frame, SimTime at) override { relay_.take(frame.bytes, at); }
+  void take(const MacFrame& frame, SimTime at) override { relay_.take(frame.bytes, at); }
 
-  std::optional<NetworkPacket> packet_in(const Frame& frame) const override {
+  std::optional<NetworkPacket> packet_in(const MacFrame& frame) const override {
     const auto relayed = clients::decode_relay_packet(frame.bytes);
     return relayed ? decode_network_packet(relayed->payload) : std::nullopt;
   }

@@ -6,7 +6,7 @@
 
 namespace halocline::networks {
 
-void Mac::offer(Frame frame, SimTime now) {
+void Mac::offer(MacFrame frame, SimTime now) {
   if (queue_.size() == kMaxWaiting) return port_.drop(now, frame);
   queue_.push_back(std::move(frame));
   if (queue_.size() == 1) due_ = first_try(now);
@@ -43,13 +43,13 @@ void Mac::step(SimTime now) {
   if (next() <= now) attempt(now);
 }
 
-void Mac::transmit(Frame frame, SimTime now) {
+void Mac::transmit(MacFrame frame, SimTime now) {
   transmits_ = true;
   port_.transmit(now, frame);
 }
 
 void Mac::transmit_first(SimTime now) {
-  Frame frame = std::move(queue_.front());
+  MacFrame frame = std::move(queue_.front());
   queue_.pop_front();
   transmit(std::move(frame), now);
 }

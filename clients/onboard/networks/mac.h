@@ -23,10 +23,10 @@ namespace halocline::networks {
 
 // Functions that a MAC calls.
 struct MacPort {
-  std::function<void(SimTime at, const Frame&)> transmit;  // hands a frame to the modem
-  std::function<void(SimTime at, const Frame&)> deliver;   // passes on a frame for this vehicle, or for all
-  std::function<void(SimTime at, const Frame&)> drop;      // the frame will not be transmitted
-  std::function<double()> draw;                            // the vehicle's next random number in (0, 1)
+  std::function<void(SimTime at, const MacFrame&)> transmit;  // hands a frame to the modem
+  std::function<void(SimTime at, const MacFrame&)> deliver;  // passes on a frame for this vehicle, or for all
+  std::function<void(SimTime at, const MacFrame&)> drop;     // the frame will not be transmitted
+  std::function<double()> draw;                              // the vehicle's next random number in (0, 1)
 };
 
 class Mac {
@@ -39,7 +39,7 @@ class Mac {
   Mac& operator=(const Mac&) = delete;
 
   // Queues a frame for transmission.
-  void offer(Frame frame, SimTime now);
+  void offer(MacFrame frame, SimTime now);
   // Handles a packet that the modem received; for a promiscuous modem it may be for any vehicle.
   virtual void on_packet(const modem_receive_t& packet, std::int32_t own_id);
   virtual void on_event(const modem_event_t& event);
@@ -55,14 +55,14 @@ class Mac {
   // Returns when a frame is due that becomes the first of the queue at `now`.
   virtual SimTime first_try(SimTime now) const { return now; }
 
-  void transmit(Frame frame, SimTime now);
+  void transmit(MacFrame frame, SimTime now);
   void transmit_first(SimTime now);
   void drop_first(SimTime now);
   SimDuration random_wait(SimDuration mean) const;  // exponentially distributed
 
   MacPort port_;
   NetworkRules rules_;
-  std::deque<Frame> queue_;
+  std::deque<MacFrame> queue_;
   SimTime due_ = SimTime::never();  // due time of the first frame
   bool transmits_ = false;
   bool carrier_ = false;  // the sound of other vehicles is sensed

@@ -36,7 +36,7 @@ void Maca::on_request(const modem_receive_t& packet) {
   const SimTime at = SimTime::from_utime(packet.utime);
   if (state_ == State::kIdle && at >= silent_until_ && !answer_) {
     partner_ = packet.source_id;
-    answer_ = Frame{partner_, {kLeave}};
+    answer_ = MacFrame{partner_, {kLeave}};
     await(State::kAwaitsData, at + rules_.exchange);
   } else if (packet.source_id != partner_) {
     on_threat(at);

@@ -42,8 +42,8 @@ class Maca : public Mac {
   void try_again(SimTime now);
 
   State state_ = State::kIdle;
-  std::int32_t partner_ = 0;     // the other vehicle of the exchange, unless idle
-  std::optional<Frame> answer_;  // to be transmitted at once
+  std::int32_t partner_ = 0;        // the other vehicle of the exchange, unless idle
+  std::optional<MacFrame> answer_;  // to be transmitted at once
 
  private:
   void on_request(const modem_receive_t& packet);

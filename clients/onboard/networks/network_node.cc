@@ -76,7 +76,7 @@ void NetworkNode::take_event(Station& station, const modem_event_t& event) {
 
 void NetworkNode::make_protocols(Station& station, const NetworkConfig& config, std::size_t i) {
   RouterPort router;
-  router.hand_down = [&station](SimTime at, Frame frame) { station.mac->offer(std::move(frame), at); };
+  router.hand_down = [&station](SimTime at, MacFrame frame) { station.mac->offer(std::move(frame), at); };
   router.deliver = [this, &station](SimTime, const NetworkPacket& packet) {
     report(station, network_event_t::DELIVERED, packet);
   };
@@ -84,11 +84,11 @@ void NetworkNode::make_protocols(Station& station, const NetworkConfig& config, 
     report(station, network_event_t::DROPPED, packet);
   };
   MacPort mac;
-  mac.transmit = [this, &station](SimTime, const Frame& frame) {
+  mac.transmit = [this, &station](SimTime, const MacFrame& frame) {
     station.modem.send(steady_, whole_microsecond_from(station.instant), frame.destination, frame.bytes);
   };
-  mac.deliver = [&station](SimTime at, const Frame& frame) { station.router->take(frame, at); };
-  mac.drop = [&station, drop = router.drop](SimTime at, const Frame& frame) {
+  mac.deliver = [&station](SimTime at, const MacFrame& frame) { station.router->take(frame, at); };
+  mac.drop = [&station, drop = router.drop](SimTime at, const MacFrame& frame) {
     if (const auto packet = station.router->packet_in(frame)) drop(at, *packet);
   };
   mac.draw = [this, &station] { return draw("network-backoff", station, station.draws++); };

@@ -23,8 +23,8 @@ Integer take(std::span<const std::uint8_t>& bytes) {
 
 }  // namespace
 
-Frame marked(std::uint8_t kind, const Frame& frame) {
-  Frame whole{frame.destination, {kind}};
+MacFrame marked(std::uint8_t kind, const MacFrame& frame) {
+  MacFrame whole{frame.destination, {kind}};
   whole.bytes.insert(whole.bytes.end(), frame.bytes.begin(), frame.bytes.end());
   return whole;
 }

@@ -17,14 +17,14 @@
 
 namespace halocline::networks {
 
-// Frame that a MAC sends to a neighbour, or to all.
-struct Frame {
+// MacFrame that a MAC sends to a neighbour, or to all.
+struct MacFrame {
   std::int32_t destination = 0;  // vehicle id; 0: all
   std::vector<std::uint8_t> bytes;
 };
 
 // Returns a frame with a byte in front, which tells the types of a protocol's packets apart.
-Frame marked(std::uint8_t kind, const Frame& frame);
+MacFrame marked(std::uint8_t kind, const MacFrame& frame);
 
 struct NetworkPacket {
   static constexpr std::size_t kHeaderBytes = 21;

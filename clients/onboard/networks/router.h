@@ -19,7 +19,7 @@ namespace halocline::networks {
 
 // Functions that a router calls.
 struct RouterPort {
-  std::function<void(SimTime at, Frame)> hand_down;  // to the MAC
+  std::function<void(SimTime at, MacFrame)> hand_down;  // to the MAC
   std::function<void(SimTime at, const NetworkPacket&)> deliver;
   std::function<void(SimTime at, const NetworkPacket&)> drop;
 };
@@ -34,9 +34,9 @@ class Router {
   // Sends a packet that this vehicle offers.
   virtual void offer(const NetworkPacket& packet, SimTime now) = 0;
   // Handles a frame that the MAC received for this vehicle, or for all.
-  virtual void take(const Frame& frame, SimTime at) = 0;
+  virtual void take(const MacFrame& frame, SimTime at) = 0;
   // Returns the packet in a frame of this router; nothing when it contains none.
-  virtual std::optional<NetworkPacket> packet_in(const Frame& frame) const = 0;
+  virtual std::optional<NetworkPacket> packet_in(const MacFrame& frame) const = 0;
   virtual SimTime next() const { return SimTime::never(); }
   virtual void step(SimTime /*now*/) {}
 

@@ -14,7 +14,7 @@
 namespace halocline::networks {
 namespace {
 
-constexpr std::uint8_t kMostHops = 16;  // ends a loop in the tree
+constexpr std::uint8_t kMaxHops = 16;  // ends a loop in the tree
 
 class StaticRouter : public Router {
  public:
@@ -26,17 +26,17 @@ class StaticRouter : public Router {
     port_.hand_down(now, {is_direct ? packet.destination : next_hop_, encode(packet)});
   }
 
-  void take(const Frame& frame, SimTime at) override {
+  void take(const MacFrame& frame, SimTime at) override {
     auto packet = decode_network_packet(frame.bytes);
     if (!packet) return;
     ++packet->hops;
     if (packet->destination == own_id_ || packet->destination == kBroadcastId)
       return port_.deliver(at, *packet);
-    if (packet->hops >= kMostHops) return port_.drop(at, *packet);
+    if (packet->hops >= kMaxHops) return port_.drop(at, *packet);
     offer(*packet, at);
   }
 
-  std::optional<NetworkPacket> packet_in(const Frame& frame) const override {
+  std::optional<NetworkPacket> packet_in(const MacFrame& frame) const override {
     return decode_network_packet(frame.bytes);
   }
 

@@ -31,7 +31,7 @@ namespace halocline::clients {
 
 struct RelayRules {
   bool passes_on = false;  // forwards packets of others
-  int hops = 1;            // transmissions of own packets from end to end, 1 to RelayPacket::kMostHops
+  int hops = 1;            // transmissions of own packets from end to end, 1 to RelayPacket::kMaxHops
   bool confirmed = false;  // own packets to one vehicle are to be confirmed
   SimDuration longest_wait = SimDuration::from_milliseconds(2000);  // 0 and up
 };

@@ -26,11 +26,11 @@ enum class RelayKind : std::uint8_t { kData = 0xF2, kDataToConfirm = 0xF3, kConf
 
 struct RelayPacket {
   static constexpr std::size_t kHeaderBytes = 14;
-  static constexpr int kMostHops = 15;
+  static constexpr int kMaxHops = 15;
 
   RelayKind kind = RelayKind::kData;
-  int hops_allowed = 1;  // transmissions from end to end, 1 to kMostHops
-  int hops_left = 0;     // transmissions left after this one, 0 to kMostHops - 1
+  int hops_allowed = 1;  // transmissions from end to end, 1 to kMaxHops
+  int hops_left = 0;     // transmissions left after this one, 0 to kMaxHops - 1
   std::int32_t origin = 0;
   std::int32_t destination = 0;  // kBroadcastId: all
   std::uint16_t number = 0;

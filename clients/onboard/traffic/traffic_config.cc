@@ -49,7 +49,7 @@ void visit_kind(ConfigVisitor& v, VehicleTraffic& t) {
 
 void visit_hops(ConfigVisitor& v, RelayRules& relay) {
   bus::integer_as(v, "hops", relay.hops,
-                  {1, RelayPacket::kMostHops, "",
+                  {1, RelayPacket::kMaxHops, "",
                    "transmissions of its packets on their way; above 1 they go to all in range, with a "
                    "header of 14 bytes"});
   v.when(relay.hops > 1, "hops above 1", [&] {

@@ -35,7 +35,7 @@ constexpr double kFront = 3000, kWidth = 800;  // along north
 // Levels of paths near a caustic are not compared: ray theory itself does not give them to 0.1 dB. The two
 // rays of a fold, 4/3 x^(3/2) apart in phase, have the amplitude of Airy's function but for 5 / (48 x^(3/2))
 // (Abramowitz and Stegun 10.4.60), 0.1 dB at 12 rad.
-constexpr double kLeastApartRad = 12;
+constexpr double kMinSeparationRad = 12;
 constexpr double kMeridionalRadius = 6'335'439.327;  // WGS 84, at the equator
 const FluidBottom kSand = fluid_bottom(1.9, 1650, 0.8);
 
@@ -126,7 +126,7 @@ void compare_link(const Environment& sea, const Vec3& from, const Vec3& to, cons
   for (const auto& [key, best] : nearest) {
     errors.delays_s.push_back(best.second.delay_s);
     const double apart_rad = 2 * std::numbers::pi * kFrequency * best.second.fold_delay_s;
-    if (apart_rad > kLeastApartRad) errors.decibels.push_back(best.second.decibels);
+    if (apart_rad > kMinSeparationRad) errors.decibels.push_back(best.second.decibels);
   }
 }
 

@@ -71,26 +71,27 @@ TEST(SteadyBand, ClosePathsInterfere) {
 
 // In antiphase at the middle of the band, at sines of the angles apart by d: with g = exp(-(k 0.2 m d)^2 / 2)
 // the mean is 2 - 2 g sinc and its variance that of 200 000 ends that sway.
-TEST(SteadyBand, SwayTurnsPathsOfOtherAnglesAgainstEachOther) {
+TEST(SteadyBand, JitterTurnsPathsOfOtherAnglesAgainstEachOther) {
   constexpr double kWaveNumber = 2 * pi * 25'000 / 1500, kCycles = 0.4;
   const double sinc = std::sin(pi * kCycles) / (pi * kCycles);
   for (const double apart : {0.0, 0.02, 0.06, 0.3}) {
     SteadyBand band(receiver(), {23'000, 23'000 + kBandwidthHz});
     band.add({1, 0, 0, 0.1, 0});
     band.add({1, pi + pi * kCycles, kCycles / kBandwidthHz, 0.1 + apart, 0});
-    double mean = 0, swayed = 0, square = 0;
+    double mean = 0, jittered = 0, square = 0;
     for (const SteadyBand::Part& part : band.parts()) {
       mean += (part.constant + part.varying) / kSignalFrequencies;
     }
     constexpr int kEnds = 200'000;
     for (int i = 0; i < kEnds; ++i) {
-      const double sway_m = kSwayM * normal_at({.seed = 3, .which = static_cast<std::uint64_t>(i)});
-      const double power = 2 + 2 * sinc * std::cos(pi + kWaveNumber * apart * sway_m);
-      swayed += power / kEnds;
+      const double jitter_m =
+          kPlatformJitterM * normal_at({.seed = 3, .which = static_cast<std::uint64_t>(i)});
+      const double power = 2 + 2 * sinc * std::cos(pi + kWaveNumber * apart * jitter_m);
+      jittered += power / kEnds;
       square += power * power / kEnds;
     }
-    EXPECT_NEAR(mean, swayed, 0.02) << apart;
-    EXPECT_NEAR(band.sway_variance(), square - swayed * swayed, 0.02) << apart;
+    EXPECT_NEAR(mean, jittered, 0.02) << apart;
+    EXPECT_NEAR(band.jitter_variance(), square - jittered * jittered, 0.02) << apart;
   }
 }
 

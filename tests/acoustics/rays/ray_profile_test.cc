@@ -42,7 +42,7 @@ struct StraightRay {
   double z = 0, length = 0, slope = 0;
   int surface = 0, bottom = 0;
   bool arrived = false;
-  std::vector<int> history;
+  std::vector<int> bounce_sequence;
 };
 
 StraightRay straight_ray(const BottomProfile& profile, double z0, double range, double theta,
@@ -81,7 +81,7 @@ StraightRay straight_ray(const BottomProfile& profile, double z0, double range, 
       z = 0;
       dz = -dz;
       ++ray.surface;
-      ray.history.push_back(-1);
+      ray.bounce_sequence.push_back(-1);
       continue;
     }
     const Facet& f = facets[hit];
@@ -92,7 +92,7 @@ StraightRay straight_ray(const BottomProfile& profile, double z0, double range, 
     dr -= 2 * along * nr;
     dz -= 2 * along * nz;
     ++ray.bottom;
-    ray.history.push_back(f.smooth_group);
+    ray.bounce_sequence.push_back(f.smooth_group);
     if (dr <= 0.001) return ray;
   }
   return ray;
@@ -116,11 +116,12 @@ std::vector<FanResult> straight_fan(const BottomProfile& profile, const RayLink&
   double a = -steepest, fa = off(a, before);
   for (int i = 1; i <= count; ++i) {
     const double b = -steepest + 2 * steepest * i / count, fb = off(b, next);
-    if (before.arrived && next.arrived && before.history == next.history && (fa > 0) != (fb > 0)) {
+    if (before.arrived && next.arrived && before.bounce_sequence == next.bounce_sequence &&
+        (fa > 0) != (fb > 0)) {
       double low = a, high = b;
       for (int k = 0; k < 60; ++k)
         ((off(0.5 * (low + high), middle) > 0) == (fa > 0) ? low : high) = 0.5 * (low + high);
-      if (std::abs(off(low, middle)) < 1e-3 && middle.history == before.history) {
+      if (std::abs(off(low, middle)) < 1e-3 && middle.bounce_sequence == before.bounce_sequence) {
         found.push_back({middle.length / 1500, low, middle.surface, middle.bottom});
       }
     }

@@ -67,35 +67,36 @@ TEST(LockstepSchedule, AnInstantThatNeverEndsIsAnError) {
   EXPECT_THROW(keep_asking(), std::runtime_error);
 }
 
-TEST(LockstepHorizon, IsTheEarliestInstantAtWhichAnotherMayPublish) {
+TEST(LookaheadAlone, IsTheEarliestInstantAtWhichAnotherMayPublish) {
   const std::vector<ScheduleEntry> entries{{0, at_ms(10)}, {1, at_ms(70)}, {2, at_ms(40)}};
-  EXPECT_EQ(lockstep_horizon(entries, 0), at_ms(40));
-  EXPECT_EQ(lockstep_horizon(entries, 2), at_ms(10));
-  EXPECT_EQ(lockstep_horizon(std::vector<ScheduleEntry>{{0, at_ms(10)}}, 0), SimTime::never());
+  EXPECT_EQ(lookahead_alone(entries, 0), at_ms(40));
+  EXPECT_EQ(lookahead_alone(entries, 2), at_ms(10));
+  EXPECT_EQ(lookahead_alone(std::vector<ScheduleEntry>{{0, at_ms(10)}}, 0), SimTime::never());
 }
 
-TEST(LockstepHorizon, IsThePresentWhileAnotherHasInput) {
+TEST(LookaheadAlone, IsThePresentWhileAnotherHasInput) {
   const std::vector<ScheduleEntry> entries{{0, at_ms(10)}, {1, at_ms(70), true}};
-  EXPECT_EQ(lockstep_horizon(entries, 0), SimTime::at_once());
+  EXPECT_EQ(lookahead_alone(entries, 0), SimTime::at_once());
 }
 
-TEST(SharedHorizon, IsBoundedByOthersThatAreDueAndByWhoOfTheStagePromisedLeast) {
+TEST(SharedLookahead, IsBoundedByOthersThatAreDueAndByWhoOfTheStagePromisedLeast) {
   const SimTime never = SimTime::never();
   const std::vector<ScheduleEntry> entries{
       {0, at_ms(60)}, {6, at_ms(10), false, at_ms(50)}, {6, at_ms(12), false, at_ms(40)}, {6, never}};
-  EXPECT_EQ(shared_horizon(entries, 6, at_ms(10)), at_ms(40));
-  EXPECT_EQ(shared_horizon(entries, 0, at_ms(10)), at_ms(10));
-  EXPECT_EQ(shared_horizon(std::vector<ScheduleEntry>{{6, at_ms(10), false, never}}, 6, at_ms(10)),
+  EXPECT_EQ(shared_lookahead(entries, 6, at_ms(10)), at_ms(40));
+  EXPECT_EQ(shared_lookahead(entries, 0, at_ms(10)), at_ms(10));
+  EXPECT_EQ(shared_lookahead(std::vector<ScheduleEntry>{{6, at_ms(10), false, never}}, 6, at_ms(10)),
             at_ms(10) + kLongestSharedLookahead);
 }
 
-TEST(SharedHorizon, IsThePresentWhereOneHasInputOrPromisesNothing) {
+TEST(SharedLookahead, IsThePresentWhereOneHasInputOrPromisesNothing) {
   const SimTime never = SimTime::never();
-  EXPECT_LE(shared_horizon(std::vector<ScheduleEntry>{{6, at_ms(10), false, never}, {6, never, true, never}},
-                           6, at_ms(10)),
-            at_ms(10));
   EXPECT_LE(
-      shared_horizon(std::vector<ScheduleEntry>{{6, at_ms(10)}, {6, never, false, never}}, 6, at_ms(10)),
+      shared_lookahead(std::vector<ScheduleEntry>{{6, at_ms(10), false, never}, {6, never, true, never}}, 6,
+                       at_ms(10)),
+      at_ms(10));
+  EXPECT_LE(
+      shared_lookahead(std::vector<ScheduleEntry>{{6, at_ms(10)}, {6, never, false, never}}, 6, at_ms(10)),
       at_ms(10));
 }
 

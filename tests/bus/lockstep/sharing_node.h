@@ -92,7 +92,7 @@ class SharingNode : public NumberNode {
     if (requests_ + answers_ + marks_ > 0) return {.sim = SimTime::at_once()};
     return {.sim = waits_ ? next_tick_ : std::min(next_event_, next_tick_)};
   }
-  SimTime on_quiet_until(const ChannelTest& matters) const override {
+  SimTime on_lookahead(const ChannelTest& matters) const override {
     if (is_liar_) return SimTime::never();
     return matters("EVENT." + name()) ? SimTime::at_once() : next_tick_;
   }

@@ -65,14 +65,14 @@ TEST_F(FlowWatchTest, ANewSessionStartsAnew) {
   EXPECT_EQ(missing_before("A", 2, 2), 1);
 }
 
-TEST_F(FlowWatchTest, TwoPublishersOnOneChannelAreFollowedApart) {
+TEST_F(FlowWatchTest, TwoPublishersOnOneChannelAreTrackedApart) {
   missing_before("A", 1, 0);
   missing_before("A", 2, 50);
   EXPECT_EQ(missing_before("A", 1, 1), 0);
   EXPECT_EQ(missing_before("A", 2, 52), 1);
 }
 
-TEST_F(FlowWatchTest, ChannelsAreFollowedApart) {
+TEST_F(FlowWatchTest, ChannelsAreTrackedApart) {
   missing_before("A", 1, 0);
   missing_before("B", 1, 10);
   EXPECT_EQ(missing_before("A", 1, 1), 0);
@@ -96,7 +96,7 @@ TEST_F(FlowWatchTest, KeepsTheSessionReceivedLastAmongMany) {
 }
 
 // As many as shards that share OUTCOME.
-TEST_F(FlowWatchTest, SeventySessionsOfOneChannelAreFollowedWhileAllAreHeard) {
+TEST_F(FlowWatchTest, SeventySessionsOfOneChannelAreTrackedWhileAllAreHeard) {
   for (int sequence = 0; sequence < 100; sequence += 2) {
     for (int session = 1; session <= 70; ++session) {
       const auto arrival = watch_.on_message(at_ms(1000 * sequence), "A", session, sequence);
@@ -200,7 +200,7 @@ TEST_F(FlowWatchTest, AMessageThatFillsAGapEndsTheRequests) {
   EXPECT_FALSE(watch_.on_message(at_ms(7), "A", 1, 1).fills_gap);
 }
 
-TEST_F(FlowWatchTest, AnUnansweredRequestIsGivenUpAfterTenSeconds) {
+TEST_F(FlowWatchTest, AnUnansweredRequestExpiresAfterTenSeconds) {
   receive({0, 4});
   watch_.take_due(at_ms(9'999));
   EXPECT_EQ(watch_.lost(), 0);
@@ -235,7 +235,7 @@ TEST_F(FlowWatchTest, AnOldMessageOfAFlowThatNobodyListsIsADuplicateHoweverOld) 
   EXPECT_EQ(next.newly_missing, 0);
 }
 
-TEST_F(FlowWatchTest, WhatIsMissingOrGivenUpIsNotOld) {
+TEST_F(FlowWatchTest, WhatIsMissingOrExpiredIsNotOld) {
   watch_.on_message(SimTime(), "A", 1, 0, false, 0);
   watch_.on_message(SimTime(), "A", 1, 3, false, 300);
   EXPECT_FALSE(watch_.is_old(at_ms(1), "A", 1, 1, 100));

@@ -14,7 +14,7 @@ namespace {
 
 using halocline::testing::at_ms;
 
-TEST(SessionWatch, OfTwoNodesOfOneNameTheFirstIsBelievedAndTheOtherRefusedOnEveryChannel) {
+TEST(SessionWatch, OfTwoNodesOfOneNameTheFirstIsAcceptedAndTheOtherRefusedOnEveryChannel) {
   SessionWatch watch;
   for (int ms = 0; ms < 10'000; ms += 250) {
     EXPECT_TRUE(watch.on_heartbeat(at_ms(ms), "vehicle-sim", 1));
@@ -24,7 +24,7 @@ TEST(SessionWatch, OfTwoNodesOfOneNameTheFirstIsBelievedAndTheOtherRefusedOnEver
   }
 }
 
-TEST(SessionWatch, ARestartedNodeIsBelievedAfterASecondOfSilence) {
+TEST(SessionWatch, ARestartedNodeIsAcceptedAfterASecondOfSilence) {
   SessionWatch watch;
   watch.on_heartbeat(at_ms(0), "vehicle-sim", 1);
   EXPECT_FALSE(watch.on_heartbeat(at_ms(700), "vehicle-sim", 2));
@@ -92,7 +92,7 @@ TEST(SessionWatch, AForgedClaimToANameSilencesNoOther) {
 }
 
 // The log of an earlier run, played onto this one: it begins with the first steps of the programs of then.
-TEST(SessionWatch, AStatusIsAClaimToItsNameAndPacketsOfARivalAreRefusedWithIt) {
+TEST(SessionWatch, AStatusIsAClaimToItsNameAndPacketsOfADuplicateAreRefusedWithIt) {
   SessionWatch watch;
   const auto packets_of = [](std::int64_t session) {
     return session_of(static_cast<std::uint64_t>(session), "auv-1");
@@ -111,7 +111,7 @@ TEST(SessionWatch, AStatusIsAClaimToItsNameAndPacketsOfARivalAreRefusedWithIt) {
   }
 }
 
-TEST(SessionWatch, NamesWithoutEndDoNotForgetThoseThatAreBelieved) {
+TEST(SessionWatch, NamesWithoutEndDoNotForgetThoseThatAreAccepted) {
   SessionWatch watch;
   EXPECT_TRUE(watch.on_message(at_ms(0), "STATE.auv-1", 1));
   for (std::int64_t i = 0; i < 50'000; ++i) {

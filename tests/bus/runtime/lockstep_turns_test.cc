@@ -22,10 +22,10 @@ using testing::TickingNode;
 
 using halocline::testing::at_ms;
 
-lockstep_turn_t turn_at(SimTime instant, SimTime horizon = SimTime::at_once()) {
+lockstep_turn_t turn_at(SimTime instant, SimTime lookahead = SimTime::at_once()) {
   lockstep_turn_t turn{};
   turn.instant_ns = instant.nanoseconds();
-  turn.horizon_ns = horizon.nanoseconds();
+  turn.horizon_ns = lookahead.nanoseconds();
   turn.max_steps = -1;
   return turn;
 }
@@ -71,7 +71,7 @@ TEST_F(LockstepTurnsTest, ANodeThatIsNotDueDoesNotStep) {
   EXPECT_THAT(result.outputs, IsEmpty());
 }
 
-TEST_F(LockstepTurnsTest, LookaheadCoversAllInstantsBeforeTheHorizon) {
+TEST_F(LockstepTurnsTest, LookaheadCoversAllInstantsBeforeItsEnd) {
   const lockstep_result_t result = turns_.take(turn_at(at_ms(0), at_ms(300)));
   EXPECT_EQ(result.num_steps, 3);
   EXPECT_EQ(result.reached_ns, at_ms(200).nanoseconds());
@@ -86,7 +86,7 @@ TEST_F(LockstepTurnsTest, LookaheadEndsWithAStepThatPublishesOnAStoppingChannel)
   EXPECT_EQ(turns_.take(turn).num_steps, 1);
 }
 
-TEST_F(LockstepTurnsTest, ANodeThatPromisesNothingIsQuietUntilItIsDue) {
+TEST_F(LockstepTurnsTest, ANodeThatPromisesNothingHasLookaheadUntilItIsDue) {
   const lockstep_result_t result = turns_.take(turn_at(at_ms(0)));
   EXPECT_EQ(result.quiet_until_ns, result.next_due_ns);
 }
@@ -96,7 +96,7 @@ TEST(LockstepTurnsOfAQuietNode, ItsPromiseCoversTheChannelsThatOthersThanService
   class Quiet : public TickingNode {
    public:
     using TickingNode::TickingNode;
-    SimTime on_quiet_until(const ChannelTest& matters) const override {
+    SimTime on_lookahead(const ChannelTest& matters) const override {
       return matters("TICK.a") ? SimTime::at_once() : at_ms(5000);
     }
   };
@@ -105,7 +105,7 @@ TEST(LockstepTurnsOfAQuietNode, ItsPromiseCoversTheChannelsThatOthersThanService
   Quiet quiet(memq, "a", SimDuration::from_milliseconds(100), journal);
   LockstepTurns turns(quiet);
   int instant_ms = 0;
-  const auto quiet_until = [&](const std::string& channel, bool only_asks) {
+  const auto lookahead = [&](const std::string& channel, bool only_asks) {
     lockstep_turn_t turn = turn_at(at_ms(instant_ms));
     turn.stopping_channels = {channel};
     turn.only_asks = {static_cast<std::int8_t>(only_asks)};
@@ -113,10 +113,10 @@ TEST(LockstepTurnsOfAQuietNode, ItsPromiseCoversTheChannelsThatOthersThanService
     instant_ms += 100;
     return SimTime::from_nanoseconds(turns.take(turn).quiet_until_ns);
   };
-  EXPECT_EQ(quiet_until("OTHER", false), at_ms(5000));
-  EXPECT_EQ(quiet_until("TICK\\..*", false), at_ms(200));
-  EXPECT_EQ(quiet_until("TICK\\..*", true), at_ms(5000));
-  EXPECT_EQ(quiet_until("STATUS\\..*", false), at_ms(1000));
+  EXPECT_EQ(lookahead("OTHER", false), at_ms(5000));
+  EXPECT_EQ(lookahead("TICK\\..*", false), at_ms(200));
+  EXPECT_EQ(lookahead("TICK\\..*", true), at_ms(5000));
+  EXPECT_EQ(lookahead("STATUS\\..*", false), at_ms(1000));
 }
 
 TEST_F(LockstepTurnsTest, ReplayedTurnsTakeAsManyStepsAsTheyDid) {

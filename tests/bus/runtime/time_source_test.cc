@@ -127,7 +127,7 @@ TEST_F(ConductorTimeTest, FiltersJitterAndNeverGoesBack) {
   }
 }
 
-TEST_F(ConductorTimeTest, ANewRateIsFollowedAfterThreeSecondsWithoutTheOldOne) {
+TEST_F(ConductorTimeTest, ANewRateIsTrackedAfterThreeSecondsWithoutTheOldOne) {
   follow(1, 1, 1);
   for (int tick = 1; tick <= 29; ++tick) receive(1 + 0.1 * tick, 1 + tick, 10);
   EXPECT_NEAR(now(3.95), 3.95, 1e-9);
@@ -248,7 +248,7 @@ TEST_F(ConductorTimeTest, ALeapIsFollowedAfterThreeSecondsWithoutTheExpectedTime
 }
 
 // A second conductor at ten times the rate, for a minute: nothing of it shows.
-TEST_F(ConductorTimeTest, OfTwoConductorsTheFirstIsFollowed) {
+TEST_F(ConductorTimeTest, OfTwoConductorsTheFirstIsTracked) {
   follow(1, 1);
   for (int tick = 1; tick <= 600; ++tick) {
     const double passed_s = 0.1 * tick;
@@ -259,7 +259,7 @@ TEST_F(ConductorTimeTest, OfTwoConductorsTheFirstIsFollowed) {
   EXPECT_EQ(time_.num_refused(), 599);  // the last has not been outlived yet
 }
 
-TEST_F(ConductorTimeTest, AnotherConductorIsFollowedOnceTheFirstIsSilentForThreeSeconds) {
+TEST_F(ConductorTimeTest, AnotherConductorIsTrackedOnceTheFirstIsSilentForThreeSeconds) {
   follow(1, 100);
   for (int tick = 1; tick <= 29; ++tick) receive(1 + 0.1 * tick, 500 + 0.1 * tick, 1, 2);
   EXPECT_NEAR(now(3.95), 102.95, 1e-6);
@@ -277,7 +277,7 @@ TEST_F(ConductorTimeTest, OneClockIsNoTime) {
 }
 
 // Forged ones of ever new sessions push no witness out before the next CLOCK of the true one comes.
-TEST_F(ConductorTimeTest, AFloodOfSessionsDoesNotKeepTheConductorFromBeingFollowed) {
+TEST_F(ConductorTimeTest, AFloodOfSessionsDoesNotKeepTheConductorFromBeingTracked) {
   for (int i = 0; i < 1000; ++i) {
     receive(1 + 0.01 * i, 1 + 0.01 * i);
     for (int k = 0; k < 3; ++k) receive(1 + 0.01 * i, 1e8 + i, 1, 1000 + 3 * i + k);

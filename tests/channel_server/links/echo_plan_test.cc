@@ -70,12 +70,12 @@ TEST(EchoPlan, WithinItsAllowanceThosePlannedLongestAgoComeFirst) {
   EchoPlan plan({.reuse_distance_m = 5, .surveys_per_table = 2});
   EXPECT_THAT(pairs_of(plan.begin_tick(links_at({0, 100, 200}))),
               ElementsAre(VehiclePair(1, 2), VehiclePair(1, 3)));
-  EXPECT_EQ(plan.put_off(), 1u);
+  EXPECT_EQ(plan.deferred(), 1u);
   EXPECT_THAT(pairs_of(plan.begin_tick(links_at({10, 110, 210}))),
               ElementsAre(VehiclePair(2, 3), VehiclePair(1, 2)));
   EXPECT_THAT(pairs_of(plan.begin_tick(links_at({20, 120, 220}))),
               ElementsAre(VehiclePair(1, 3), VehiclePair(1, 2)));
-  EXPECT_EQ(plan.put_off(), 1u);
+  EXPECT_EQ(plan.deferred(), 1u);
 }
 
 // However many move at once each pair has its turn as often as any other.

@@ -74,11 +74,13 @@ class PredictedLink : public ::testing::TestWithParam<Case> {};
 
 // The ends sway up and down (acoustics/prediction/steady_band.h): phases of the paths as packet `i` meets
 // them.
-std::vector<SoundPath> swayed(std::vector<SoundPath> paths, double frequency_hz, std::uint64_t i) {
-  const auto sway_m = [&](std::uint64_t end) {
-    return acoustics::kSwayM * normal_at({.seed = end, .purpose = purpose_of("test-sway"), .which = i});
+std::vector<SoundPath> jittered(std::vector<SoundPath> paths, double frequency_hz, std::uint64_t i) {
+  const auto jitter_m = [&](std::uint64_t end) {
+    return acoustics::kPlatformJitterM *
+           normal_at({.seed = end, .purpose = purpose_of("test-sway"), .which = i});
   };
-  const double turn_per_m = 2 * std::numbers::pi * frequency_hz / 1500, from_m = sway_m(1), to_m = sway_m(2);
+  const double turn_per_m = 2 * std::numbers::pi * frequency_hz / 1500, from_m = jitter_m(1),
+               to_m = jitter_m(2);
   for (SoundPath& path : paths) {
     path.phase_rad +=
         turn_per_m * (from_m * std::sin(path.launch_angle_rad) + to_m * std::sin(path.arrival_angle_rad));
@@ -103,7 +105,7 @@ TEST_P(PredictedLink, DeliversAsManyPacketsAsRealised) {
   const FadingModel model{.enabled = true};
   const acoustics::Modem modem = load_modem(GetParam().profile).modem;
   const std::vector<SoundPath> paths = sea(GetParam().sea, modem.centre_frequency_hz);
-  const acoustics::Lock lock{&modem, best_window(paths, modem)};
+  const acoustics::Synchronisation sync{&modem, best_window(paths, modem)};
   const acoustics::ReceptionCurves curves(modem, std::min(kPayloadBytes, max_payload_bytes(modem)));
   const acoustics::PacketTiming timing = curves.timing();
   Packet packet;
@@ -118,8 +120,8 @@ TEST_P(PredictedLink, DeliversAsManyPacketsAsRealised) {
     const acoustics::LinkFading fading(model, link);
     ReceivedSignal signal{shared, 0, begin, begin + timing.preamble, begin + timing.duration, true, {}, {}};
     signal.history =
-        signal_history(model, link, fading.large_scale(begin), swayed(paths, modem.centre_frequency_hz, i),
-                       lock, modem.band(), begin, {timing.preamble.seconds(), timing.duration.seconds()});
+        signal_history(model, link, fading.large_scale(begin), jittered(paths, modem.centre_frequency_hz, i),
+                       sync, modem.band(), begin, {timing.preamble.seconds(), timing.duration.seconds()});
     for (std::size_t k = 0; k < kNoiseDb.size(); ++k) {
       signal.noise = std::pow(10, kNoiseDb[k] / 10);
       const double acquisition = acquisition_probability(signal, {});
@@ -133,7 +135,7 @@ TEST_P(PredictedLink, DeliversAsManyPacketsAsRealised) {
   std::array<double, kNoiseDb.size()> promised{};
   for (std::size_t k = 0; k < kNoiseDb.size(); ++k) {
     const auto predicted =
-        predict_link(model, paths, lock, modem.band(), std::pow(10, kNoiseDb[k] / 10), curves);
+        predict_link(model, paths, sync, modem.band(), std::pow(10, kNoiseDb[k] / 10), curves);
     EXPECT_NEAR(predicted.acquisition_probability, acquired[k].mean, acquired[k].bound());
     EXPECT_NEAR(predicted.delivery_probability, delivered[k].mean, delivered[k].bound());
     promised[k] = predicted.delivery_probability;

@@ -301,20 +301,20 @@ TEST_F(PacketMediumTest, ARequestReceivedLateIsProcessedAsOfItsStart) {
 }
 
 // At 2, one from 1 sounds from 12 s on, whose outcome has come at 15 s.
-TEST_F(PacketMediumTest, ARequestReceivedAfterAnOutcomeThatItWouldHaveChangedIsTooLate) {
+TEST_F(PacketMediumTest, ARequestReceivedAfterAnOutcomeThatItWouldHaveChangedConflictsWithThePast) {
   stay(1, {0, 0, 50});
   stay(2, {3000, 0, 50});
   stay(3, {6000, 0, 50});
   EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0, 5), at_s(10)));
   medium_.advance_to(at_s(15));
   EXPECT_FALSE(medium_.transmit(request_of(3, 10, 0, 5), at_s(15)));
-  bool is_too_late = false;
+  bool conflicts_with_past = false;
   for (const PacketOutcome& outcome : outcomes_in(medium_.advance_to(at_s(25))))
-    is_too_late = is_too_late || (outcome.receiver_id == 2 && outcome.is_too_late);
-  EXPECT_TRUE(is_too_late);
+    conflicts_with_past = conflicts_with_past || (outcome.receiver_id == 2 && outcome.conflicts_with_past);
+  EXPECT_TRUE(conflicts_with_past);
 }
 
-TEST_F(PacketMediumTest, ARequestReceivedLateThatChangesNoOutcomeIsNotTooLate) {
+TEST_F(PacketMediumTest, ARequestReceivedLateThatChangesNoOutcomeDoesNotConflict) {
   stay(1, {0, 0, 50});
   stay(2, {3000, 0, 50});
   stay(3, {6000, 0, 50});
@@ -322,7 +322,7 @@ TEST_F(PacketMediumTest, ARequestReceivedLateThatChangesNoOutcomeIsNotTooLate) {
   medium_.advance_to(at_s(15));
   EXPECT_FALSE(medium_.transmit(request_of(3, 14.5, 0, 5), at_s(15)));  // sounds at 2 from 16.5 s on
   for (const PacketOutcome& outcome : outcomes_in(medium_.advance_to(at_s(25))))
-    EXPECT_FALSE(outcome.is_too_late);
+    EXPECT_FALSE(outcome.conflicts_with_past);
 }
 
 TEST_F(PacketMediumTest, ALateRequestDoesNotOverlapWhatWasAcceptedMeanwhile) {

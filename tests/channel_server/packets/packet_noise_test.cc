@@ -13,7 +13,7 @@
 #include "acoustics/sea/noise.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
-#include "channel_server/packets/vehicle_sounds.h"
+#include "channel_server/packets/platform_noise.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/reach.h"
 #include "channel_server/propagation/straight_propagation.h"
@@ -35,7 +35,7 @@ using testing::for_s;
 
 // 1 sends to 2, 750 m away; 3 is a ship without a modem, 300 m beside 2.
 struct Sea {
-  explicit Sea(std::vector<NoiseOf> noise, acoustics::NoiseVariation variation = {})
+  explicit Sea(std::vector<NoiseSource> noise, acoustics::NoiseVariation variation = {})
       : fleet({for_s(0.05), for_s(5)}, modems(), {.noise = VehicleNoise(std::move(noise), for_s(0.05))}),
         propagation(testing::even_water()),
         medium(fleet, propagation, {.noise = variation}) {
@@ -66,12 +66,12 @@ struct Sea {
   PacketMedium medium;
 };
 
-NoiseOf propeller_of(VehicleId id, double level_db) {
+NoiseSource propeller_of(VehicleId id, double level_db) {
   return {testing::name_of(id),    id, NoiseSpectrum({1e3}, {level_db}),
           NoiseDriver::kPropeller, 20, Decibels{10}};
 }
 
-NoiseOf ship(double level_db, NoiseDriver driver = NoiseDriver::kNone, double reference_mps = 2) {
+NoiseSource ship(double level_db, NoiseDriver driver = NoiseDriver::kNone, double reference_mps = 2) {
   return {"v3", 3, NoiseSpectrum({1e3}, {level_db}), driver, reference_mps, Decibels{20}};
 }
 
@@ -98,7 +98,7 @@ TEST(OwnNoise, AStoppedPropellerGainsExactlyTheStatedDifference) {
 }
 
 TEST(OwnNoise, GrowsBy60DecibelsADecadeOfSpeed) {
-  const NoiseOf noise = propeller_of(2, 60);
+  const NoiseSource noise = propeller_of(2, 60);
   const double at_reference = noise_power_at_1m(noise, 20, 2e4, 3e4);
   EXPECT_NEAR(10 * std::log10(noise_power_at_1m(noise, 40, 2e4, 3e4) / at_reference), 60 * std::log10(2),
               tolerance(1e-9));
@@ -161,24 +161,24 @@ TEST(ShipNoise, FollowsItsSpeedOverGround) {
 TEST(ShipNoise, InTablesAddsItsMeanToTheAmbientAndTheOwn) {
   Sea sea({propeller_of(2, 60), ship(110)});
   sea.turn(2, 20);
-  VehicleSounds sounds(sea.fleet, sea.propagation, nullptr, {}, {}, 1);
+  PlatformNoise sounds(sea.fleet, sea.propagation, nullptr, {}, {}, 1);
   ASSERT_TRUE(sounds.differ());
   const acoustics::Modem& modem = testing::quick_modem().modem;
   const auto here = sea.fleet.placement(2, at_s(10), at_s(10));
   ASSERT_TRUE(here);
-  const Hearing hearing{
+  const NoiseQuery query{
       {2, here->position_ned_m, here->velocity_ned_mps, &modem}, modem.band(), at_s(10), at_s(10)};
-  EXPECT_TRUE(sounds.is_ready(hearing));
+  EXPECT_TRUE(sounds.is_ready(query));
   // The ship is 303 m away and makes 2 m/s across that line: by the time that sound takes, 0.2 s, its range
   // changes by 3 mm.
   acoustics::Modem noise = modem;
   noise.source_level = Decibels{110 + 10 * std::log10(5000.0)};
   const double loss_db =
-      sea.propagation.reception(at_s(10), {3, Vec3(770, 300, 5), Vec3::Zero(), &noise}, hearing.receiver)
+      sea.propagation.reception(at_s(10), {3, Vec3(770, 300, 5), Vec3::Zero(), &noise}, query.receiver)
           .budget.transmission_loss.value;
   const double by_parts =
       ambient_power() + 5000 * 1e5 + power_of(Decibels{noise.source_level.value - loss_db});
-  EXPECT_NEAR((sounds.mean_level(hearing) - to_decibels({by_parts})).value, 0, tolerance(0.02));
+  EXPECT_NEAR((sounds.mean_level(query) - to_decibels({by_parts})).value, 0, tolerance(0.02));
   EXPECT_GT(by_parts, 1.5 * (ambient_power() + 5000 * 1e5));
 }
 

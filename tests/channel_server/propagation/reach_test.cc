@@ -88,7 +88,7 @@ TEST(LeastLoss, TheRangeOfALossIsWhereItIsReached) {
       EXPECT_NEAR(least.range_of(least.at(range_m)), range_m, 2e-6 * range_m);
     }
     EXPECT_EQ(least.range_of(Decibels{-100}), 0);
-    EXPECT_EQ(least.range_of(Decibels{1e9}), acoustics::kGreatestBoundedRange);
+    EXPECT_EQ(least.range_of(Decibels{1e9}), acoustics::kMaxBoundedRange);
   }
 }
 
@@ -104,7 +104,7 @@ TEST(LeastLoss, OfRaysIsThatOfAChannelWithoutLosses) {
 // water the less.
 TEST(LeastLoss, OfRaysGrowsByWhatTheBottomTakes) {
   const auto at = [](double range_m, double least_depth_m) {
-    const acoustics::WaterColumn column{least_depth_m, 1000, *acoustics::sediment("MediumSand")};
+    const acoustics::WaterLimits column{least_depth_m, 1000, *acoustics::sediment("MediumSand")};
     return LeastLoss::of_rays(windy_water(0), 10, 100, Decibels{0}, column).at(range_m).value;
   };
   EXPECT_EQ(at(3000, 0), LeastLoss::of_rays(windy_water(0), 10, 100, Decibels{0}).at(3000).value);
@@ -209,7 +209,7 @@ TEST_F(Reach, IsTheCutOffsWithoutAPreamble) {
 TEST_F(Reach, EverybodyIsWithinReachWithoutARule) {
   ReachRule none;
   none.by_level = false;
-  EXPECT_EQ(reach_m(modem_, none), acoustics::kGreatestBoundedRange);
+  EXPECT_EQ(reach_m(modem_, none), acoustics::kMaxBoundedRange);
 }
 
 class ReceptionRange : public Reach {
@@ -265,7 +265,7 @@ TEST_F(ReceptionRange, IsThatOfEachModemOfAFleet) {
   EXPECT_GT(ranges[1], ranges[0] + 1000);
   ReachRule none;
   none.by_level = false;
-  EXPECT_EQ(ranges_m(none), std::vector<double>(2, acoustics::kGreatestBoundedRange));
+  EXPECT_EQ(ranges_m(none), std::vector<double>(2, acoustics::kMaxBoundedRange));
 }
 
 // It is met where both will be: the range shrinks by v t while the sound goes r / c.

@@ -49,14 +49,14 @@ double draw(std::uint64_t place, std::uint32_t what, double low, double high) {
   return low + (high - low) * uniform_at({.seed = 57, .who = what, .which = place});
 }
 
-enum class Bound { kLeastLoss, kLeastLossOfKnownDepths, kEnergyOfWeakLinks };
+enum class Bound { kMinLoss, kMinLossOfKnownDepths, kFluxOnlyLinks };
 
 class LevelBound : public ::testing::TestWithParam<Sea> {
  protected:
   // Level over its bound, dB, at each place where anything arrives; of weak links, at each that is long and
   // weak.
   std::vector<double> excesses(Bound bound) const {
-    const bool depths_are_known = bound != Bound::kLeastLoss;
+    const bool depths_are_known = bound != Bound::kMinLoss;
     const Sea& sea = GetParam();
     ChannelServerConfig config;
     config.propagation.sediment = sea.sediment;
@@ -73,7 +73,7 @@ class LevelBound : public ::testing::TestWithParam<Sea> {
     acoustics::Modem modem;
     modem.centre_frequency_hz = sea.frequency_hz;
     modem.bandwidth_hz = sea.frequency_hz / 5;
-    if (bound == Bound::kEnergyOfWeakLinks) modem.source_level = Decibels{110};
+    if (bound == Bound::kFluxOnlyLinks) modem.source_level = Decibels{110};
     std::vector<double> excesses;
     for (std::uint64_t place = 0; place < kPlaces; ++place) {
       const double range_m = elementary::exp10(draw(place, 1, 2, elementary::log10(sea.greatest_range_m)));
@@ -98,12 +98,12 @@ class LevelBound : public ::testing::TestWithParam<Sea> {
       if (reception.paths.empty()) continue;
       const double deepest_m = std::max(from.z(), to.z());
       const Decibels level = reception.budget.received_level;
-      if (bound != Bound::kEnergyOfWeakLinks) {
+      if (bound != Bound::kFluxOnlyLinks) {
         const auto least = propagation.least_loss(at_s(1), modem.centre_frequency_hz, deepest_m);
         excesses.push_back((level - (modem.source_level - least->at(reception.budget.range_m))).value);
         continue;
       }
-      const auto weak = propagation.weak_links(at_s(1), modem.centre_frequency_hz, deepest_m);
+      const auto weak = propagation.flux_only_links(at_s(1), modem.centre_frequency_hz, deepest_m);
       const bool is_long = range_m >= 10 * config.propagation.greatest_depth_m;
       if (is_long && level < reception.budget.noise_level - weak->below_noise)
         excesses.push_back((level - (modem.source_level - weak->loss.at(reception.budget.range_m))).value);
@@ -113,8 +113,8 @@ class LevelBound : public ::testing::TestWithParam<Sea> {
 };
 
 TEST_P(LevelBound, HoldsAtRandomPlaces) {
-  for (const Bound bound : {Bound::kLeastLoss, Bound::kLeastLossOfKnownDepths}) {
-    const bool depths_are_known = bound != Bound::kLeastLoss;
+  for (const Bound bound : {Bound::kMinLoss, Bound::kMinLossOfKnownDepths}) {
+    const bool depths_are_known = bound != Bound::kMinLoss;
     const std::vector<double> all = excesses(bound);
     ASSERT_GT(all.size(), kPlaces / 10);
     const double greatest = *std::max_element(all.begin(), all.end());
@@ -125,8 +125,8 @@ TEST_P(LevelBound, HoldsAtRandomPlaces) {
 }
 
 // Weak links in deep water are longer than those drawn.
-TEST_P(LevelBound, OfWeakLinksHoldsAtRandomPlaces) {
-  const std::vector<double> all = excesses(Bound::kEnergyOfWeakLinks);
+TEST_P(LevelBound, OfFluxOnlyLinksHoldsAtRandomPlaces) {
+  const std::vector<double> all = excesses(Bound::kFluxOnlyLinks);
   if (GetParam().bottom_m <= 100 && GetParam().waves_m == 0) {
     ASSERT_GT(all.size(), 4u);
   }

@@ -62,9 +62,9 @@ Link link_at(double range_m, const char* sediment, bool reverberation, double wi
   Link link;
   if (reception.paths.empty()) return link;
   const double noise = to_power_ratio(reception.budget.noise_level).value;
-  const acoustics::Lock lock{&modem, best_window(reception.paths, modem)};
+  const acoustics::Synchronisation sync{&modem, best_window(reception.paths, modem)};
   const acoustics::LinkPrediction prediction =
-      predict_link(config.propagation.fading, reception.paths, lock, modem.band(), noise,
+      predict_link(config.propagation.fading, reception.paths, sync, modem.band(), noise,
                    acoustics::ReceptionCurves(modem, kCodeBytes));
   link.snr_db = (reception.budget.received_level - reception.budget.noise_level).value;
   link.sinr_db = to_decibels({prediction.sinr}).value;

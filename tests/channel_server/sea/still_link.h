@@ -51,7 +51,7 @@ class StillLink {
     ReceivedSignal signal{packet_,        noise_, begin, begin + timing.preamble, begin + timing.duration,
                           model_.enabled, {},     {}};
     signal.history = signal_history(model_, link_, acoustics::LinkFading(model_, link_).large_scale(begin),
-                                    reception_.paths, lock_, modem_.band(), begin,
+                                    reception_.paths, sync_, modem_.band(), begin,
                                     {timing.preamble.seconds(), timing.duration.seconds()});
     return acquisition_probability(signal, {}) * success_probability(signal, {});
   }
@@ -62,7 +62,7 @@ class StillLink {
            delivery(time_s);
   }
   acoustics::LinkPrediction prediction(const acoustics::ReceptionCurves& curves) const {
-    return predict_link(model_, reception_.paths, lock_, modem_.band(), noise_, curves);
+    return predict_link(model_, reception_.paths, sync_, modem_.band(), noise_, curves);
   }
   const Reception& reception() const { return reception_; }
 
@@ -73,7 +73,7 @@ class StillLink {
   acoustics::FadingLink link_;
   double noise_;
   acoustics::GuardWindow window_;
-  acoustics::Lock lock_{&modem_, window_};
+  acoustics::Synchronisation sync_{&modem_, window_};
   PacketPointer packet_;
 };
 

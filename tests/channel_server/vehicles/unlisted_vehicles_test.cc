@@ -26,15 +26,15 @@ UnlistedVehicles crowd() {
   return unlisted;
 }
 
-TEST(UnlistedVehicles, TheFirstAreFollowedFromTheirFirstState) {
-  EXPECT_EQ(crowd().followed(), UnlistedVehicles::kMaxAtOnce);
+TEST(UnlistedVehicles, TheFirstAreTrackedFromTheirFirstState) {
+  EXPECT_EQ(crowd().tracked(), UnlistedVehicles::kMaxAtOnce);
 }
 
-TEST(UnlistedVehicles, OneMoreIsFollowedFromItsSecondState) {
+TEST(UnlistedVehicles, OneMoreIsTrackedFromItsSecondState) {
   UnlistedVehicles unlisted = crowd();
   EXPECT_THAT(unlisted.admit("more", 1000, at_s(0)), HasSubstr("second STATE"));
   EXPECT_EQ(unlisted.admit("more", 1000, at_s(kTimeout_s)), "");
-  EXPECT_EQ(unlisted.followed(), UnlistedVehicles::kMaxAtOnce + 1);
+  EXPECT_EQ(unlisted.tracked(), UnlistedVehicles::kMaxAtOnce + 1);
 }
 
 TEST(UnlistedVehicles, OfTwoStatesEitherMayComeFirst) {
@@ -60,9 +60,9 @@ TEST(UnlistedVehicles, NamesWithoutEndKeepNoSteadyOneOut) {
   EXPECT_EQ(unlisted.admit("steady", 1000, at_s(1)), "");
 }
 
-TEST(UnlistedVehicles, BeyondTheMostNobodyIsFollowedUntilOneLeaves) {
+TEST(UnlistedVehicles, BeyondTheMostNobodyIsTrackedUntilOneLeaves) {
   UnlistedVehicles unlisted(for_s(kTimeout_s));
-  for (VehicleId id = 1; id <= static_cast<VehicleId>(UnlistedVehicles::kMaxFollowed); ++id) {
+  for (VehicleId id = 1; id <= static_cast<VehicleId>(UnlistedVehicles::kMaxTracked); ++id) {
     if (!unlisted.admit(name_of(id), id, at_s(0)).empty()) {
       EXPECT_EQ(unlisted.admit(name_of(id), id, at_s(1)), "");
     }
@@ -74,7 +74,7 @@ TEST(UnlistedVehicles, BeyondTheMostNobodyIsFollowedUntilOneLeaves) {
   EXPECT_EQ(unlisted.admit("more", 1000, at_s(3)), "");
 }
 
-TEST(UnlistedVehicles, AsManyAsTheScenarioSaysAreFollowed) {
+TEST(UnlistedVehicles, AsManyAsTheScenarioSaysAreTracked) {
   UnlistedVehicles unlisted(for_s(kTimeout_s), 1000);
   for (VehicleId id = 1; id <= 1000; ++id) {
     const bool at_once = unlisted.admit(name_of(id), id, at_s(0)).empty();
@@ -87,7 +87,7 @@ TEST(UnlistedVehicles, AnotherRunKnowsNobody) {
   UnlistedVehicles unlisted = crowd();
   EXPECT_NE(unlisted.admit("more", 1000, at_s(0)), "");
   unlisted.clear();
-  EXPECT_EQ(unlisted.followed(), 0u);
+  EXPECT_EQ(unlisted.tracked(), 0u);
   EXPECT_EQ(unlisted.admit("more", 1000, at_s(1)), "");
 }
 

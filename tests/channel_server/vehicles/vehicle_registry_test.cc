@@ -83,12 +83,12 @@ TEST(VehicleRegistry, AVehicleWithoutAnnouncementCarriesTheModemOfItsScenario) {
 TEST(VehicleRegistry, TooManyVehiclesAreRefused) {
   VehicleRegistry fleet = make_fleet();
   for (const double time_s : {0.0, 0.1}) {
-    for (VehicleId id = 1; id <= static_cast<VehicleId>(UnlistedVehicles::kMaxFollowed); ++id) {
+    for (VehicleId id = 1; id <= static_cast<VehicleId>(UnlistedVehicles::kMaxTracked); ++id) {
       const std::string problem = fleet.add_state(testing::name_of(id), id, state_at(time_s, {0, 0, 0}));
       EXPECT_TRUE(problem.empty() || time_s == 0) << problem;
     }
   }
-  EXPECT_EQ(fleet.size(), UnlistedVehicles::kMaxFollowed);
+  EXPECT_EQ(fleet.size(), UnlistedVehicles::kMaxTracked);
   EXPECT_THAT(fleet.add_state("one-more", 5000, state_at(0, {0, 0, 0})), HasSubstr("too many"));
 }
 

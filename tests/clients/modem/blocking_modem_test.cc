@@ -33,7 +33,7 @@ class BlockingModemTest : public ::testing::Test {
   testing::FakeServer server_{lcm_, "auv-1"};
   BlockingModem modem_{lcm_,
                        {.vehicle = "auv-1", .vehicle_id = 1, .session = 42},
-                       {.interval = SimDuration::from_milliseconds(10), .give_up_after = kPlenty}};
+                       {.interval = SimDuration::from_milliseconds(10), .expire_after = kPlenty}};
   const std::vector<std::uint8_t> payload_{1, 2, 3};
 };
 

@@ -40,7 +40,7 @@ class ModemClientTest : public ::testing::Test {
   ModemClient modem_{bus_,
                      {.vehicle = "auv-1", .vehicle_id = 3, .session = 42},
                      {.interval = SimDuration::from_milliseconds(200),
-                      .give_up_after = SimDuration::from_milliseconds(1000)}};
+                      .expire_after = SimDuration::from_milliseconds(1000)}};
 };
 
 TEST_F(ModemClientTest, SendCarriesTheRequestedFields) {
@@ -221,7 +221,7 @@ TEST_F(ModemClientTest, NextResendIsWhenTheOldestIsDue) {
   EXPECT_EQ(modem_.next_resend(), at_ms(250));
 }
 
-TEST_F(ModemClientTest, UnansweredPacketIsGivenUp) {
+TEST_F(ModemClientTest, UnansweredPacketExpires) {
   const auto packet = send(0);
   step(999);
   EXPECT_TRUE(modem_.is_pending(packet));

@@ -87,7 +87,7 @@ TEST(Connections, ASerialLineIsRawWhenAHostOpensIt) {
   const halocline::testing::TemporaryFolder folder;
   Connections connections;
   connections.add(place_of("pty:modem"));
-  const File line(open("modem", O_RDWR | O_NOCTTY | O_CLOEXEC));
+  const FileDescriptor line(open("modem", O_RDWR | O_NOCTTY | O_CLOEXEC));
   termios settings{};
   ASSERT_EQ(tcgetattr(line.get(), &settings), 0);
   EXPECT_EQ(settings.c_lflag & (ICANON | ECHO | ISIG | IEXTEN), 0u);

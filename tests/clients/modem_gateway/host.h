@@ -27,12 +27,12 @@ class Host {
  public:
   // To "tcp:PORT" or "pty:PATH".
   explicit Host(const std::string& place_text) {
-    const Place place = place_of(place_text);
+    const Endpoint place = place_of(place_text);
     if (!place.is_tcp) {
-      file_ = File(open(place.path.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+      file_ = FileDescriptor(open(place.path.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
       return;
     }
-    file_ = File(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    file_ = FileDescriptor(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(place.port);
@@ -56,10 +56,10 @@ class Host {
     if (size == 0) is_open_ = false;
     return size > 0 ? std::string(bytes.data(), static_cast<std::size_t>(size)) : "";
   }
-  void close() { file_ = File(); }
+  void close() { file_ = FileDescriptor(); }
 
  private:
-  File file_;
+  FileDescriptor file_;
   bool is_open_ = true;
 };
 

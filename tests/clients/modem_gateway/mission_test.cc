@@ -100,13 +100,12 @@ class DoorsOfAMission : public ::testing::Test {
     if (i / 2 == 1 && second % 7 == static_cast<int>(i))
       host.write("AT*SENDIM,6," + other + ",ack,a+,b\r\n\n");
     if (i / 2 == 2 && second % 3 == static_cast<int>(i % 2))
-      host.write(
-          R"({"action":"send","message":{"clazz":"org.arl.unet.DatagramReq","data":{"msgID":"m",)"
-          R"("sender":"g",)"
-          R"("recipient":"phy","to":)" +
-          other +
-          R"(,"data":[1,2,3]}}})"
-          "\n");
+      host.write(R"({"action":"send","message":{"clazz":"org.arl.unet.DatagramReq","data":{"msgID":"m",)"
+                 R"("sender":"g",)"
+                 R"("recipient":"phy","to":)" +
+                 other +
+                 R"(,"data":[1,2,3]}}})"
+                 "\n");
   }
 
   // Outcomes of packets that this vehicle's modem had detected and lost.

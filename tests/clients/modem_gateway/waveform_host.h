@@ -52,7 +52,7 @@ class DataPort {
   }
 
  private:
-  File file_;
+  FileDescriptor file_;
   std::uint64_t next_ = 0;
 };
 

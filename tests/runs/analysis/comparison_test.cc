@@ -134,7 +134,7 @@ TEST_F(ComparisonTest, ARefusalExplainsAMissingOutcome) {
   EXPECT_EQ(comparison.rows()[1].outcome_before, "undecided at the end");
 }
 
-TEST_F(ComparisonTest, AMissionWithoutOutcomesIsReportedAsNotRecorded) {
+TEST_F(ComparisonTest, ARunWithoutOutcomesIsReportedAsNotRecorded) {
   before_.add(1, "STATE.auv-1", testing::state_at(0));
   after_.add(1, "OUTCOME", outcome(0, packet_outcome_t::RECEIVED));
   const Comparison comparison = compared();

@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
-#include "runs/timeline/mission_summary.h"
-#include "tests/runs/timeline/mission_fixtures.h"
+#include "runs/timeline/run_summary.h"
+#include "tests/runs/timeline/timeline_fixtures.h"
 
 namespace halocline::clients {
 namespace {
@@ -17,7 +17,7 @@ using testing::receipt;
 using testing::send;
 using testing::state;
 
-void add_table(MissionStore& store, double delivery_probability, double snr_db, std::int64_t utime) {
+void add_table(RunTimeline& store, double delivery_probability, double snr_db, std::int64_t utime) {
   link_table_t table{};
   table.utime = utime;
   table.vehicle_id = 1;
@@ -45,7 +45,7 @@ TEST(RoundStep, IsOneTwoOrFiveTimesAPowerOfTen) {
 }
 
 TEST(DeliveryByRange, CountsInStepsAndSetsThePredictionOfTheTableBeforeBesideIt) {
-  MissionStore store;
+  RunTimeline store;
   add_table(store, 0.8, 10, 9 * kSecond);
   add_table(store, 0.4, 10, 15 * kSecond);
   add(store, "OUTCOME", at_range(1, 120, packet_outcome_t::RECEIVED));    // at 10 s
@@ -63,7 +63,7 @@ TEST(DeliveryByRange, CountsInStepsAndSetsThePredictionOfTheTableBeforeBesideIt)
 }
 
 TEST(DeliveryByPair, TheSnrIsTheMedianOfTheTablesElseOfTheOutcomes) {
-  MissionStore store;
+  RunTimeline store;
   for (const double snr_db : {3.0, 5.0, 30.0})
     add_table(store, 1, snr_db, static_cast<std::int64_t>(snr_db) * kSecond);
   add(store, "OUTCOME", outcome(1, 2, 0, 0));
@@ -76,14 +76,14 @@ TEST(DeliveryByPair, TheSnrIsTheMedianOfTheTablesElseOfTheOutcomes) {
   EXPECT_EQ(pairs[1].share(), 0);
 }
 
-std::string text_of(const MissionStore& store) {
+std::string text_of(const RunTimeline& store) {
   std::string text;
-  for (const SummaryRow& row : mission_summary(store)) text += row.key + ": " + row.text + "\n";
+  for (const SummaryRow& row : run_summary(store)) text += row.key + ": " + row.text + "\n";
   return text;
 }
 
-TEST(MissionSummary, CountsWhatWasTransmittedReceivedRefusedAndLost) {
-  MissionStore store;
+TEST(RunSummary, CountsWhatWasTransmittedReceivedRefusedAndLost) {
+  RunTimeline store;
   add(store, "STATE.a", state(1, 0, 0));
   add(store, "STATE.b", state(2, 0, 0));
   for (std::int64_t i = 0; i < 3; ++i) {
@@ -99,17 +99,17 @@ TEST(MissionSummary, CountsWhatWasTransmittedReceivedRefusedAndLost) {
             "received: a and b of each other: 1 of 2 (50 %)\nlost: 1 shadow\n");
 }
 
-TEST(MissionSummary, ALargeFleetIsAFewRows) {
-  MissionStore store;
+TEST(RunSummary, ALargeFleetIsAFewRows) {
+  RunTimeline store;
   for (std::int32_t v = 1; v <= 50; ++v) add(store, "STATE.v" + std::to_string(v), state(v, 0, v));
   for (std::int32_t v = 2; v <= 50; ++v) add(store, "OUTCOME", outcome(1, v, 0, 0));
-  EXPECT_LE(mission_summary(store).size(), 5u);
+  EXPECT_LE(run_summary(store).size(), 5u);
   EXPECT_THAT(text_of(store), HasSubstr("vehicles: 50, 50 at rest"));
   EXPECT_THAT(text_of(store), HasSubstr("received: between 49 of 49 pairs"));
 }
 
-TEST(MissionSummary, AnEmptyMissionHasASummaryToo) {
-  EXPECT_EQ(text_of(MissionStore()), "vehicles: none published a state\npackets: none\n");
+TEST(RunSummary, AnEmptyRunHasASummaryToo) {
+  EXPECT_EQ(text_of(RunTimeline()), "vehicles: none published a state\npackets: none\n");
 }
 
 }  // namespace

@@ -4,19 +4,19 @@
 
 #include "bus/logs/log_reader.h"
 #include "core/sim_time.h"
-#include "runs/timeline/mission_store.h"
+#include "runs/timeline/run_timeline.h"
 #include "tests/bus/logs/log_fixture.h"
 
 namespace halocline::clients {
 namespace {
 
-TEST(HeaderExamples, AMissionStoreReadsALog) {
+TEST(HeaderExamples, ARunTimelineReadsALog) {
   testing::TemporaryLog file;
   file.add(0, "STATE.auv-1", testing::state_at(0));
   file.add(120'000'000, "STATE.auv-1", testing::state_at(120'000'000, 90));
   LogReader log(file.path());
   LoggedEvent event;
-  MissionStore store;
+  RunTimeline store;
   while (log.next(event)) store.add(event.stamp_us, event.channel, event.data);
   const auto place = state_at(store.vehicles()[0].track, SimTime::from_seconds(60));
   ASSERT_TRUE(place);

@@ -7,7 +7,7 @@
 
 #include "bus/messages/message_field.h"
 #include "bus/messages/message_fields.h"
-#include "tests/runs/timeline/mission_fixtures.h"
+#include "tests/runs/timeline/timeline_fixtures.h"
 
 namespace halocline::clients {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/runs/timeline/mission_fixtures.h"
+#include "tests/runs/timeline/timeline_fixtures.h"
 
 namespace halocline::clients {
 namespace {

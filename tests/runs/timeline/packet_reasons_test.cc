@@ -7,7 +7,7 @@
 
 #include "runs/timeline/outcome_classes.h"
 #include "runs/timeline/outcome_ledger.h"
-#include "tests/runs/timeline/mission_fixtures.h"
+#include "tests/runs/timeline/timeline_fixtures.h"
 
 namespace halocline::clients {
 namespace {

@@ -115,7 +115,7 @@ TEST(Coverage, ByRaysThatDepthsShareIsCloseToLinksIn1000RandomCells) {
   expect_links_in_random_cells(sea_over_a_ridge(), "buoy", area, most);
 }
 
-TEST(Coverage, ByRaysThatBearingsShareLooksLikeThatOfLinks) {
+TEST(Coverage, ByAFanThatRangesShareLooksLikeThatOfLinks) {
   ScenarioConfig config = sea_over_a_ridge();
   const auto terrain = make_terrain(config).terrain;
   const CoverageArea area{.middle_north_m = -3250, .cell_m = 100, .side = 26, .depths_m = {5, 30, 60}};

@@ -7,10 +7,10 @@
 
 #include <gmock/gmock.h>
 
-#include "runs/timeline/mission_terrain.h"
 #include "runs/timeline/outcome_classes.h"
 #include "runs/timeline/packet_book.h"
-#include "tests/runs/timeline/mission_fixtures.h"
+#include "runs/timeline/terrain_overview.h"
+#include "tests/runs/timeline/timeline_fixtures.h"
 #include "tests/viewer/report/well_formed.h"
 #include "viewer/report/packet_lanes.h"
 #include "viewer/report/packet_links.h"
@@ -43,8 +43,8 @@ class WithoutGnuplot {
   std::string path_ = std::getenv("PATH");
 };
 
-MissionTerrain slope() {
-  MissionTerrain terrain{-2000, -2000, 100, 100, 41, 41, {}};
+TerrainOverview slope() {
+  TerrainOverview terrain{-2000, -2000, 100, 100, 41, 41, {}};
   for (int row = 0; row < 41; ++row) {
     for (int column = 0; column < 41; ++column)
       terrain.depth_m.push_back(static_cast<float>(100 + row + column));
@@ -53,7 +53,7 @@ MissionTerrain slope() {
 }
 
 // Two vehicles, one packet of every outcome.
-void add_mission(MissionStore& store) {
+void add_run(RunTimeline& store) {
   for (std::int64_t s = 0; s <= 200; ++s) {
     add(store, "STATE.auv-1", state(1, s * kSecond, static_cast<double>(s), 0, 30));
     add(store, "STATE.b-2", state(2, s * kSecond, 0, 500 + static_cast<double>(s), 40));
@@ -78,8 +78,8 @@ std::size_t count(const std::string& text, const std::string& what) {
 }
 
 TEST(ReportPage, IsWellFormedAndLoadsAndRunsNothing) {
-  MissionStore store;
-  add_mission(store);
+  RunTimeline store;
+  add_run(store);
   const std::string page = report_page({"run.lcm", store});
   EXPECT_EQ(fault_in_xml(page), "");
   EXPECT_THAT(page, AllOf(Not(HasSubstr("<script")), Not(HasSubstr("http")), Not(HasSubstr("onmouse")),
@@ -88,8 +88,8 @@ TEST(ReportPage, IsWellFormedAndLoadsAndRunsNothing) {
 }
 
 TEST(ReportPage, EveryColourOfGnuplotIsOneOfThePage) {
-  MissionStore store;
-  add_mission(store);
+  RunTimeline store;
+  add_run(store);
   const std::string page = report_page({"run.lcm", store});
   EXPECT_EQ(count(page, "01fe") + count(page, "01FE"), 0u);
   EXPECT_EQ(count(page, "rgb(  1, 254"), 0u);
@@ -98,8 +98,8 @@ TEST(ReportPage, EveryColourOfGnuplotIsOneOfThePage) {
 }
 
 TEST(ReportPage, EveryOutcomeIsInTheLedgerAndItsSumIsThatOfTheLog) {
-  MissionStore store;
-  add_mission(store);
+  RunTimeline store;
+  add_run(store);
   const std::string page = report_page({"run.lcm", store});
   const std::string ledger = std::regex_replace(page.substr(page.find("<section id=\"ledger\""), 6000),
                                                 std::regex("</?a[^>]*>"), "");  // without links
@@ -109,8 +109,8 @@ TEST(ReportPage, EveryOutcomeIsInTheLedgerAndItsSumIsThatOfTheLog) {
 }
 
 TEST(ReportPage, EveryLossHasItsSentenceAndItsMarkOnTheTimeLine) {
-  MissionStore store;
-  add_mission(store);
+  RunTimeline store;
+  add_run(store);
   const std::string page = report_page({"run.lcm", store});
   const std::string losses = page.substr(page.find("<section id=\"losses\""));
   EXPECT_EQ(count(losses, "Lost at b-2: "), kOutcomes - 1);
@@ -121,8 +121,8 @@ TEST(ReportPage, EveryLossHasItsSentenceAndItsMarkOnTheTimeLine) {
 }
 
 TEST(ReportPage, WithoutGnuplotItHasTheOtherPicturesAndNamesWhatIsMissing) {
-  MissionStore store;
-  add_mission(store);
+  RunTimeline store;
+  add_run(store);
   const WithoutGnuplot without;
   const std::string page = report_page({"run.lcm", store});
   EXPECT_EQ(fault_in_xml(page), "");
@@ -130,8 +130,8 @@ TEST(ReportPage, WithoutGnuplotItHasTheOtherPicturesAndNamesWhatIsMissing) {
   EXPECT_THAT(page, HasSubstr("class=\"sent "));
 }
 
-TEST(ReportPage, AnEmptyMissionIsAPageOfSentences) {
-  const MissionStore store;
+TEST(ReportPage, AnEmptyRunIsAPageOfSentences) {
+  const RunTimeline store;
   const std::string page =
       report_page({"nothing.lcm", store, {"nothing.lcm, byte 12: 400 bytes are no event"}});
   EXPECT_EQ(fault_in_xml(page), "");
@@ -140,11 +140,11 @@ TEST(ReportPage, AnEmptyMissionIsAPageOfSentences) {
 }
 
 TEST(ReportPage, PacketsWithoutStatesAndStatesWithoutPacketsHaveTheirParts) {
-  MissionStore packets, states;
+  RunTimeline packets, states;
   add(packets, "OUTCOME", outcome(1, 2, 0, 0, packet_outcome_t::SHADOW));
   add(states, "STATE.a", state(1, 0, 0));
   add(states, "STATE.a", state(1, 9 * kSecond, 50));
-  for (const MissionStore* store : {&packets, &states})
+  for (const RunTimeline* store : {&packets, &states})
     EXPECT_EQ(fault_in_xml(report_page({"x.lcm", *store})), "");
   EXPECT_THAT(report_page({"x.lcm", packets}), HasSubstr("Lost at 2: "));
   EXPECT_THAT(report_page({"x.lcm", states}), HasSubstr("Depth of a over time"));
@@ -152,7 +152,7 @@ TEST(ReportPage, PacketsWithoutStatesAndStatesWithoutPacketsHaveTheirParts) {
 
 // 400 vehicles, as many states of each as are drawn, and packets of all to all.
 TEST(ReportPage, ALargeFleetIsDecimated) {
-  MissionStore store;
+  RunTimeline store;
   for (std::int32_t v = 1; v <= 400; ++v) {
     for (std::int64_t s = 0; s < 400; ++s)
       add(store, "STATE.v" + std::to_string(v),
@@ -195,8 +195,8 @@ void expect_sound_links(const std::string& page) {
 }
 
 TEST(ReportPage, AMarkOfALossLeadsToItsRowAndTheRowToTheTimeLine) {
-  MissionStore store;
-  add_mission(store);
+  RunTimeline store;
+  add_run(store);
   const std::string page = report_page({"run.lcm", store});
   expect_sound_links(page);
   const std::string chart =
@@ -215,8 +215,8 @@ TEST(ReportPage, AMarkOfALossLeadsToItsRowAndTheRowToTheTimeLine) {
 }
 
 TEST(ReportPage, CommandedDepthAndSeabedStandBesideTheDepth) {
-  MissionStore store;
-  add_mission(store);
+  RunTimeline store;
+  add_run(store);
   for (std::int64_t s = 0; s <= 200; ++s) {
     autopilot_status_t status{};
     status.utime = s * kSecond;
@@ -236,8 +236,8 @@ TEST(ReportPage, CommandedDepthAndSeabedStandBesideTheDepth) {
 }
 
 TEST(ReportPage, ASeabedFarBelowIsStated) {
-  MissionStore store;
-  add_mission(store);
+  RunTimeline store;
+  add_run(store);
   store.set_terrain({-2000, -2000, 4000, 4000, 2, 2, {4000, 4000, 4000, 4000}});
   const std::string page = report_page({"run.lcm", store});
   EXPECT_THAT(page, AllOf(HasSubstr("seabed 4000 to 4000 m"), HasSubstr("The seabed lies far below"),
@@ -245,7 +245,7 @@ TEST(ReportPage, ASeabedFarBelowIsStated) {
 }
 
 TEST(ReportPage, AVehicleHasTheSameColourInEveryPicture) {
-  MissionStore store;
+  RunTimeline store;
   for (std::int64_t v = 1; v <= 9; ++v) {
     const auto id = static_cast<std::int32_t>(v);
     for (std::int64_t s = 0; s <= 20; ++s)
@@ -271,8 +271,8 @@ TEST(ReportPage, AVehicleHasTheSameColourInEveryPicture) {
 }
 
 TEST(ReportPage, TwoLogsStandSideBySideWithWhatChanged) {
-  MissionStore before, after;
-  add_mission(before);
+  RunTimeline before, after;
+  add_run(before);
   add(after, "OUTCOME", outcome(1, 2, 1, 10 * kSecond, packet_outcome_t::RECEIVED));
   LoggedOutcomes was, is;
   for (const PacketRecord& packet : before.packets().all()) was.summary.count(packet.outcomes[0]);
@@ -301,7 +301,7 @@ TEST(SeabedRaster, DepthsAreThoseOfThePlaneAndLightComesFromTheNorthWest) {
   EXPECT_NEAR(raster.depth_m[0], 100 + 10.1 + 10.1, 1e-3);
   EXPECT_NEAR(raster.depth_m[99 * 100 + 99], 100 + 29.9 + 29.9, 1e-3);
   // Two ridges: the flank towards the north-west is the brighter one.
-  MissionTerrain ridge{-2000, -2000, 100, 100, 41, 41, {}};
+  TerrainOverview ridge{-2000, -2000, 100, 100, 41, 41, {}};
   for (int row = 0; row < 41; ++row) {
     for (int column = 0; column < 41; ++column)
       ridge.depth_m.push_back(static_cast<float>(100 + std::abs(column - row)));  // its crest runs north-east

@@ -75,7 +75,7 @@ TEST(VehicleStyle, ColoursDifferForEveryKindOfEyesAndStandOutFromThePaper) {
 }
 
 TEST(VehicleStyle, FromTheNinthVehicleOnTheLineIsDashed) {
-  MissionVehicle first, ninth;
+  VehicleRecord first, ninth;
   ninth.index = 8;
   EXPECT_EQ(colour_of(first), colour_of(ninth));
   EXPECT_NE(classes_of(&first), classes_of(&ninth));

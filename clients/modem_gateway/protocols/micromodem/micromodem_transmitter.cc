@@ -13,7 +13,7 @@ namespace halocline::modem_gateway {
 namespace {
 
 // Most frames that wait for a cycle, as many as the largest packet holds, and their largest size in bytes.
-constexpr std::size_t kMostFrames = 8, kLargestFrame = 256;
+constexpr std::size_t kMaxFrames = 8, kLargestFrame = 256;
 // Time after its end for which a packet's kind is remembered, so that answers can be matched to it.
 constexpr SimDuration kRemembered = SimDuration::from_milliseconds(60'000);
 
@@ -67,7 +67,7 @@ void MicromodemTransmitter::ask_for_data() {
 
 bool MicromodemTransmitter::can_take(std::size_t bytes) const {
   if (cycle_ && !cycle_->announcement) return bytes <= frame_size();
-  return bytes <= kLargestFrame && waiting_.size() < kMostFrames;
+  return bytes <= kLargestFrame && waiting_.size() < kMaxFrames;
 }
 
 void MicromodemTransmitter::take_data(std::vector<std::uint8_t> bytes, bool wants_ack) {

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::int64_t kSecond_us = 1'000'000;
 
-struct Calendar {
+struct CalendarTime {
   int year;
   unsigned month, day;
   std::int64_t hour, minute, second, microsecond;
 };
 
-Calendar calendar_of(std::int64_t us) {
+CalendarTime calendar_of(std::int64_t us) {
   using std::chrono::microseconds;
   const std::chrono::sys_time<microseconds> time{microseconds(us)};
   const auto day = std::chrono::floor<std::chrono::days>(time);
@@ -46,25 +46,25 @@ SimTime ModemClock::next_second(SimTime now) const {
 }
 
 std::string ModemClock::hhmmss(SimTime time, int decimals) const {
-  const Calendar at = calendar_of(calendar_us(time));
+  const CalendarTime at = calendar_of(calendar_us(time));
   const std::string text = fmt::format("{:02}{:02}{:02}", at.hour, at.minute, at.second);
   if (decimals == 0) return text;
   return text + "." + fmt::format("{:06}", at.microsecond).substr(0, static_cast<std::size_t>(decimals));
 }
 
 std::string ModemClock::yyyymmdd(SimTime time) const {
-  const Calendar at = calendar_of(calendar_us(time));
+  const CalendarTime at = calendar_of(calendar_us(time));
   return fmt::format("{:04}{:02}{:02}", at.year, at.month, at.day);
 }
 
 std::string ModemClock::comma_separated_of(std::int64_t calendar_s) {
-  const Calendar at = calendar_of(calendar_s * kSecond_us);
+  const CalendarTime at = calendar_of(calendar_s * kSecond_us);
   return fmt::format("{:04},{:02},{:02},{:02},{:02},{:02}", at.year, at.month, at.day, at.hour, at.minute,
                      at.second);
 }
 
 std::string ModemClock::iso(SimTime time) const {
-  const Calendar at = calendar_of(calendar_us(time));
+  const CalendarTime at = calendar_of(calendar_us(time));
   return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", at.year, at.month, at.day, at.hour, at.minute,
                      at.second);
 }

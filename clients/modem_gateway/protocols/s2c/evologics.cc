@@ -46,7 +46,7 @@ constexpr std::size_t kMaxStreamBurst = 1024, kMaxStream = 16 * kMaxStreamBurst;
 // Most packets that are remembered because their bearing may still arrive.
 constexpr std::size_t kMaxRecent = 32;
 // The table of ?P has at least this many lines, padded with zeros, because hosts read that many.
-constexpr std::size_t kLeastPaths = 8;
+constexpr std::size_t kMinPaths = 8;
 // Time-out of ?P: when the channel server has not replied by then, the table is empty.
 constexpr SimDuration kPathsWithin = SimDuration::from_milliseconds(800);
 
@@ -199,7 +199,7 @@ class Evologics : public Protocol {
     answer(*std::exchange(paths_client_, std::nullopt), "?P", paths_text(std::move(paths)));
   }
   static std::string paths_text(std::vector<ShownPath> paths) {
-    paths.resize(std::max(paths.size(), kLeastPaths));
+    paths.resize(std::max(paths.size(), kMinPaths));
     std::string text;
     for (const auto& [delay_us, amplitude] : paths) text += fmt::format("{} {}\n", delay_us, amplitude);
     return text;
