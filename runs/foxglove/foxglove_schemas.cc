@@ -29,7 +29,8 @@ R"("nsec":{"type":"integer","minimum":0,"maximum":999999999}}})"
         R"("metadata":{"type":"array","items":{"type":"object","properties":{"key":{"type":"string"},)"
         R"("value":{"type":"string"}}}},)"
         R"("arrows":{"type":"array","items":{"type":"object","properties":{"pose":)" HALOCLINE_POSE
-        R"(,"shaft_length":{"type":"number"},"shaft_diameter":{"type":"number"},"head_length":{"type":"number"},)"
+        R"(,"shaft_length":{"type":"number"},"shaft_diameter":{"type":"number"},)"
+        R"("head_length":{"type":"number"},)"
         R"("head_diameter":{"type":"number"},"color":)" HALOCLINE_COLOR R"(}}},)"
         R"("spheres":{"type":"array","items":{"type":"object","properties":{"pose":)" HALOCLINE_POSE
         R"(,"size":)" HALOCLINE_VECTOR R"(,"color":)" HALOCLINE_COLOR R"(}}},)"
