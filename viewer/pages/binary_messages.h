@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Encoder of the binary messages to a page; README.md has their layout.
+// Encoder of the binary messages to a page; viewer/README.md has their layout.
 #pragma once
 
 #include <cstdint>

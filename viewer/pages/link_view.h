@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detailed view of one link: the query for its paths, and the JSON of the reply for a page (README.md,
+// Detailed view of one link: the query for its paths, and the JSON of the reply for a page (viewer/README.md,
 // `link`).
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages to a page about the run as a whole, in JSON; README.md has their members.
+// Messages to a page about the run as a whole, in JSON; viewer/README.md has their members.
 #pragma once
 
 #include <optional>

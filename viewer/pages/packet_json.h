@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packets in JSON for a page; README.md has their members.
+// Packets in JSON for a page; viewer/README.md has their members.
 #pragma once
 
 #include <cstdint>

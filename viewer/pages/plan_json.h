@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plan and activity of a vehicle's autopilot in JSON; README.md has the members.
+// Plan and activity of a vehicle's autopilot in JSON; viewer/README.md has the members.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Answers to the requests of a page that need only the stored run; README.md lists them.
+// Answers to the requests of a page that need only the stored run; viewer/README.md lists them.
 #pragma once
 
 #include <cstdint>

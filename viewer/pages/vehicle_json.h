@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time series of one vehicle over a window of time, in JSON; README.md has their members.
+// Time series of one vehicle over a window of time, in JSON; viewer/README.md has their members.
 #pragma once
 
 #include <cstddef>
