@@ -71,6 +71,21 @@ std::vector<std::string> full_folders(const std::vector<SourceFile>& sources) {
   return found;
 }
 
+std::vector<std::string> folders_without_readme(const std::vector<SourceFile>& sources,
+                                                const std::vector<std::string>& paths) {
+  std::set<std::string_view> folders;
+  for (const SourceFile& source : sources) {
+    if (!source.path.starts_with("tests/") && !source.path.starts_with("bench/"))
+      folders.insert(folder_of(source.path));
+  }
+  for (const std::string& path : paths) {
+    if (path.ends_with("/README.md")) folders.erase(folder_of(path));
+  }
+  std::vector<std::string> found;
+  for (const std::string_view folder : folders) found.push_back(std::string(folder) + ": no README.md");
+  return found;
+}
+
 std::vector<std::string> split_classes(const std::vector<SourceFile>& sources) {
   std::map<std::string, std::set<std::string>> files_of;  // by top folder and class
   for (const SourceFile& source : sources) {

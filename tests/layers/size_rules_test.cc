@@ -24,6 +24,10 @@ TEST(Sizes, NoFileOfTheTreeIsTooLong) { EXPECT_THAT(long_files(tree()), IsEmpty(
 
 TEST(Sizes, NoFolderOfTheTreeHoldsTooManyFiles) { EXPECT_THAT(full_folders(tree()), IsEmpty()); }
 
+TEST(Sizes, EachFolderOfTheTreeHasAReadme) {
+  EXPECT_THAT(folders_without_readme(tree(), files_below(HALOCLINE_SOURCE_DIR)), IsEmpty());
+}
+
 TEST(Sizes, NoClassOfTheTreeLiesInTwoSourceFiles) { EXPECT_THAT(split_classes(tree()), IsEmpty()); }
 
 TEST(SizeRules, LinesAreCountedByKindOfFile) {
@@ -37,6 +41,17 @@ TEST(SizeRules, AFolderCountsItsOwnFilesAlone) {
   for (int i = 0; i < 36; ++i) sources.push_back({"bus/f" + std::to_string(i) + ".cc", ""});
   for (int i = 0; i < 35; ++i) sources.push_back({"bus/logs/f" + std::to_string(i) + ".cc", ""});
   EXPECT_THAT(full_folders(sources), ElementsAre("bus: 36 source files, at most 35"));
+}
+
+TEST(SizeRules, AFolderOfSourcesWithoutAReadmeIsFound) {
+  const std::vector<SourceFile> sources{
+      {"acoustics/sea/a.cc", ""}, {"bus/a.h", ""}, {"bus/b.cc", ""}, {"core/a.h", ""}};
+  EXPECT_THAT(folders_without_readme(sources, {"README.md", "acoustics/README.md", "core/README.md"}),
+              ElementsAre("acoustics/sea: no README.md", "bus: no README.md"));
+}
+
+TEST(SizeRules, TestsAndBenchmarksNeedNoReadme) {
+  EXPECT_THAT(folders_without_readme({{"tests/core/a.cc", ""}, {"bench/bus/a.cc", ""}}, {}), IsEmpty());
 }
 
 TEST(SizeRules, AClassOfTwoSourceFilesIsFound) {

@@ -25,21 +25,6 @@ std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-// Paths of the files that git knows or would add, relative to `root`.
-std::vector<std::string> tracked_files(const std::string& root) {
-  const std::string command =
-      "git -c safe.directory='*' -C '" + root + "' ls-files --cached --others --exclude-standard";
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-  std::string listing;
-  std::array<char, 4096> buffer{};
-  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe.get()))
-    listing.append(buffer.data(), count);
-  std::vector<std::string> paths;
-  std::istringstream lines(listing);
-  for (std::string line; std::getline(lines, line);) paths.push_back(line);
-  return paths;
-}
-
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
@@ -112,12 +97,27 @@ std::string_view folder_of(std::string_view path) {
   return end == std::string_view::npos ? "" : path.substr(0, end);
 }
 
+std::vector<std::string> files_below(const std::string& root) {
+  const std::string command =
+      "git -c safe.directory='*' -C '" + root + "' ls-files --cached --others --exclude-standard";
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::string listing;
+  std::array<char, 4096> buffer{};
+  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe.get()))
+    listing.append(buffer.data(), count);
+  std::vector<std::string> paths;
+  std::istringstream lines(listing);
+  for (std::string line; std::getline(lines, line);) {
+    if (std::filesystem::is_regular_file(std::filesystem::path(root) / line)) paths.push_back(line);
+  }
+  return paths;
+}
+
 std::vector<SourceFile> sources_below(const std::string& root) {
   std::vector<SourceFile> sources;
-  for (const std::string& path : tracked_files(root)) {
+  for (const std::string& path : files_below(root)) {
     const std::filesystem::path file = std::filesystem::path(root) / path;
-    if (kExtensions.contains(file.extension().string()) && std::filesystem::is_regular_file(file))
-      sources.push_back({path, text_of(file)});
+    if (kExtensions.contains(file.extension().string())) sources.push_back({path, text_of(file)});
   }
   std::sort(sources.begin(), sources.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
   return sources;

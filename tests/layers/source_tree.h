@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The C++ sources of the repository as text, and their include directives.
+// The files of the repository, its C++ sources as text, and their include directives.
 #pragma once
 
 #include <string>
@@ -14,7 +14,11 @@ struct SourceFile {
   std::string text;
 };
 
-// All C++ files below `root` that git knows or would add, sorted by path. Empty outside a git repository.
+// Paths of all files below `root` that git knows or would add, relative to it. Empty outside a git
+// repository.
+std::vector<std::string> files_below(const std::string& root);
+
+// The C++ files among them, sorted by path.
 std::vector<SourceFile> sources_below(const std::string& root);
 
 // The folder of a path, "acoustics/sea" of "acoustics/sea/noise.cc"; empty when it has none.
