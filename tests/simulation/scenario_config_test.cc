@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -119,15 +117,6 @@ TEST(ScenarioConfig, UnknownKeysOfEverySectionAreErrors) {
        {"terrain.shape=1", "vehicle.0.colour=1", "vehicle.0.mission.speed=1", "weather.x=1"}) {
     EXPECT_THROW(load_scenario(kScenarios + "/seamount.toml", {key}), bus::ConfigErrors) << key;
   }
-}
-
-// docs/scenarios.md shows every key with unit, range and meaning as the programs know it.
-TEST(ScenarioConfig, DocumentationListsEveryKey) {
-  std::ifstream in(std::string(HALOCLINE_SOURCE_DIR) + "/docs/scenarios.md");
-  std::ostringstream text;
-  text << in.rdbuf();
-  EXPECT_THAT(text.str(), ::testing::HasSubstr("```toml\n" + commented_toml() + "```\n"))
-      << "put the output of `halocline config` between the ```toml lines of docs/scenarios.md";
 }
 
 }  // namespace
