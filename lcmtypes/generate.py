@@ -18,6 +18,7 @@ import math
 import pathlib
 import re
 import sys
+import textwrap
 import tomllib
 
 NUMBER = r"-?(?:\d+(?:\.\d+)?(?:e-?\d+)?(?:pi)?|pi)(?:/\d+)?"
@@ -198,11 +199,21 @@ def allowed(field):
     return (f"{found[1]} to {found[2]}" if found[2] else f"{found[1]} and up") + " characters" * (field.kind == "string")
 
 
+def linked(text, messages=(), this=""):
+    """A comment as markdown: families of channels as code, pages and other messages as links."""
+    text = re.sub(r"[A-Z_]+\.<[\w ]+>", r"`\g<0>`", text)
+    text = re.sub(r"\bdocs/(\w+\.md)\b", r"[\1](\1)", text)
+    return re.sub(r"\b\w+_t\b", lambda name: f"[`{name[0]}`](#{name[0]})" if name[0] in messages and name[0] != this else name[0], text)
+
+
 def page(messages, channels):
     text = """# Channels and messages
 
-Made from `lcmtypes/` by `lcmtypes/generate.py --doc docs/messages.md`; [architecture.md](architecture.md#conventions) has what holds for all of them. A range
-is inclusive; a message with a value beyond it, or with a number that is not finite, is refused.
+Every channel of the bus, with the type of its messages, and every field with its unit and range. Look up a channel, then its type.
+[bus.md](bus.md) explains what holds for all messages, for example sessions, sequence numbers and time.
+
+A range is inclusive. A message with a value beyond it, or with a number that is not finite, is refused. A type that is part of another one has
+no channel of its own. `lcmtypes/generate.py --doc docs/messages.md` makes this page from `lcmtypes/`.
 
 ## Channels
 
@@ -211,12 +222,13 @@ is inclusive; a message with a value beyond it, or with a number that is not fin
                   [[f"`{channel}`", "that of `<channel>`" if row["type"] == "any" else f"[`{row['type']}`](#{row['type']})",
                     row["from"], row["rate"], row["meaning"]] for channel, row in channels.items()])
     for message in messages.values():
-        text += f"## {message.name}\n\n{message.purpose}\n\n"
+        purpose = linked(message.purpose, messages, message.name)
+        text += f"## {message.name}\n\n{textwrap.fill(purpose, 140, break_on_hyphens=False, break_long_words=False)}\n\n"
         for block in filter(None, message.blocks):
-            text += table(["constant", "value", "meaning"], [[f"`{name}`", value, comment] for name, value, comment in block])
+            text += table(["constant", "value", "meaning"], [[f"`{name}`", value, linked(comment)] for name, value, comment in block])
         text += table(["field", "type", "allowed", "meaning, unit"],
                       [[f"`{field.name}`", f"`{field.kind}{''.join(f'[{size}]' for size in field.dimensions)}`", allowed(field),
-                        RANGE.sub("", field.comment)] for field in message.fields])
+                        linked(RANGE.sub("", field.comment))] for field in message.fields])
     return text.rstrip() + "\n"
 
 
