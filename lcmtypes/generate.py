@@ -200,8 +200,8 @@ def allowed(field):
 
 
 def linked(text, messages=(), this=""):
-    """A comment as markdown: families of channels as code, pages and other messages as links."""
-    text = re.sub(r"[A-Z_]+\.<[\w ]+>", r"`\g<0>`", text)
+    """A comment as markdown: channels as code, pages and other messages as links."""
+    text = re.sub(r"[A-Z_]+\.<[\w ]+>|^[A-Z_]+(?=, from)", r"`\g<0>`", text)
     text = re.sub(r"\bdocs/(\w+\.md)\b", r"[\1](\1)", text)
     return re.sub(r"\b\w+_t\b", lambda name: f"[`{name[0]}`](#{name[0]})" if name[0] in messages and name[0] != this else name[0], text)
 
