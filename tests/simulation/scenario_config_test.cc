@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
