@@ -88,7 +88,7 @@ void visit_door(ConfigVisitor& v, DoorConfig& door) {
   bus::report_refusal(v, "place", [&] { door.place = place_of(place); });
   v.text("addresses", door.addresses, {},
          "of modems of this kind: VEHICLE=ADDRESS with blanks between; others have the vehicle's id");
-  v.text("options", door.options, {}, "NAME=VALUE with blanks between (docs/modem_gateway.md)");
+  v.text("options", door.options, {}, "NAME=VALUE with blanks between (docs/interfaces.md)");
 }
 
 void check_door(ConfigVisitor& v, const GatewayConfig& config, std::size_t i) {

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Halocline's bus in ROS 1: what vehicles do as standard messages, every message of the bus as it is, packets both ways.
 
-docs/bridges.md has all topics and fields, and what ROS 2 needs. By hand, from the root of the tree, with python3-rospy, python3-rosmaster,
+docs/interfaces.md has all topics and fields, and what ROS 2 needs. By hand, from the root of the tree, with python3-rospy, python3-rosmaster,
 python3-nav-msgs and python3-sensor-msgs of Debian 12, beside a run by ./scripts/run --distributed:
 
    $ mkdir -p build/mine && lcm-gen --python --ppath build/mine lcmtypes/*.lcm

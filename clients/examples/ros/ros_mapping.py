@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Halocline's messages as the standard messages of ROS, and back: pure functions, the same for ROS 1 and 2 (docs/bridges.md).
+"""Halocline's messages as the standard messages of ROS, and back: pure functions, the same for ROS 1 and 2 (docs/interfaces.md).
 
 ROS has the world east, north, up (ENU, frame `map`) and bodies forward, left, up (FLU, frame `VEHICLE/base_link`): REP 103, 105.
 Halocline has north, east, down and forward, starboard, down. With

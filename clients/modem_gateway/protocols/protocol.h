@@ -7,7 +7,7 @@
 // a simulator. It is told everything in the order in which it happened and is never re-entered: the
 // consequences of a send() arrive in later calls.
 //
-// How to add a protocol: docs/modem_gateway.md.
+// How to add a protocol: docs/interfaces.md.
 #pragma once
 
 #include <cstddef>
