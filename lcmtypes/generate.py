@@ -210,7 +210,7 @@ def page(messages, channels):
     text = """# Channels and messages
 
 Every channel of the bus, with the type of its messages, and every field with its unit and range. Look up a channel, then its type.
-[bus.md](bus.md) explains what holds for all messages, for example sessions, sequence numbers and time.
+[architecture.md](architecture.md) explains what holds for all messages, for example sessions, sequence numbers and time.
 
 A range is inclusive. A message with a value beyond it, or with a number that is not finite, is refused. A type that is part of another one has
 no channel of its own. `lcmtypes/generate.py --doc docs/messages.md` makes this page from `lcmtypes/`.
