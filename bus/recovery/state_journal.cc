@@ -19,7 +19,7 @@ namespace {
 using Bytes = StateJournal::Bytes;
 using View = std::span<const std::uint8_t>;
 
-constexpr std::string_view kHeader = "HALOCLINE STATE2";
+constexpr std::string_view kStateHeader = "HALOCLINE STATE2";
 constexpr std::uint64_t kGrowth = 4, kMinFileBytes = 64 << 10;
 constexpr std::uint64_t kMaxParts = 1 << 20;
 
@@ -139,7 +139,7 @@ StateJournal::~StateJournal() {
   }
 }
 
-void StateJournal::open(std::size_t i) { files_[i] = open_journal(path_ + "." + std::to_string(i), kHeader); }
+void StateJournal::open(std::size_t i) { files_[i] = open_journal(path_ + "." + std::to_string(i), kStateHeader); }
 
 bool StateJournal::write(std::int64_t session, SimTime at, const Archive& state,
                          std::span<const std::uint8_t> additions) {
