@@ -92,7 +92,7 @@ class DocumentPrinter {
   }
   std::string text_of(const toml::node& node) {
     if (const auto found = document_.files.find(&node); found != document_.files.end())
-      return toml_quoted(names_of(found->second));
+      return toml_quoted(names_of(found->second, document_.counting.contains(&node)));
     if (const auto* number = node.as_floating_point()) return exact(number->get());
     if (const auto* text = node.as_string()) return toml_quoted(text->get());
     if (const toml::array* array = node.as_array()) return text_of(*array);
@@ -116,10 +116,12 @@ class DocumentPrinter {
       text += (text.empty() ? "" : ", ") + std::string(key.str()) + " = " + text_of(value);
     return "{" + text + "}";
   }
-  std::string names_of(const ConfigDocument::Files& files) {
+  // A key that does not apply keeps its text, and its files are not carried: nothing checked that they are
+  // what the key is for.
+  std::string names_of(const ConfigDocument::Files& files, bool counts) {
     std::string text;
     for (const FilePath& path : files.paths)
-      text += (text.empty() ? "" : " ") + files_.name_of(path, files.names);
+      text += (text.empty() ? "" : " ") + (counts ? files_.name_of(path, files.names) : path.given());
     return text;
   }
 

@@ -93,7 +93,9 @@ void look_at_rasters(ConfigVisitor& v) {
   };
   const auto look_in = [&](ConfigVisitor& terrain) {
     terrain.shared_with_others();
-    terrain.section("raster", "", look);
+    std::string kind;
+    terrain.text("kind", kind, {}, "");
+    terrain.when(kind == "raster", "kind = \"raster\"", [&] { terrain.section("raster", "", look); });
     terrain.list(
         "nested", "", 0, [](std::size_t) {},
         [&](ConfigVisitor& nested, std::size_t) {
@@ -101,8 +103,7 @@ void look_at_rasters(ConfigVisitor& v) {
           nested.section("raster", "", look);
         });
   };
-  // The bathymetry service decides whether these keys apply.
-  v.when(false, "the bathymetry service", [&] { v.section("terrain", "", look_in); });
+  v.section("terrain", "", look_in);
 }
 
 // Two vehicles with the same name would publish on the same channel; with the same id, other vehicles could

@@ -135,6 +135,17 @@ TEST_F(CarriedFile, BringsTheFilesThatItNamesInTurn) {
   EXPECT_EQ(bytes_of(inside.rates.at(0).place()), "model = \"torpedo\"\n");
 }
 
+TEST_F(CarriedFile, OfAKeyThatDoesNotApplyIsLeftWhereItIs) {
+  write("a.csv", "none of the log's business");
+  ConfigFile file = load("cast = \"a.csv\"\n");
+  FilePath cast;
+  file.read([&](ConfigVisitor& v) {
+    v.when(false, "profile = \"file\"", [&] { v.file("cast", cast, FileNames::kFiles, ""); });
+  });
+  file.check(/*whole_file=*/true);
+  EXPECT_EQ(file.to_toml(), "cast = \"a.csv\"\n");
+}
+
 TEST_F(CarriedFile, StaysAsLongAsItsPathAndNoLonger) {
   write("a.csv", "cast");
   FilePath cast;

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/config/scenario.h"
 
+#include <filesystem>
+#include <fstream>
 #include <set>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "bus/transport/node_identity.h"
 
 namespace halocline::bus {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Scenario read(const std::string& text) {
   auto file = ConfigFile::parse(text, "s.toml");
@@ -101,6 +108,24 @@ TEST(Scenario, WhatIsWrittenReadsBack) {
   EXPECT_EQ(back.seed, scenario.seed);
   EXPECT_EQ(back.vehicles[0].id, 2147483647);
   EXPECT_EQ(back.duration, scenario.duration);
+}
+
+TEST(Scenario, ARasterIsCarriedOnlyWhereTheSeabedIsMadeFromIt) {
+  const std::string raster = ::testing::TempDir() + "scenario-raster-" + std::to_string(getpid()) + ".asc";
+  std::ofstream(raster) << "ncols 1\n";
+  const auto carried = [&](const std::string& terrain) {
+    auto file = ConfigFile::parse(terrain + "path = \"" + raster + "\"\n", "s.toml");
+    Scenario scenario;
+    file.read([&](ConfigVisitor& v) { visit(v, scenario); });
+    file.check(/*whole_file=*/false);
+    return configuration_of(file);
+  };
+  EXPECT_THAT(carried("[terrain]\nkind = \"raster\"\n[terrain.raster]\n"), HasSubstr("ncols 1"));
+  EXPECT_THAT(carried("[terrain]\nkind = \"flat\"\n[[terrain.nested]]\n[terrain.nested.raster]\n"),
+              HasSubstr("ncols 1"));
+  for (const char* kind : {"kind = \"flat\"\n", ""})
+    EXPECT_THAT(carried("[terrain]\n" + std::string(kind) + "[terrain.raster]\n"), Not(HasSubstr("ncols 1")));
+  std::filesystem::remove(raster);
 }
 
 TEST(SessionOf, IsPositiveAndTheSameForTheSameIncarnation) {
