@@ -21,6 +21,7 @@
 #include "bus/config/config_document.h"
 #include "core/check.h"
 #include "core/files/file_path.h"
+#include "core/files/input_file.h"
 #include "core/hash.h"
 #include "core/text/base64.h"
 
@@ -106,29 +107,61 @@ std::string base64_lines_of(const std::string& bytes) {
   return array_of("base64", lines);
 }
 
-// True if files next to the raster belong to it, by their endings, or if it is a description that names other
-// files.
+std::string lower_case(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
+// True for the endings, after the raster's name or its stem, that GDAL's drivers look for. `own` is the
+// raster's own: the ending of a world file is that with a w.
+bool is_of_companion(const std::string& ending, const std::string& own) {
+  static constexpr std::array<std::string_view, 21> kEndings{
+      "prj", "hdr", "wld", "tfw", "bpw",  "jgw",  "pgw",     "gfw", "clr", "stx", "tab",
+      "ovr", "msk", "aux", "rrd", "sgrd", "mgrd", "aux.xml", "ige", "eww", "rde"};
+  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end() ||
+         (!own.empty() && ending == own + "w");
+}
+
+// True if files next to the raster belong to it, by their endings in any case, or if it is a description that
+// names other files.
 bool has_companions(const fs::path& raster) {
-  if (raster.extension() == ".vrt") return true;
-  static constexpr std::array kOfStem{".prj", ".hdr", ".tfw", ".wld", ".bpw", ".jgw", ".pgw", ".clr", ".stx"};
-  static constexpr std::array kOfName{".aux.xml", ".ovr", ".msk"};
+  const std::string name = raster.filename().string(), stem = raster.stem().string(),
+                    own = lower_case(raster.extension().string()).erase(0, 1);
+  if (own == "vrt") return true;
   std::error_code error;
-  const auto exists = [&](const fs::path& path) { return path != raster && fs::exists(path, error); };
-  return std::any_of(kOfStem.begin(), kOfStem.end(),
-                     [&](const char* e) { return exists(fs::path(raster).replace_extension(e)); }) ||
-         std::any_of(kOfName.begin(), kOfName.end(),
-                     [&](const char* e) { return exists(raster.string() + e); });
+  for (fs::directory_iterator entry(raster.parent_path(), error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string other = entry->path().filename().string();
+    for (const std::string& base : {stem + ".", name + "."}) {
+      if (other.starts_with(base) && is_of_companion(lower_case(other.substr(base.size())), own)) return true;
+    }
+  }
+  return false;
 }
 
 const FileOrigin* origin_of(const FilePath& path) {
   return static_cast<const FileOrigin*>(path.origin().get());
 }
 
+// True for a TOML file that was read, and that names files.
+bool is_known_to_name_files(const FilePath& path) {
+  const FileOrigin* origin = origin_of(path);
+  return origin != nullptr && origin->document && !origin->document->files.empty();
+}
+
 // Returns the content to carry: the file unchanged, except for the file names in a TOML file that was read.
 std::string content_of(const std::string& place, const FilePath& path, CarriedFiles& files) {
-  const FileOrigin* origin = origin_of(path);
-  const bool names_files = origin != nullptr && origin->document && !origin->document->files.empty();
-  return names_files ? to_text(*origin->document, {}, files) : bytes_of_file(place);
+  return is_known_to_name_files(path) ? to_text(*origin_of(path)->document, {}, files) : bytes_of_file(place);
+}
+
+// True for the names by which GDAL finds other things than files: "NETCDF:...", "GTIFF_DIR:...", "/vsi...".
+bool is_name_of_gdal(std::string_view text) {
+  const std::string_view driver = text.substr(0, text.find(':'));
+  const auto is_upper = [](char c) { return c >= 'A' && c <= 'Z'; };
+  return text.starts_with("/vsi") ||
+         (driver.size() < text.size() && !driver.empty() && is_upper(driver.front()) &&
+          std::all_of(driver.begin(), driver.end(),
+                      [&](char c) { return is_upper(c) || (c >= '0' && c <= '9') || c == '_'; }));
 }
 
 std::string text_in(const toml::table& table, std::string_view key) {
@@ -162,7 +195,7 @@ void unpack(const toml::table& table, UnpackedFiles& files) {
 bool names_a_file(const std::string& text, FileNames names) {
   if (text.empty()) return false;
   if (names == FileNames::kShipped) return text.ends_with(".toml");
-  return names == FileNames::kFiles || (text.find(':') == std::string::npos && !text.starts_with("/vsi"));
+  return names == FileNames::kFiles || !is_name_of_gdal(text);
 }
 
 UnpackedFiles::UnpackedFiles() {
@@ -213,14 +246,18 @@ std::string UnpackedFiles::difference(const std::string& name) const {
 
 std::string CarriedFiles::name_of(const FilePath& path, FileNames names) {
   std::error_code error;
-  if (!names_a_file(path.place(), names) || !fs::is_regular_file(path.place(), error)) return path.given();
-  const std::string place = fs::absolute(path.place()).lexically_normal().string();
+  if (!names_a_file(path.given(), names) || !fs::is_regular_file(path.place(), error)) return path.given();
+  const std::string place = absolute_place(path.place());
   const FileOrigin* origin = origin_of(path);
   const bool is_unpacked = origin != nullptr && origin->unpacked != nullptr;
   if (which_ == Which::kUnpacked && !is_unpacked) return place;
-  if (const auto known = names_.find(place); known != names_.end()) return known->second;
-  const std::string name = names_[place] = new_name(place);
-  tables_[name] = "";  // reserves the name while the files that it names are visited
+  // A file may be met before it is read: the table is made again once the files that it names are known.
+  const bool names_files = is_known_to_name_files(path);
+  const auto known = names_.find(place);
+  if (known != names_.end() && (!names_files || tables_[known->second].has_its_files)) return known->second;
+  const std::string name = known != names_.end() ? known->second : names_[place] = new_name(place);
+  carried_bytes_ -= tables_[name].carried_bytes;
+  tables_[name] = {"", 0, names_files};  // reserves the name while the files that it names are visited
   tables_[name] = table_of(name, place, path, names);
   return name;
 }
@@ -233,24 +270,27 @@ std::string CarriedFiles::new_name(const std::string& place) const {
   return name;
 }
 
-std::string CarriedFiles::table_of(const std::string& name, const std::string& place, const FilePath& path,
-                                   FileNames names) {
+CarriedFiles::Table CarriedFiles::table_of(const std::string& name, const std::string& place,
+                                           const FilePath& path, FileNames names) {
   const std::string head = "\n[[file]]\nname = " + toml_quoted(name) + "\n";
-  const std::uint64_t size = fs::file_size(place);
+  const std::size_t size = fs::file_size(place);
+  const bool names_files = is_known_to_name_files(path);
   const bool is_carried = size <= kMaxCarriedBytes && carried_bytes_ + size <= kMaxCarriedInAll &&
                           !(names == FileNames::kRasters && has_companions(place));
   if (!is_carried)
-    return head + "xxh3 = \"" + known_hash_of_file(place, size) + "\"\nbytes = " + std::to_string(size) +
-           "\nplace = " + toml_quoted(place) + "\n";
+    return {head + "xxh3 = \"" + known_hash_of_file(place, size) + "\"\nbytes = " + std::to_string(size) +
+                "\nplace = " + toml_quoted(place) + "\n",
+            0, names_files};
   carried_bytes_ += size;
   const std::string bytes = content_of(place, path, *this);
-  return head + "xxh3 = \"" + hash_text(xxh3(bytes)) + "\"\n" +
-         (is_plain_text(bytes) ? lines_of(bytes) : base64_lines_of(bytes));
+  return {head + "xxh3 = \"" + hash_text(xxh3(bytes)) + "\"\n" +
+              (is_plain_text(bytes) ? lines_of(bytes) : base64_lines_of(bytes)),
+          size, names_files};
 }
 
 std::string CarriedFiles::to_toml() const {
   std::string text;
-  for (const auto& [name, table] : tables_) text += table;
+  for (const auto& [name, table] : tables_) text += table.text;
   return text;
 }
 

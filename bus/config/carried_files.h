@@ -32,7 +32,8 @@ struct ConfigDocument;
 enum class FileNames {
   kFiles,    // all
   kShipped,  // texts that end in .toml; others name a shipped file
-  kRasters,  // all but GDAL's own names ("NETCDF:...", "/vsi...")
+  // All but GDAL's own names: "/vsi...", and those that start with a driver in capitals, "NETCDF:...".
+  kRasters,
 };
 [[nodiscard]] bool names_a_file(const std::string& text, FileNames names);
 
@@ -87,14 +88,18 @@ class CarriedFiles {
   [[nodiscard]] std::string to_toml() const;
 
  private:
+  struct Table {
+    std::string text;
+    std::size_t carried_bytes = 0;  // size of the file; 0 if it is not carried
+    bool has_its_files = false;     // made from a TOML file whose files are known
+  };
   std::string new_name(const std::string& place) const;
-  std::string table_of(const std::string& name, const std::string& place, const FilePath& path,
-                       FileNames names);
+  Table table_of(const std::string& name, const std::string& place, const FilePath& path, FileNames names);
 
   Which which_;
   std::size_t carried_bytes_ = 0;
-  std::map<std::string, std::string> names_;   // keyed by place
-  std::map<std::string, std::string> tables_;  // keyed by name
+  std::map<std::string, std::string> names_;  // keyed by place
+  std::map<std::string, Table> tables_;       // keyed by name
 };
 
 }  // namespace halocline::bus

@@ -41,6 +41,13 @@ void require_input_file(const std::string& path) {
   require(why.empty(), "cannot read " + path + ": " + why);
 }
 
+std::string absolute_place(const std::string& path) {
+  const std::filesystem::path absolute = std::filesystem::absolute(path);
+  std::error_code error;
+  const auto folder = std::filesystem::canonical(absolute.parent_path(), error);
+  return (error ? absolute.lexically_normal() : folder / absolute.filename()).string();
+}
+
 std::ifstream open_input(const std::string& path) {
   require_input_file(path);
   return std::ifstream(path, std::ios::binary);

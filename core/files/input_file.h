@@ -18,6 +18,11 @@ std::string why_unreadable(const std::string& path);
 // Throws InvalidArgument: "cannot read <path>: <why>".
 void require_input_file(const std::string& path);
 
+// Returns the absolute path of a file as the system resolves it: in "link/../a" the parent is that of the
+// link's target. A link that is the file itself keeps its name. Without such a folder the path is shortened
+// as a text.
+std::string absolute_place(const std::string& path);
+
 // Opens a file; throws as require_input_file() does.
 std::ifstream open_input(const std::string& path);
 

@@ -2,7 +2,6 @@
 #include "halocline/sweep/sweep_plan.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -12,11 +11,10 @@
 #include "bus/config/carried_files.h"
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/files/input_file.h"
 
 namespace halocline::clients {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::int64_t kMaxSeed = 9'000'000'000'000'000;
 
@@ -171,7 +169,7 @@ SweepPlan load_plan(const std::string& path) {
 
 std::string to_toml(const SweepPlan& plan) {
   SweepPlan anywhere = plan;
-  anywhere.scenario = fs::absolute(plan.scenario.place()).lexically_normal().string();
+  anywhere.scenario = absolute_place(plan.scenario.place());
   return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, anywhere); }, /*with_comments=*/false);
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -115,6 +116,80 @@ TEST_F(CarriedFile, TwoOfOneNameAreToldApart) {
   const Sea sea = sea_in(file);
   EXPECT_EQ(bytes_of(sea.cast.place()), "first");
   EXPECT_EQ(bytes_of(sea.raster.place()), "second");
+}
+
+// The shell's "..": the parent of the folder to which the link leads.
+TEST_F(CarriedFile, IsFoundBehindALinkAsTheSystemFindsIt) {
+  fs::create_directories(folder_ / "real/deep");
+  fs::create_directory_symlink(folder_ / "real/deep", folder_ / "link");
+  write("real/a.csv", "behind the link");
+  write("a.csv", "another");
+  ConfigFile file = moved("cast = \"link/../a.csv\"\n");
+  EXPECT_EQ(bytes_of(sea_in(file).cast.place()), "behind the link");
+}
+
+TEST_F(CarriedFile, ARasterMayHaveAColonInItsNameOrItsFolder) {
+  fs::create_directories(folder_ / "12:30");
+  write("12:30/b.asc", "in the folder");
+  write("b12:45.asc", "in the name");
+  for (const auto& [path, text] :
+       std::map<std::string, std::string>{{"12:30/b.asc", "in the folder"}, {"b12:45.asc", "in the name"}}) {
+    ConfigFile file = load("raster = \"" + path + "\"\n");
+    EXPECT_EQ(sea_in(file).raster.place(), (folder_ / path).string());
+    EXPECT_THAT(file.to_toml(), HasSubstr(text));
+  }
+  fs::create_directories(folder_ / "A:B");
+  write("A:B/c.asc", "in the folder of the scenario");
+  std::ofstream(folder_ / "A:B/sea.toml") << "raster = \"c.asc\"\n";
+  ConfigFile beside = ConfigFile::load((folder_ / "A:B/sea.toml").string());
+  sea_in(beside);
+  EXPECT_THAT(beside.to_toml(), HasSubstr("in the folder of the scenario"));
+  for (const char* name : {"NETCDF:a.nc:z", "GTIFF_DIR:1:a.tif", "HDF5:a.h5://z", "/vsizip/a.zip"})
+    EXPECT_FALSE(names_a_file(name, FileNames::kRasters)) << name;
+}
+
+TEST_F(CarriedFile, TheCompanionsOfARasterAreKnownInAnyCase) {
+  const auto is_carried_beside = [&](const std::string& raster, const std::string& companion) {
+    write(raster, "ncols 1\n");
+    if (!companion.empty()) write(companion, "");
+    ConfigFile file = load("raster = \"" + raster + "\"\n");
+    sea_in(file);
+    const bool is_carried = file.to_toml().find("ncols 1") != std::string::npos;
+    fs::remove(folder_ / raster);
+    fs::remove(folder_ / companion);
+    return is_carried;
+  };
+  EXPECT_TRUE(is_carried_beside("b.asc", "b2.prj"));
+  EXPECT_TRUE(is_carried_beside("b.asc", "b.csv"));
+  EXPECT_FALSE(is_carried_beside("b.asc", "b.PRJ"));
+  EXPECT_FALSE(is_carried_beside("b.img", "b.img.hdr"));
+  EXPECT_FALSE(is_carried_beside("bb", "bb.HDR"));
+  EXPECT_FALSE(is_carried_beside("b.tif", "b.tifw"));
+  EXPECT_FALSE(is_carried_beside("b.tif", "b.TFW"));
+  EXPECT_FALSE(is_carried_beside("b.sdat", "b.sgrd"));
+  EXPECT_FALSE(is_carried_beside("b.tif", "b.tif.aux.xml"));
+}
+
+// `model` names own.toml, which names inner.toml unread; `rates` names inner.toml, which is read and names
+// the cast.
+TEST_F(CarriedFile, MetBeforeItIsReadBringsTheFilesThatItNamesAllTheSame) {
+  write("own.toml", "rates = \"sub/inner.toml\"\n");
+  write("sub/inner.toml", "cast = \"a.csv\"\n");
+  write("sub/a.csv", "cast");
+  ConfigFile file = load("model = \"own.toml\"\nrates = \"sub/inner.toml\"\n");
+  const auto nested = [](const FilePath& path) {
+    ConfigFile inside = ConfigFile::load_named(path);
+    return sea_in(inside);
+  };
+  const Sea sea = sea_in(file);
+  nested(sea.model);
+  nested(sea.rates.at(0));
+  const std::string text = file.to_toml();
+  fs::remove_all(folder_);
+  ConfigFile again = ConfigFile::parse(text, "SCENARIO");
+  const Sea there = sea_in(again);
+  EXPECT_EQ(bytes_of(nested(there.rates.at(0)).cast.place()), "cast");
+  EXPECT_EQ(bytes_of(nested(nested(there.model).rates.at(0)).cast.place()), "cast");
 }
 
 TEST_F(CarriedFile, BringsTheFilesThatItNamesInTurn) {
