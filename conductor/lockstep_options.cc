@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "bus/config/config.h"
 #include "conductor/lockstep_run.h"
 #include "core/check.h"
 #include "core/csv_table.h"
@@ -77,6 +78,8 @@ bool LockstepOptions::run_if_requested(const bus::NodeProgram::Context& context)
   }
   require(log_.empty() || journal_.empty() || real_path(log_) != real_path(journal_),
           "--log and --journal are both " + log_ + "; allowed are two files");
+  if (context.file != nullptr)
+    for (const std::string& file : {log_, journal_}) context.file->require_no_input(file);
   LockstepRun run;
   run.expected = names_of(expect_);
   run.log_path = log_;

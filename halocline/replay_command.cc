@@ -40,7 +40,8 @@ struct ReplayOptions {
   bool quiet = false, no_comparison = false, force = false;
 };
 
-ScenarioConfig config_of(const ReplayOptions& options) {
+// Adds the files that it reads to `inputs`.
+ScenarioConfig config_of(const ReplayOptions& options, std::vector<std::string>& inputs) {
   std::vector<std::string> overrides = options.overrides;
   if (options.seed >= 0) overrides.push_back("scenario.seed=" + std::to_string(options.seed));
   bus::ConfigFile file = options.scenario.empty() ? recorded_configuration(options.logs, overrides)
@@ -48,6 +49,8 @@ ScenarioConfig config_of(const ReplayOptions& options) {
   ScenarioConfig config = load_scenario(file, ScenarioUse::kWater);
   if (!options.quiet)
     for (const std::string& warning : file.warnings()) std::cerr << "warning: " << warning << "\n";
+  const std::vector<std::string> read = file.inputs();
+  inputs.insert(inputs.end(), read.begin(), read.end());
   return config;
 }
 
@@ -71,14 +74,13 @@ ComparisonFiles comparison_files(const std::string& log) {
 }
 
 // Names the output files; throws when an existing file would be replaced.
-RunFiles files_of(const ReplayOptions& options, const ScenarioConfig& config, const LogReader& log) {
+RunFiles files_of(const ReplayOptions& options, const ScenarioConfig& config,
+                  const std::vector<std::string>& inputs) {
   RunFiles files = run_files("", config.scenario.name, options.out, "", options.scenario);
   const auto [csv, json] = comparison_files(files.log);
   OutputFiles outputs{files_of_log(files.log), options.force};
   outputs.paths.push_back(files.config);
   if (!options.no_comparison) outputs.paths.insert(outputs.paths.end(), {csv, json});
-  std::vector<std::string> inputs = log.files();
-  inputs.push_back(options.scenario);
   require_free(outputs, inputs);
   return files;
 }
@@ -126,8 +128,9 @@ Played played_in(const ScenarioConfig& config) {
 int replay(const ReplayOptions& options) {
   bus::set_log_level(bus::log_level_from_name(options.quiet ? "error" : "warning"));
   LogReader log(options.logs);
-  const ScenarioConfig config = config_of(options);
-  const RunFiles files = files_of(options, config, log);
+  std::vector<std::string> inputs = log.files();
+  const ScenarioConfig config = config_of(options, inputs);
+  const RunFiles files = files_of(options, config, inputs);
   Recording recording = read_recording(log, config.scenario, played_in(config));
   const bool is_whole = report_damage(std::cerr, log);
   if (!options.quiet) print_repairs(std::cerr, recording);

@@ -65,7 +65,8 @@ void print_end(const RunOptions& options, const RunFiles& files, const ScenarioC
 }
 
 // Names the output files. Without --out the folder is new; existing files are kept unless --force is given.
-RunFiles files_of(const RunOptions& options, const std::string& name) {
+RunFiles files_of(const RunOptions& options, const std::string& name,
+                  const std::vector<std::string>& inputs) {
   const bool all_named = !options.log.empty() && (options.no_csv || !options.csv.empty());
   const std::string out = !options.out.empty() || all_named ? options.out : make_new_folder("runs/" + name);
   RunFiles files = run_files(out, name, options.log, options.csv, options.scenario);
@@ -73,7 +74,7 @@ RunFiles files_of(const RunOptions& options, const std::string& name) {
   outputs.paths.push_back(files.config);
   if (!options.no_report) outputs.paths.push_back(files.report);
   if (!options.no_csv) outputs.paths.push_back(files.csv);
-  require_free(outputs, {options.scenario});
+  require_free(outputs, inputs);
   return files;
 }
 
@@ -94,7 +95,7 @@ int run(const RunOptions& options) {
   bus::set_log_level(bus::log_level_from_name(options.quiet ? "error" : options.log_level));
   CheckedScenario checked = load_checked(options.scenario, overrides_of(options));
   const ScenarioConfig& config = checked.config;
-  const RunFiles files = files_of(options, config.scenario.name);
+  const RunFiles files = files_of(options, config.scenario.name, checked.inputs);
   if (!options.quiet) {
     for (const std::string& warning : checked.warnings)
       std::fprintf(stderr, "warning: %s\n", warning.c_str());

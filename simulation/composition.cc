@@ -96,7 +96,7 @@ CheckedScenario load_checked(const std::string& path, const std::vector<std::str
   auto terrain = try_terrain(config, file);
   if (terrain) check_on_terrain(config, *terrain, file);
   file.check_findings();
-  return {std::move(config), std::move(*terrain), file.warnings()};
+  return {std::move(config), std::move(*terrain), file.warnings(), file.inputs()};
 }
 
 std::string effective_toml(const ScenarioConfig& config) {

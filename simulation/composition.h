@@ -57,6 +57,7 @@ struct CheckedScenario {
   ScenarioConfig config;
   bathymetry::PreparedTerrain terrain;
   std::vector<std::string> warnings;  // about settings that are probably mistakes, one line each
+  std::vector<std::string> inputs;    // files that were read: the scenario, and those that it names
 };
 
 // Reads a scenario as load_scenario() does, prepares its terrain and makes the checks that need it.

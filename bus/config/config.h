@@ -197,6 +197,11 @@ class ConfigFile {
   const std::vector<std::string>& warnings() const;
 
   const std::string& path() const;
+  // Returns the files that were read: the configuration, and those that it names, whether their keys apply or
+  // not.
+  std::vector<std::string> inputs() const;
+  // Throws InvalidArgument when `path`, a file to be written, is one of the inputs.
+  void require_no_input(const std::string& path) const;
   // Returns the document with its overrides as TOML: keys in alphabetical order, no comments, without the
   // keys `left_out` ("section.key"); and with the files that it names (carried_files.h), so that it reads the
   // same on any host.

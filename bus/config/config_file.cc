@@ -8,12 +8,14 @@
 #include <memory>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "bus/config/carried_files.h"
 #include "bus/config/config.h"
 #include "bus/config/config_document.h"
+#include "core/check.h"
 #include "core/files/file_path.h"
 #include "core/files/input_file.h"
 #include "core/names.h"
@@ -212,6 +214,18 @@ void add_warnings_of_files(ConfigDocument& document) {
   }
 }
 
+void add_inputs(const ConfigDocument& document, std::vector<std::string>& inputs) {
+  inputs.push_back(document.path);
+  for (const auto& [node, files] : document.files) {
+    for (const FilePath& path : files.paths) {
+      if (!names_a_file(path.given(), files.names)) continue;
+      inputs.push_back(path.place());
+      const auto* origin = static_cast<const FileOrigin*>(path.origin().get());
+      if (origin != nullptr && origin->document) add_inputs(*origin->document, inputs);
+    }
+  }
+}
+
 std::shared_ptr<ConfigDocument> parsed(const std::string& text, const std::string& path,
                                        const std::vector<std::string>& overrides) {
   auto document = std::make_shared<ConfigDocument>();
@@ -292,6 +306,19 @@ void ConfigFile::check_findings() const {
 const std::vector<std::string>& ConfigFile::warnings() const { return document_->warnings; }
 
 const std::string& ConfigFile::path() const { return document_->path; }
+
+std::vector<std::string> ConfigFile::inputs() const {
+  std::vector<std::string> inputs;
+  add_inputs(*document_, inputs);
+  return inputs;
+}
+
+void ConfigFile::require_no_input(const std::string& path) const {
+  std::error_code error;  // set when one of them does not exist
+  for (const std::string& input : inputs())
+    require(!std::filesystem::equivalent(path, input, error),
+            path + " is what is read; allowed is another place to write to");
+}
 
 std::string ConfigFile::to_toml(const std::vector<std::string>& left_out) const {
   CarriedFiles files(CarriedFiles::Which::kAll);

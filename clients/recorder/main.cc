@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include "bus/config/config.h"
 #include "bus/runtime/node_process.h"
 #include "clients/recorder/recorded_file.h"
 #include "clients/recorder/recorder_node.h"
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
   program.make_node = [&](const NodeProgram::Context& context) {
     halocline::require(!context.in_lockstep,
                        "in lockstep the conductor writes the log: halocline-conductor --log");
+    if (context.file != nullptr) context.file->require_no_input(path);
     halocline::require(!replaces || !appends, "--force and --append; allowed is one of them");
     using Existing = RecordedFile::Existing;
     file.emplace(path, replaces ? Existing::kReplace : appends ? Existing::kAppend : Existing::kRefuse);

@@ -172,6 +172,22 @@ TEST_F(RunCommand, WhatIsReadIsNeverWritten) {
   }
 }
 
+// The configuration beside the log would be the modem's file.
+TEST_F(RunCommand, WhatTheScenarioNamesIsNeverWritten) {
+  const std::string modem = "family = \"own\"\nsource_level_db = 175\n";
+  std::ofstream(folder_ + "/modem.toml") << modem;
+  for (const char* place : {"--log modem.lcm", "--log modem.toml"}) {
+    const Ended ended = run("run pond.toml --duration 1 --no-csv --force --set modem.profile=modem.toml " +
+                            std::string(place));
+    EXPECT_EQ(ended.code, 2) << ended.output;
+    EXPECT_EQ(bytes_of(folder_ + "/modem.toml"), modem);
+  }
+  ASSERT_EQ(run("run pond.toml --duration 20 --no-csv --out here").code, 0);
+  EXPECT_THAT(run("replay here/pond.lcm --log modem.lcm --force --set modem.profile=modem.toml").output,
+              HasSubstr("modem.toml is what is read"));
+  EXPECT_EQ(bytes_of(folder_ + "/modem.toml"), modem);
+}
+
 // The log holds the configuration that it was made with, overrides too.
 TEST_F(RunCommand, ALogMayLieBesideItsScenarioUnderItsName) {
   const std::string scenario = bytes_of(folder_ + "/pond.toml");

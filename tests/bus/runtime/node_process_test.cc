@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <random>
+#include <string>
 #include <string_view>
 #include <thread>
 
@@ -227,6 +229,18 @@ TEST(NodeCommandLine, OptionsOfLockstepNeedLockstep) {
 TEST(NodeCommandLine, LogAndJournalAreTwoFiles) {
   EXPECT_THAT(output_of({kConductor, "--lockstep", "--log", "same", "--journal", "./same"}, 2),
               HasSubstr("allowed are two files"));
+}
+
+TEST(NodeCommandLine, TheScenarioIsNeitherLogNorJournal) {
+  const std::string path = ::testing::TempDir() + "halocline-read-" + std::to_string(getpid()) + ".toml";
+  const std::string text = "[scenario]\nname = \"sea\"\n";
+  std::ofstream(path) << text;
+  for (const char* option : {"--log", "--journal"}) {
+    EXPECT_THAT(output_of({kConductor, path, "--lockstep", option, path}, 2), HasSubstr("is what is read"));
+    std::ifstream file(path);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), text);
+  }
+  std::filesystem::remove(path);
 }
 
 TEST(NodeCommandLine, AScenarioWithoutEndIsRefused) {

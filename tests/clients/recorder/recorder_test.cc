@@ -192,6 +192,7 @@ TEST_F(Recorder, TwoOfThemHaveAll) {
 
 TEST_F(Recorder, NeverTouchesAFileThatItWasNotToldToReplace) {
   std::ofstream("notes.txt") << "no log";
+  std::ofstream("sea.toml") << "[scenario]\nname = \"sea\"\n";
   std::filesystem::create_directory("folder");
   const std::vector<std::pair<std::vector<std::string>, std::string>> refusals{
       {{"--log", "notes.txt"}, "notes.txt is there already; --force replaces it, --append goes on behind it"},
@@ -199,6 +200,7 @@ TEST_F(Recorder, NeverTouchesAFileThatItWasNotToldToReplace) {
       {{"--log", "folder"}, "folder is no file that a log could be written to"},
       {{"--log", "nowhere/run.lcmlog"}, "cannot write the log nowhere/run.lcmlog: No such file or directory"},
       {{"--log", "new.lcmlog", "--force", "--append"}, "allowed is one of them"},
+      {{"sea.toml", "--log", "./sea.toml", "--force"}, "./sea.toml is what is read"},
       {{}, "--log is missing"}};
   for (const auto& [options, reason] : refusals) {
     const auto recorder = run(options);
@@ -206,6 +208,7 @@ TEST_F(Recorder, NeverTouchesAFileThatItWasNotToldToReplace) {
     EXPECT_THAT(recorder->output(), HasSubstr(reason));
   }
   EXPECT_EQ(bytes_of("notes.txt"), "no log");
+  EXPECT_EQ(bytes_of("sea.toml"), "[scenario]\nname = \"sea\"\n");
 }
 
 TEST_F(Recorder, AFileThatAnotherOneWritesIsRefused) {
