@@ -142,6 +142,26 @@ TEST_F(Join, ThePageOfTheMonitorIsReachedFromOutsideAndEndsWithTheRun) {
   EXPECT_THAT(monitor->output(), HasSubstr("the run has ended\n"));
 }
 
+TEST_F(Join, ThePageOfHaloclineViewIsReachedFromOutside) {
+  start_run();
+  fs::create_directories("page");
+  std::ofstream("page/index.html") << "the page of the test\n";
+  const auto view = join({"halocline", "view", "--page", here_ + "/page"});
+  expect_page_outside(*view);
+  stop_run();
+  EXPECT_EQ(view->wait(), 0) << view->output();
+}
+
+TEST_F(Join, ARunIsFoundInAFolderWithABlankInItsName) {
+  fs::create_directory("a folder");
+  here_ += "/a folder";
+  start_run();
+  const auto joined = join({"/bin/echo", "on its bus"});
+  EXPECT_EQ(joined->wait(), 0) << joined->output();
+  EXPECT_THAT(joined->output(), HasSubstr("on its bus"));
+  stop_run();
+}
+
 TEST_F(Join, TheMonitorEndsOnCtrlC) {
   start_run();
   const auto monitor = join_monitor();
@@ -164,12 +184,14 @@ TEST_F(Join, APortThatIsTakenIsAnError) {
   stop_run();
 }
 
-// Without root the network of a run lies in a namespace of users.
+// Without root the network of a run lies in a namespace of users, where he is root, too: the folder of root's
+// runs is not his.
 TEST_F(Join, AUserWhoIsNotRootSeesThePageOfHisRun) {
   if (getuid() == 0) as_ = {"/usr/bin/setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
   const fs::path folder = "/tmp/halocline-join-" + std::to_string(getpid());  // which he reaches
   fs::create_directory(folder);
   fs::permissions(folder, fs::perms::all);
+  fs::create_directory(folder / "halocline-runs-0");
   const WorkingFolder working(folder);
   here_ = folder.string();
   const auto possible = start({"/bin/sh", "-c", "test -x \"$HALOCLINE_BIN/halocline\" && unshare -rn true"});

@@ -267,6 +267,39 @@ TEST_F(DistributedReport, InLockstep) {
   EXPECT_TRUE(report == one);
 }
 
+TEST_F(DistributedReport, ALogMayLieBesideItsScenarioUnderItsName) {
+  std::filesystem::copy_file(kScenario, "sea.toml");
+  const auto beside = [&](const std::string& log) {
+    return Process(in_folder(here_, {script("run_distributed"), here_ + "/sea.toml", "--duration", "2",
+                                     "--lockstep", "--force", "--log", here_ + "/" + log}));
+  };
+  Process run = beside("sea.lcm");
+  EXPECT_EQ(run.wait(), 0) << run.output();
+  Process over = beside("sea.toml");
+  EXPECT_EQ(over.wait(), 2);
+  EXPECT_THAT(over.output(), HasSubstr("sea.toml is what is read"));
+  EXPECT_EQ(text_of("sea.toml"), text_of(kScenario));
+}
+
+TEST_F(DistributedReport, WhatIsRefusedLeavesNothing) {
+  const std::string modem = "family = \"own\"\nsource_level_db = 175\n";
+  std::ofstream("modem.toml") << modem;
+  std::ofstream("sea.toml")
+      << "[scenario]\nname = \"sea\"\nduration_s = 2\n[modem]\nprofile = \"modem.toml\"\n"
+         "[[vehicle]]\nname = \"a\"\nid = 1\nstart_ned_m = [0.0, 0.0, 20.0]\n";
+  std::filesystem::create_directory("folder");
+  const auto refused = [&](const std::string& log) {
+    Process run(in_folder(
+        here_, {script("run_distributed"), here_ + "/sea.toml", "--force", "--log", here_ + "/" + log}));
+    EXPECT_EQ(run.wait(), 2) << run.output();
+    return run.output();
+  };
+  EXPECT_THAT(refused("folder"), HasSubstr("folder is a folder; allowed is a file"));
+  EXPECT_FALSE(std::filesystem::exists("folder.toml"));
+  EXPECT_THAT(refused("modem.lcm"), HasSubstr("modem.toml is what is read"));
+  EXPECT_EQ(text_of("modem.toml"), modem);
+}
+
 TEST_F(DistributedReport, CtrlCEndsItWithItsReportAnd130) {
   Process run = distributed({"--duration", "60", "--log", here_ + "/run.lcmlog"});
   ASSERT_TRUE(prints(run, "to join their bus")) << run.output();
