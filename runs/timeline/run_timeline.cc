@@ -34,9 +34,11 @@ inline constexpr bool kAdvancesTime =
     std::is_same_v<Message, sim_clock_t> || std::is_same_v<Message, position_estimate_t>;
 
 // Returns the origin that a scenario states. A SCENARIO message holds 0 N 0 E when its scenario states none;
-// an origin at 0 N 0 E is recognised by the keys in the configuration.
+// an origin at 0 N 0 E is recognised by the keys in the configuration, which end where the files begin that
+// it carries.
 std::optional<RunOrigin> origin_of(const scenario_info_t& part, std::string_view toml) {
-  const auto states = [&](std::string_view key) { return toml.find(key) != std::string_view::npos; };
+  const std::string_view keys = toml.substr(0, toml.find("\n[[file]]"));
+  const auto states = [&](std::string_view key) { return keys.find(key) != std::string_view::npos; };
   const bool is_stated = part.origin_latitude_deg != 0 || part.origin_longitude_deg != 0 ||
                          states("origin_latitude_deg") || states("origin_longitude_deg");
   return is_stated ? std::optional(RunOrigin{part.origin_latitude_deg, part.origin_longitude_deg})

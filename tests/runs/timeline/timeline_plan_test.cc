@@ -91,6 +91,17 @@ TEST(RunTimeline, TheOriginIsWhatTheScenarioStates) {
   EXPECT_FALSE(RunTimeline().scenario().origin);
 }
 
+TEST(RunTimeline, TheOriginIsNotSoughtInTheFilesOfTheConfiguration) {
+  RunTimeline store;
+  scenario_info_t part = scenario_part(0, 1, "auv", "seed = 7");
+  part.configuration_line = {"seed = 7", "", "[[file]]", "lines = [", "\"# origin_latitude_deg = 54.3\",",
+                             "]"};
+  part.num_lines = 6;
+  add(store, "SCENARIO", part);
+  EXPECT_THAT(store.scenario().toml, ::testing::HasSubstr("54.3"));
+  EXPECT_FALSE(store.scenario().origin);
+}
+
 TEST(RunTimeline, AFixedVehicleIsAtRestWhateverItsStates) {
   RunTimeline store;
   scenario_info_t part = scenario_part(0, 1, "buoy", "");
