@@ -15,6 +15,7 @@
 
 #include "bus/logs/channel_types.h"
 #include "bus/logs/foreign_message.h"
+#include "bus/logs/log_series.h"
 #include "bus/messages/channels.h"
 #include "core/check.h"
 #include "core/files/input_file.h"
@@ -68,6 +69,16 @@ RunTimeBase time_of(LogReader& log) {
   return time;
 }
 
+namespace {
+
+// Returns the name of the configuration beside a log; that of a later part is beside the first.
+std::string config_of(const std::string& log) {
+  const std::string own = config_beside(log);
+  return std::filesystem::exists(own) ? own : config_beside(bus::first_part_of_log(log));
+}
+
+}  // namespace
+
 bus::ConfigFile recorded_configuration(const std::vector<std::string>& logs,
                                        const std::vector<std::string>& overrides) {
   LogReader log(logs);
@@ -79,7 +90,7 @@ bus::ConfigFile recorded_configuration(const std::vector<std::string>& logs,
   const std::string& recorded = timeline.scenario().toml;
   if (!recorded.empty())
     return bus::ConfigFile::parse(recorded, logs.front() + ", its configuration", overrides);
-  const std::string beside = config_beside(logs.front());
+  const std::string beside = config_of(logs.front());
   require(std::filesystem::exists(beside),
           logs.front() + " does not hold the configuration that it was made with, and there is no " + beside +
               "; name one by --scenario");
@@ -105,7 +116,7 @@ LoggedTimeline read_timeline(const std::vector<std::string>& logs, TimelineLimit
   for (LoggedEvent event; log.next(event);) timeline.add(event.stamp_us, event.channel, event.data);
   if (timeline.scenario().toml.empty()) {
     RunScenario scenario = timeline.scenario();
-    scenario.toml = text_of(config_beside(logs.front()));
+    scenario.toml = text_of(config_of(logs.front()));
     timeline.set_scenario(std::move(scenario));
   }
   take_damage(log, read);

@@ -6,6 +6,8 @@
 
 #include <gmock/gmock.h>
 
+#include "bus/config/config.h"
+#include "bus/logs/log_series.h"
 #include "core/sim_time.h"
 #include "runs/analysis/outcome_summary.h"
 #include "runs/analysis/run_files.h"
@@ -87,6 +89,20 @@ TEST(LoggedTimeline, TheConfigurationBesideTheLogIsTheScenariosText) {
   std::ofstream(config_beside(file.path())) << "[scenario]\n";
   EXPECT_EQ(read_timeline({file.path()}).timeline.scenario().toml, "[scenario]\n");
   std::filesystem::remove(config_beside(file.path()));
+}
+
+TEST(LoggedTimeline, TheConfigurationOfAPartIsBesideTheFirst) {
+  TemporaryLog file(".0002");
+  file.add(0, "STATE.a", state(1, 0, 0));
+  const std::string first = config_beside(bus::first_part_of_log(file.path()));
+  ASSERT_NE(first, config_beside(file.path()));
+  std::ofstream(first) << "[scenario]\nname = \"first\"\n";
+  EXPECT_EQ(read_timeline({file.path()}).timeline.scenario().toml, "[scenario]\nname = \"first\"\n");
+  EXPECT_EQ(recorded_configuration({file.path()}, {}).path(), first);
+  std::ofstream(config_beside(file.path())) << "[scenario]\n";
+  EXPECT_EQ(read_timeline({file.path()}).timeline.scenario().toml, "[scenario]\n");
+  std::filesystem::remove(config_beside(file.path()));
+  std::filesystem::remove(first);
 }
 
 }  // namespace
