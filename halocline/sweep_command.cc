@@ -88,7 +88,8 @@ std::vector<Job> jobs_of(const SweepPlan& plan, const std::string& out) {
   for (std::size_t i = 0; i < plan.runs(); ++i) {
     Job job{run_of(plan, i), {}};
     const ScenarioConfig config = load_scenario(plan.scenario.place(), job.run.overrides);
-    job.folder = run_folder(out, run_identity(effective_toml(config)));
+    // The places of its files tell runs apart; their contents tell whether a run is to be done again.
+    job.folder = run_folder(out, run_identity(effective_toml(config) + portable_toml(config)));
     job.duration_s = config.scenario.duration.seconds();
     job.memory_bytes = estimated_memory_bytes(config);
     jobs.push_back(std::move(job));
@@ -198,7 +199,7 @@ int write_slurm(const std::vector<Job>& jobs, const SweepOptions& options) {
 }
 
 int sweep(SweepOptions options) {
-  options.out = fs::absolute(options.out).lexically_normal().string();
+  options.out = fs::weakly_canonical(fs::absolute(options.out)).string();
   require(options.of == 0 || options.task < options.of, "--task must be below --of");
   require_free({{options.slurm}, options.force}, {options.plan});
   const SweepPlan plan = plan_of(options);

@@ -115,6 +115,23 @@ TEST_F(SweepCommand, ADamagedResultIsDoneAgain) {
   EXPECT_EQ(text("points.csv"), points);
 }
 
+TEST_F(SweepCommand, AChangedFileOfTheScenarioIsDoneAgain) {
+  const std::string cast = folder_ + ".csv";
+  std::vector<std::string> options = four_runs();
+  options.insert(options.end(),
+                 {"--set", "environment.profile=file", "--set", "environment.profile_file=" + cast});
+  const auto done_with = [&](const std::string& speed_mps) {
+    std::ofstream(cast) << "depth_m,sound_speed_mps\n0,1500\n200," << speed_mps << "\n";
+    Process sweep(command(options));
+    EXPECT_EQ(sweep.wait(), 0) << sweep.output();
+    return sweep.output();
+  };
+  EXPECT_THAT(done_with("1490"), HasSubstr("4 runs, 4 to do here"));
+  EXPECT_THAT(done_with("1490"), HasSubstr("4 runs, 0 to do here"));
+  EXPECT_THAT(done_with("1510"), HasSubstr("4 runs, 4 to do here"));
+  fs::remove(cast);
+}
+
 TEST_F(SweepCommand, MoreSeedsRunOnlyWhatIsNew) {
   Process first(command(four_runs()));
   ASSERT_EQ(first.wait(), 0) << first.output();
