@@ -214,8 +214,8 @@ void add_warnings_of_files(ConfigDocument& document) {
   }
 }
 
+// Adds the files that the document names, and those that they name in turn.
 void add_inputs(const ConfigDocument& document, std::vector<std::string>& inputs) {
-  inputs.push_back(document.path);
   for (const auto& [node, files] : document.files) {
     for (const FilePath& path : files.paths) {
       if (!names_a_file(path.given(), files.names)) continue;
@@ -308,7 +308,7 @@ const std::vector<std::string>& ConfigFile::warnings() const { return document_-
 const std::string& ConfigFile::path() const { return document_->path; }
 
 std::vector<std::string> ConfigFile::inputs() const {
-  std::vector<std::string> inputs;
+  std::vector<std::string> inputs{document_->path};
   add_inputs(*document_, inputs);
   return inputs;
 }

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "bus/config/config.h"
+#include "core/check.h"
 #include "core/files/file_path.h"
 
 namespace halocline::bus {
@@ -219,6 +220,20 @@ TEST_F(CarriedFile, OfAKeyThatDoesNotApplyIsLeftWhereItIs) {
   });
   file.check(/*whole_file=*/true);
   EXPECT_EQ(file.to_toml(), "cast = \"a.csv\"\n");
+}
+
+TEST_F(CarriedFile, IsNoFileToWriteTo) {
+  write("own.toml", "cast = \"a.csv\"\n");
+  write("a.csv", "cast");
+  write("b.csv", "not named");
+  ConfigFile file = load("model = \"own.toml\"\nrates = \"janus\"\n");
+  ConfigFile inside = ConfigFile::load_named(sea_in(file).model);
+  sea_in(inside);
+  EXPECT_THAT(file.inputs(), ElementsAre((folder_ / "sea.toml").string(), (folder_ / "own.toml").string(),
+                                         (folder_ / "a.csv").string()));
+  EXPECT_THROW(file.require_no_input((folder_ / "sub/../a.csv").string()), InvalidArgument);
+  file.require_no_input((folder_ / "b.csv").string());
+  file.require_no_input("");
 }
 
 TEST_F(CarriedFile, StaysAsLongAsItsPathAndNoLonger) {
