@@ -70,6 +70,18 @@ TEST(SweepPlan, IsReadAsItWasWritten) {
   EXPECT_THAT(read.scenario.place(), ::testing::EndsWith("/harbour.toml"));
 }
 
+TEST(SweepPlan, AScenarioBehindALinkIsNamedAsTheSystemFindsIt) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::canonical(::testing::TempDir()) / "sweep-plan-link";
+  fs::create_directories(folder / "real/deep");
+  fs::create_directories(folder / "sweeps");
+  fs::create_directory_symlink(folder / "real/deep", folder / "sweeps/link");
+  SweepPlan plan;
+  plan.scenario = (folder / "sweeps/link/../sea.toml").string();
+  EXPECT_NE(to_toml(plan).find("\"" + (folder / "real/sea.toml").string() + "\""), std::string::npos);
+  fs::remove_all(folder);
+}
+
 TEST(SweepPlan, AllErrorsOfAFileAreReportedTogether) {
   const std::string path = ::testing::TempDir() + "wrong-" + std::to_string(getpid()) + ".toml";
   std::ofstream(path)
