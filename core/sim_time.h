@@ -65,6 +65,11 @@ class SimTime {
   std::int64_t ns_ = 0;
 };
 
+// Returns an instant of a schedule moved by `by`; never() and at_once() stay.
+constexpr SimTime moved(SimTime time, SimDuration by) {
+  return time == SimTime::never() || time == SimTime::at_once() ? time : time + by;
+}
+
 // Returns the first instant of the grid {0, period, 2 period, ...} that is later than `time`; period > 0.
 constexpr SimTime next_on_grid(SimTime time, SimDuration period) {
   const std::int64_t p = period.nanoseconds();

@@ -24,7 +24,7 @@ SimTime whole_microsecond_from(SimTime time) {
 VehicleTime::VehicleTime(bus::Bus& bus, const ClockSetConfig& config)
     : clocks_(config.clocks, config.seed, config.fix_lag), fix_lag_(config.fix_lag) {
   for (const channel_server::ClockOf& clock : config.clocks) {
-    owners_.insert(clock.id);
+    owners_.emplace(clock.id, clock.vehicle);
     if (!clock.settings.is_set_by_gps) continue;
     bus.subscribe<vehicle_gps_t>(
         bus::channels::kGps.of(clock.vehicle),
@@ -36,9 +36,16 @@ VehicleTime::VehicleTime(bus::Bus& bus, const ClockSetConfig& config)
 void VehicleTime::add_fix(std::string_view vehicle, std::int64_t utime) {
   clocks_.add_fix(vehicle, SimTime::from_utime(utime));
   fixes_.emplace_back(vehicle, utime);
+  keep_set(vehicle, utime);
   const auto is_of_it = [&](const Fix& fix) { return fix.first == vehicle; };
   if (std::count_if(fixes_.begin(), fixes_.end(), is_of_it) > kFixesKept)
     fixes_.erase(std::find_if(fixes_.begin(), fixes_.end(), is_of_it));
+}
+
+void VehicleTime::keep_set(std::string_view vehicle, std::int64_t utime) {
+  std::set<SimTime>& sets = sets_[std::string(vehicle)];
+  sets.insert(SimTime::from_utime(utime) + fix_lag_);
+  if (sets.size() > static_cast<std::size_t>(kFixesKept)) sets.erase(sets.begin());
 }
 
 SimTime VehicleTime::shown(std::int32_t vehicle_id, SimTime at) const {
@@ -62,6 +69,25 @@ SimTime VehicleTime::due(std::int32_t vehicle_id, SimTime shown_time) const {
   return at;
 }
 
+SimDuration VehicleTime::set_by(std::int32_t vehicle_id, SimTime from, SimTime to) const {
+  const auto owner = owners_.find(vehicle_id);
+  const auto sets = owner == owners_.end() ? sets_.end() : sets_.find(owner->second);
+  SimDuration sum;
+  if (sets == sets_.end()) return sum;
+  constexpr SimDuration kBefore = SimDuration::from_nanoseconds(1);
+  for (auto at = sets->second.upper_bound(from); at != sets->second.end() && *at <= to; ++at)
+    sum = sum + (shown(vehicle_id, *at) - shown(vehicle_id, *at - kBefore)) - kBefore;
+  return sum;
+}
+
+SimTime VehicleTime::next_set(std::int32_t vehicle_id) const {
+  const auto owner = owners_.find(vehicle_id);
+  const auto sets = owner == owners_.end() ? sets_.end() : sets_.find(owner->second);
+  if (sets == sets_.end()) return SimTime::never();
+  const auto at = sets->second.upper_bound(now_);
+  return at == sets->second.end() ? SimTime::never() : *at;
+}
+
 SimTime VehicleTime::instant_of(std::int32_t vehicle_id, SimTime shown_time, SimTime now) const {
   return now - (shown(vehicle_id, now) - shown_time);
 }
@@ -69,13 +95,17 @@ SimTime VehicleTime::instant_of(std::int32_t vehicle_id, SimTime shown_time, Sim
 void VehicleTime::restart(SimTime now) {
   clocks_.clear();
   fixes_.clear();
+  sets_.clear();
   now_ = now;
 }
 
 void VehicleTime::archive(Archive& a) {
   a(fixes_, now_);
   if (!a.is_loading()) return;
-  for (const auto& [vehicle, utime] : fixes_) clocks_.add_fix(vehicle, SimTime::from_utime(utime));
+  for (const auto& [vehicle, utime] : fixes_) {
+    clocks_.add_fix(vehicle, SimTime::from_utime(utime));
+    keep_set(vehicle, utime);
+  }
 }
 
 }  // namespace halocline::clients

@@ -10,6 +10,8 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -43,6 +45,12 @@ class VehicleTime {
   // `now`.
   SimTime instant_of(std::int32_t vehicle_id, SimTime shown, SimTime now) const;
 
+  // Returns by how much fixes set the clock after `from`, up to and including `to`; negative for back.
+  SimDuration set_by(std::int32_t vehicle_id, SimTime from, SimTime to) const;
+  // Returns the first instant after the latest set_now() at which a fix that was received sets the clock;
+  // never() without one.
+  SimTime next_set(std::int32_t vehicle_id) const;
+
   // Sets the simulation time of the node's step.
   void set_now(SimTime now) { now_ = now; }
   // Forgets the fixes, because another run has begun.
@@ -53,10 +61,12 @@ class VehicleTime {
  private:
   using Fix = std::pair<std::string, std::int64_t>;  // vehicle and time of the fix, us
   void add_fix(std::string_view vehicle, std::int64_t utime);
+  void keep_set(std::string_view vehicle, std::int64_t utime);
 
   channel_server::VehicleClocks clocks_;
   SimDuration fix_lag_;
-  std::set<std::int32_t> owners_;  // ids of the vehicles with a clock of their own
+  std::map<std::int32_t, std::string> owners_;  // vehicles with a clock of their own: name by id
+  std::map<std::string, std::set<SimTime>, std::less<>> sets_;  // when fixes kept set the clock of a vehicle
   std::deque<Fix> fixes_;
   SimTime now_;
 };

@@ -50,6 +50,11 @@ class AlohaCa : public Mac {
     overheard_.push_back({event.source_id, event.destination_id, departure, duration});
   }
 
+  void on_clock_set(SimTime now, SimDuration by) override {
+    Mac::on_clock_set(now, by);
+    for (Overheard& o : overheard_) o.departure = moved(o.departure, by);
+  }
+
  protected:
   void attempt(SimTime now) override {
     if (!would_collide(now, queue_.front().destination)) {

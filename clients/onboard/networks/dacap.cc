@@ -53,6 +53,11 @@ class Dacap : public Maca {
       give_way(SimTime::from_utime(packet.utime));
   }
 
+  void on_clock_set(SimTime now, SimDuration by) override {
+    Maca::on_clock_set(now, by);
+    sent_ = moved(sent_, by);
+  }
+
  protected:
   void on_leave(const modem_receive_t& packet) override {
     const double travel_s = (SimTime::from_utime(packet.arrival_utime) - sent_).seconds() / 2;

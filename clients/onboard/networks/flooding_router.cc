@@ -45,6 +45,8 @@ class FloodingRouter : public Router {
     return relayed ? decode_network_packet(relayed->payload) : std::nullopt;
   }
 
+  void on_clock_set(SimDuration by) override { relay_.move(by); }
+
   SimTime next() const override { return relay_.next(); }
 
   // The relay is told at once that the packet was accepted, because the MAC is responsible for it from here

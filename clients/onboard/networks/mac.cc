@@ -37,6 +37,8 @@ void Mac::on_refused(SimTime now) {
   due_ = first_try(now);
 }
 
+void Mac::on_clock_set(SimTime /*now*/, SimDuration by) { due_ = moved(due_, by); }
+
 SimTime Mac::next() const { return queue_.empty() || transmits_ ? SimTime::never() : due_; }
 
 void Mac::step(SimTime now) {

@@ -43,6 +43,9 @@ class Mac {
   // Handles a packet that the modem received; for a promiscuous modem it may be for any vehicle.
   virtual void on_packet(const modem_receive_t& packet, std::int32_t own_id);
   virtual void on_event(const modem_event_t& event);
+  // Moves all that the MAC waits for by `by`, because the vehicle's clock was set and shows `now` instead of
+  // `now - by`: what remains of a wait is as long as before. Slots are those of the clock as it is now.
+  virtual void on_clock_set(SimTime now, SimDuration by);
   // Handles the modem's refusal of the latest transmission.
   virtual void on_refused(SimTime now);
 

@@ -45,6 +45,12 @@ void Maca::on_request(const modem_receive_t& packet) {
 
 void Maca::on_leave(const modem_receive_t& packet) { send_data(SimTime::from_utime(packet.utime)); }
 
+void Maca::on_clock_set(SimTime now, SimDuration by) {
+  Mac::on_clock_set(now, by);
+  deadline_ = moved(deadline_, by);
+  silent_until_ = moved(silent_until_, by);
+}
+
 SimTime Maca::next() const {
   if (transmits_) return SimTime::never();
   if (answer_) return SimTime::at_once();

@@ -24,6 +24,7 @@ class Maca : public Mac {
   using Mac::Mac;
 
   void on_packet(const modem_receive_t& packet, std::int32_t own_id) override;
+  void on_clock_set(SimTime now, SimDuration by) override;
   SimTime next() const override;
   void step(SimTime now) override;
 
@@ -48,7 +49,7 @@ class Maca : public Mac {
  private:
   void on_request(const modem_receive_t& packet);
 
-  SimTime deadline_, silent_until_;
+  SimTime deadline_, silent_until_ = SimTime::at_once();
   int tries_ = 0;  // attempts of the first frame
 };
 

@@ -2,6 +2,7 @@
 #include "clients/onboard/networks/network_node.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bus/config/scenario.h"
 #include "core/check.h"
@@ -50,8 +51,17 @@ void NetworkNode::add_station(const NetworkConfig& config, std::size_t i) {
 }
 
 SimTime NetworkNode::enter(Station& station, SimTime instant) const {
-  station.instant = instant;
-  return clocks_.shown(station.member.vehicle_id, instant);
+  const std::int32_t id = station.member.vehicle_id;
+  const SimTime before = std::exchange(station.instant, instant);
+  const SimTime own = clocks_.shown(id, instant);
+  // A message may tell of a time before the latest step.
+  const SimDuration by =
+      before <= instant ? clocks_.set_by(id, before, instant) : -clocks_.set_by(id, instant, before);
+  if (by != SimDuration()) {
+    station.mac->on_clock_set(own, by);
+    station.router->on_clock_set(by);
+  }
+  return own;
 }
 
 // Passes a packet on with its reception time by the vehicle's clock; the modem already gives its arrival by
@@ -153,7 +163,8 @@ bus::Due NetworkNode::on_due() const {
   bus::Due due{.sim = reports_.empty() ? next_listen_ : SimTime::at_once()};
   for (const auto& station : stations_) {
     const SimTime protocols = std::min(station->router->next(), station->mac->next());
-    due.sim = std::min({due.sim, station->next_offer, clocks_.due(station->member.vehicle_id, protocols)});
+    const std::int32_t id = station->member.vehicle_id;
+    due.sim = std::min({due.sim, station->next_offer, clocks_.due(id, protocols), clocks_.next_set(id)});
     due.steady = std::min(due.steady, station->modem.next_resend());
   }
   return due;

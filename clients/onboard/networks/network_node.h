@@ -63,8 +63,8 @@ class NetworkNode : public bus::Node {
   std::unique_ptr<Mac> make_mac(MacPort port, std::size_t i, std::size_t count) const;
   void take_packet(Station& station, const modem_receive_t& packet);
   void take_event(Station& station, const modem_event_t& event);
-  // Sets the simulation time at which the station's protocols are called next, and returns it by the
-  // vehicle's clock.
+  // Sets the simulation time at which the station's protocols are called next, tells them when the vehicle's
+  // clock was set since the last one, and returns the time by that clock.
   SimTime enter(Station& station, SimTime instant) const;
   bool overhears_packets() const;
   SimDuration travel_time(std::int32_t from, std::int32_t to) const;  // from the positions at the start

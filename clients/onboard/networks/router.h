@@ -37,6 +37,8 @@ class Router {
   virtual void take(const MacFrame& frame, SimTime at) = 0;
   // Returns the packet in a frame of this router; nothing when it contains none.
   virtual std::optional<NetworkPacket> packet_in(const MacFrame& frame) const = 0;
+  // Moves all that the router waits for by `by`, as a MAC does.
+  virtual void on_clock_set(SimDuration /*by*/) {}
   virtual SimTime next() const { return SimTime::never(); }
   virtual void step(SimTime /*now*/) {}
 

@@ -11,6 +11,7 @@
 // if all sound takes the same time to the receiver. Different distances reduce it to that of pure ALOHA,
 // unless slots are longer by the greatest difference of travel times (Syed, Ye, Heidemann and Krishnamachari
 // 2008). Transmissions of TDMA never collide when slots are longer than a packet by the greatest travel time.
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -26,6 +27,9 @@ class SlottedMac : public Mac {
   // A vehicle uses the slots whose number is `index` modulo `count`.
   SlottedMac(MacPort port, const NetworkRules& rules, std::int64_t index, std::int64_t count)
       : Mac(std::move(port), rules), index_(index), count_(count) {}
+
+  // A slot that the clock skips is past, so attempt() takes the next one.
+  void on_clock_set(SimTime now, SimDuration /*by*/) override { due_ = std::min(due_, first_try(now)); }
 
  protected:
   void attempt(SimTime now) override {

@@ -73,6 +73,12 @@ class TLohi : public Mac {
     Mac::on_event(event);
   }
 
+  void on_clock_set(SimTime now, SimDuration by) override {
+    Mac::on_clock_set(now, by);
+    for (SimTime* time : {&round_end_, &carrier_began_, &sent_, &silent_until_, &out_until_})
+      *time = moved(*time, by);
+  }
+
   SimTime next() const override {
     if (transmits_) return SimTime::never();
     if (contends_) return round_end_;
@@ -114,8 +120,9 @@ class TLohi : public Mac {
   bool contends_ = false;  // a contention round of this vehicle is in progress
   std::int64_t others_ = 0;
   SimTime round_end_, carrier_began_, sent_;
-  SimTime silent_until_;  // until then, the round of another vehicle may be in progress
-  SimTime out_until_;     // end of being out of the frame
+  // Until then, the round of another vehicle may be in progress.
+  SimTime silent_until_ = SimTime::at_once();
+  SimTime out_until_ = SimTime::at_once();  // end of being out of the frame
   SimDuration tone_ = SimDuration::from_milliseconds(1);
 };
 

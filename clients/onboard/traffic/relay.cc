@@ -162,6 +162,11 @@ SimDuration Relay::wait_before(const RelayPacket& packet, int tries) const {
          SimDuration::from_seconds(share * std::max(rules_.longest_wait, kLongestRetry).seconds());
 }
 
+void Relay::move(SimDuration by) {
+  ++changes_;
+  for (Stored& stored : stored_) stored.at = moved(stored.at, by);
+}
+
 void Relay::clear() {
   ++changes_;
   stored_.clear();

@@ -80,6 +80,9 @@ class Relay {
   enum class Verdict { kAccepted, kBusy, kImpossible };
   void on_receipt(std::int64_t packet_sequence, Verdict verdict, SimTime at);
 
+  // Moves the transmission of all stored packets by `by`, because the clock that tells their times was set.
+  void move(SimDuration by);
+
   // Forgets all stored packets for another run.
   void clear();
 
