@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks that the times in [network] fit the packets and distances.
+// Checks that the packets of [network] fit the modems, and its times the packets and distances. Vehicles
+// without a modem take no part.
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "bus/config/config.h"
 #include "channel_server/packets/packet.h"
@@ -25,8 +27,12 @@ class NetworkChecks {
  public:
   NetworkChecks(const ScenarioConfig& config, bus::ConfigFile& file)
       : config_(config), rules_(config.network.rules), file_(file) {
-    for (const networks::NetworkMember& one : config.network.members) {
-      for (const networks::NetworkMember& other : config.network.members) {
+    for (std::size_t i = 0; i < config.network.members.size(); ++i) {
+      if (config.channel_server.vehicles.at(i).carries_modem) stations_.push_back(i);
+    }
+    for (const std::size_t i : stations_) {
+      for (const std::size_t k : stations_) {
+        const networks::NetworkMember &one = member(i), &other = member(k);
         const double distance_m = (one.start_ned_m - other.start_ned_m).norm();
         farthest_m_ = std::max(farthest_m_, distance_m);
         if (sends_to(one, other)) farthest_hop_m_ = std::max(farthest_hop_m_, distance_m);
@@ -36,6 +42,7 @@ class NetworkChecks {
 
   void run() {
     const MacKind mac = rules_.mac;
+    if (refuses_size()) return;
     if (mac == MacKind::kSlottedAloha || mac == MacKind::kTdma) check_slot();
     if (mac == MacKind::kTLohi)
       expect("contention_s", rules_.contention, longest_s(kToneBytes) + 2 * travel_s(),
@@ -54,6 +61,36 @@ class NetworkChecks {
 
  private:
   static constexpr std::size_t kToneBytes = 4, kMarkBytes = 1;
+
+  const networks::NetworkMember& member(std::size_t vehicle) const {
+    return config_.network.members[vehicle];
+  }
+
+  channel_server::Framing framing_with(std::size_t vehicle, std::size_t bytes) const {
+    channel_server::SendRequest request;
+    request.payload.resize(bytes);
+    return framing_of(modem_of(config_, vehicle), request);
+  }
+
+  // True for a vehicle that offers packets or passes them on.
+  bool sends(std::size_t vehicle) const {
+    if (!member(vehicle).destination.empty() || rules_.router == networks::RouterKind::kFlooding) return true;
+    return std::any_of(stations_.begin(), stations_.end(),
+                       [&](std::size_t other) { return member(other).via == member(vehicle).vehicle; });
+  }
+
+  // Refuses packets that the modem of a vehicle that sends them does not take. Returns true when it did.
+  bool refuses_size() {
+    const auto refuser = std::find_if(stations_.begin(), stations_.end(), [&](std::size_t i) {
+      return sends(i) && framing_with(i, data_bytes()).problem != channel_server::SendResult::kAccepted;
+    });
+    if (refuser == stations_.end()) return false;
+    file_.refuse("network.data_bytes", std::to_string(rules_.data_bytes),
+                 "with their headers its packets have " + std::to_string(data_bytes()) +
+                     " bytes; allowed with the modem of " + member(*refuser).vehicle + " are at most " +
+                     std::to_string(largest_payload_bytes(modem_of(config_, *refuser))));
+    return true;
+  }
 
   void check_slot() {
     const double packet_s = longest_s(data_bytes());
@@ -81,11 +118,9 @@ class NetworkChecks {
 
   // Returns the duration of a packet of `bytes` bytes with the slowest modem that accepts it.
   double longest_s(std::size_t bytes) const {
-    channel_server::SendRequest request;
-    request.payload.resize(bytes);
     double longest_s = 0;
-    for (std::size_t i = 0; i < config_.scenario.vehicles.size(); ++i) {
-      const channel_server::Framing framing = framing_of(modem_of(config_, i), request);
+    for (const std::size_t i : stations_) {
+      const channel_server::Framing framing = framing_with(i, bytes);
       if (framing.problem == channel_server::SendResult::kAccepted)
         longest_s = std::max(longest_s, framing.timing.duration.seconds());
     }
@@ -104,6 +139,7 @@ class NetworkChecks {
   const ScenarioConfig& config_;
   const networks::NetworkRules& rules_;
   bus::ConfigFile& file_;
+  std::vector<std::size_t> stations_;  // vehicles with a modem
   double farthest_m_ = 0, farthest_hop_m_ = 0;
 };
 

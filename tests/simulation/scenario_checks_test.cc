@@ -2,6 +2,7 @@
 // Each check of sense: a scenario that breaks it, and one beside it that does not.
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -95,6 +96,34 @@ TEST_F(ScenarioChecks, ANetworksTimesHoldItsPacketsAndItsDistances) {
   EXPECT_THAT(warnings("mac = \"maca\"\nhandshake_s = 0.5\nexchange_s = 0.5\n"),
               ElementsAre(HasSubstr("handshake_s"), HasSubstr("exchange_s")));
   EXPECT_THAT(warnings("mac = \"aloha-ca\"\npacket_s = 0.5\n"), ElementsAre(HasSubstr("packet_s")));
+}
+
+// Two vehicles 100 m from each other, and a ship.
+std::string network_beside_a_ship(const std::string& network, const std::string& has_modem) {
+  std::string text = "[network]\n" + network;
+  for (const auto& [name, north_m] : {std::pair("a", 0), std::pair("b", 100), std::pair("ship", 1900)})
+    text += std::string("[[vehicle]]\nname = \"") + name + "\"\nid = " + std::to_string(1 + north_m) +
+            "\nmodel = \"fixed\"\nstart_ned_m = [" + std::to_string(north_m) + ".0, 0.0, 30.0]\n" +
+            (name == std::string("ship") ? "has_modem = " + has_modem + "\n" : "") +
+            (name == std::string("a") ? "[vehicle.network]\ndestination = \"b\"\n" : "");
+  return text;
+}
+
+TEST_F(ScenarioChecks, ANetworksDistancesAreThoseOfVehiclesWithAModem) {
+  const std::string network = "mac = \"t-lohi\"\ncontention_s = 1.5\n";
+  EXPECT_THAT(findings_in(network_beside_a_ship(network, "true")).warnings,
+              ElementsAre(HasSubstr("a tone and twice the greatest travel time")));
+  EXPECT_THAT(findings_in(network_beside_a_ship(network, "false")).warnings, IsEmpty());
+}
+
+TEST_F(ScenarioChecks, ANetworksPacketsFitTheModemsThatSendThem) {
+  const auto errors = [&](const std::string& bytes) {
+    return findings_in(network_beside_a_ship("mac = \"aloha\"\ndata_bytes = " + bytes + "\n", "false"))
+        .errors;
+  };
+  EXPECT_THAT(errors("100"), IsEmpty());
+  EXPECT_THAT(errors("5000"), ElementsAre(AllOf(HasSubstr("network.data_bytes is 5000"),
+                                                HasSubstr("its packets have 5021 bytes"))));
 }
 
 TEST_F(ScenarioChecks, ASurveyLiesAboveGround) {

@@ -103,10 +103,12 @@ TEST(SlottedAloha, TakesTheNextSlotOfAClockThatWasSetBack) {
 }
 
 // Two vehicles, of which "late" has the keys of a clock; its packets go to the hub.
-std::string with_clock(const std::string& network, const std::string& vehicle_keys) {
-  return fmt::format(testing::kWater, fmt::arg("duration", 600.0), fmt::arg("seed", 1),
+std::string with_clock(const std::string& network, const std::string& vehicle_keys, double interval_s,
+                       double duration_s) {
+  return fmt::format(testing::kWater, fmt::arg("duration", duration_s), fmt::arg("seed", 1),
                      fmt::arg("modem", testing::kModem)) +
-         "[network]\ninterval_s = 20.0\n" + network + "\n" + testing::vehicle("hub", 1, 0, 0) +
+         "[network]\ninterval_s = " + fmt::format("{:.1f}", interval_s) + "\n" + network + "\n" +
+         testing::vehicle("hub", 1, 0, 0) +
          "[[vehicle]]\nname = \"late\"\nid = 2\nstart_ned_m = [150.0, 0.0, 5.0]\n" + vehicle_keys +
          "\n[vehicle.network]\ndestination = \"hub\"\n";
 }
@@ -116,8 +118,8 @@ class AnyHandshake : public ::testing::TestWithParam<std::string> {};
 TEST_P(AnyHandshake, IsTheSameByAClockWithAnOffset) {
   const std::string rules = "mac = \"" + GetParam() + "\"";
   const std::string clock = "model = \"fixed\"\n[vehicle.clock]\ndrift_ppm = 0.0\noffset_s = ";
-  const testing::Results right = testing::run_text(with_clock(rules, clock + "0.0"));
-  const testing::Results behind = testing::run_text(with_clock(rules, clock + "-50.0"));
+  const testing::Results right = testing::run_text(with_clock(rules, clock + "0.0", 20, 600));
+  const testing::Results behind = testing::run_text(with_clock(rules, clock + "-50.0", 20, 600));
   constexpr double kClockSteps_s = 1e-4;  // a reading is found to within some microseconds
   EXPECT_GT(right.delivered, 10);
   EXPECT_THAT(behind.delays_s, ::testing::Pointwise(::testing::DoubleNear(kClockSteps_s), right.delays_s));
@@ -129,12 +131,13 @@ INSTANTIATE_TEST_SUITE_P(Networks, AnyHandshake, ::testing::Values("maca", "daca
 // It surfaces, and the first fix sets its clock back by 50 s.
 TEST(Tdma, TakesTheNextOwnSlotWhenAFixSetsTheClockBack) {
   const testing::Results results = testing::run_text(with_clock(
-      "mac = \"tdma\"\nslot_s = 1.2",
+      "mac = \"tdma\"\nslot_s = 0.7",
       "model = \"hover\"\n[vehicle.clock]\ndrift_ppm = 0.0\noffset_s = 50.0\n[vehicle.sensors.gps]\n"
-      "rate_hz = 1.0\n[vehicle.mission]\nsteering = \"thrusters\"\nwaypoints = [[150.0, 1.0, 0.0]]"));
+      "rate_hz = 1.0\n[vehicle.mission]\nsteering = \"thrusters\"\nwaypoints = [[150.0, 1.0, 0.0]]",
+      1.8, 200));
   ASSERT_GT(results.delivered, 10);
-  constexpr double kFrame_s = 2 * 1.2;
-  EXPECT_LT(*std::max_element(results.delays_s.begin(), results.delays_s.end()), 5 * kFrame_s);
+  constexpr double kStepBack_s = 50;
+  EXPECT_LT(*std::max_element(results.delays_s.begin(), results.delays_s.end()), kStepBack_s / 2);
 }
 
 }  // namespace
