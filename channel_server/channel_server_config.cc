@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/channel_server_config.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <set>
@@ -214,6 +215,14 @@ void visit(bus::ConfigVisitor& v, ChannelServerConfig& config) {
       [&](bus::ConfigVisitor& item, std::size_t i) {
         visit_vehicle(item, config.vehicles[i], config.modem);
       });
+  // A vehicle whose own modem reports events takes the threshold of [modem].
+  const auto has_events = [](const ChannelServerConfig::OfVehicle& vehicle) {
+    return vehicle.has_modem && vehicle.modem.listening.events;
+  };
+  if (!v.writing() && std::any_of(config.vehicles.begin(), config.vehicles.end(), has_events)) {
+    v.section("modem", "",
+              [&](bus::ConfigVisitor& s) { visit_carrier_threshold(s, config.modem.listening); });
+  }
   std::vector<ExtraLoss>& losses = config.rules.medium.extra_loss;
   v.list(
       "extra_loss", "Packets lost on purpose, for tests of protocols", losses.size(),

@@ -130,10 +130,7 @@ void visit_beam(bus::ConfigVisitor& v, acoustics::BeamPattern& beam) {
 void visit_listening(bus::ConfigVisitor& v, Listening& listening) {
   v.boolean("promiscuous", listening.promiscuous, "RECEIVE also of packets for other vehicles");
   v.boolean("events", listening.events, "publishes MODEM_EVENTs: transmissions, packets detected, carrier");
-  v.when(listening.events, "events = true", [&] {
-    v.number("carrier_threshold_db", listening.carrier_threshold.value,
-             {0, 100, "dB", "events: carrier is sensed where the sound of others exceeds the noise by this"});
-  });
+  v.when(listening.events, "events = true", [&] { visit_carrier_threshold(v, listening); });
 }
 
 // Checks the relations between several values.
@@ -235,6 +232,11 @@ VehicleModem with_rates(bus::ConfigFile& file, const FilePath& profile) {
 }
 
 }  // namespace
+
+void visit_carrier_threshold(bus::ConfigVisitor& v, Listening& listening) {
+  v.number("carrier_threshold_db", listening.carrier_threshold.value,
+           {0, 100, "dB", "events: carrier is sensed where the sound of others exceeds the noise by this"});
+}
 
 void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
   acoustics::Modem& a = m.modem;

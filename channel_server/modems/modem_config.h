@@ -26,6 +26,9 @@ namespace halocline::channel_server {
 // Visits the keys of [modem] or [vehicle.modem].
 void visit_modem(bus::ConfigVisitor& v, VehicleModem& modem);
 
+// Visits the one key of [modem] that only modems with events use.
+void visit_carrier_threshold(bus::ConfigVisitor& v, Listening& listening);
+
 // Gives a vehicle's modem the rates of its profile. Throws InvalidArgument, naming the field, when it differs
 // from the profile in bit rate, packet overhead or preamble. Levels, band, family, guard time, Doppler limits
 // and error model may differ.

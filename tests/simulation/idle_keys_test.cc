@@ -105,5 +105,13 @@ TEST_F(IdleKeys, CommonKeysOfAnInstrumentCountWhereOneVehicleHasIt) {
       IsEmpty());
 }
 
+// A key of [modem] holds for a vehicle that reports events by its own table.
+TEST_F(IdleKeys, TheCommonCarrierThresholdCountsWhereOneVehicleHasEvents) {
+  const std::string common = "[modem]\ncarrier_threshold_db = 3\n";
+  EXPECT_THAT(findings_in(common + vehicle_with("[vehicle.modem]\nevents = true\n")).warnings, IsEmpty());
+  EXPECT_THAT(findings_in(common + vehicle_with("[vehicle.modem]\nevents = false\n")).warnings,
+              ElementsAre(HasSubstr("modem.carrier_threshold_db is 3")));
+}
+
 }  // namespace
 }  // namespace halocline::clients
