@@ -62,19 +62,17 @@ CoverageArea area_of(const CoverageOptions& options, const LinkSurveyEnd& from) 
 
 constexpr std::size_t kMany = 100'000;  // number of links, each of which takes a millisecond or more
 
-// Notes the parts of a run's prediction that exist between vehicles only.
+// Notes the part of a run's prediction that exists between vehicles only.
 void note_what_is_left_out(const ScenarioConfig& config) {
-  const auto& vehicles = config.channel_server.vehicles;
   if (config.channel_server.propagation.replay.is_wanted())
     fmt::print(std::cerr, "note: measured channels hold between vehicles: the map is modelled\n");
-  if (std::any_of(vehicles.begin(), vehicles.end(), [](const auto& vehicle) { return vehicle.noise; }))
-    fmt::print(std::cerr, "note: the noise of vehicles is left out of the map\n");
 }
 
 int map(const CoverageOptions& options, const ScenarioConfig& config, const LinkSurveyEnd& from) {
   const CoverageArea area = area_of(options, from);
   const auto quantities = quantities_of(options.quantities);
-  constexpr double kBytesACell = 5 * sizeof(double);  // delivery, level, delay, and two values while writing
+  constexpr double kBytesACell =
+      6 * sizeof(double);  // delivery, level, delay, SNR, and two values while writing
   require_memory(static_cast<double>(area.side * area.side * area.depths_m.size()) * kBytesACell +
                      estimated_memory_bytes(config),
                  "the map", "take larger cells, a shorter range or fewer depths");
@@ -85,7 +83,7 @@ int map(const CoverageOptions& options, const ScenarioConfig& config, const Link
                           config.scenario.name + ": how " + options.from + " is heard"};
   const auto terrain = make_terrain(config).terrain;
   const std::size_t links = area.side * area.side * area.depths_m.size();
-  if (sharing_of(options) == RaySharing::kNone && links > kMany && !level_z_m(*terrain))
+  if (sharing_of(options) == RaySharing::kNone && links > kMany && !level_z_m(config.terrain, *terrain))
     fmt::print(
         std::cerr,
         "{} links over terrain are searched one by one; --share-rays depths takes a third of the time, "

@@ -70,9 +70,13 @@ LinkSurveyor::Answer LinkSurveyor::survey(const LinkEnd& from, const LinkEnd& to
 
 LinkSurveyor::Answer LinkSurveyor::survey(const LinkEnd& from, const LinkEnd& to, const Seabed& seabed,
                                           channel_server::SharedLine* line) {
-  return forecast(from, to,
-                  rays_ ? rays_->reception_over(SimTime(), from, to, seabed, line)
-                        : propagation().reception_without_capacity(SimTime(), from, to));
+  channel_server::EndPair link{from, to};
+  channel_server::NoiseOfLinks noise(noise_, SimTime());
+  wait_for_terrain([&] { return noise.are_ready({link}); });
+  noise.set(link);
+  return forecast(link.from, link.to,
+                  rays_ ? rays_->reception_over(SimTime(), link.from, link.to, seabed, line)
+                        : propagation().reception_without_capacity(SimTime(), link.from, link.to));
 }
 
 acoustics::Arrivals LinkSurveyor::arrivals(const LinkEnd& from, const LinkEnd& to) {

@@ -49,9 +49,9 @@ class LinkSurveyor {
   bool along_rays() const { return rays_.has_value(); }
   // Predicts a link between vehicles, given by their ids, or positions.
   Answer survey(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to);
-  // Predicts a link between positions over the bottom profile `seabed`, without capacity and without the
-  // noise of vehicles. `seabed` is null where it is not known; it is not used along straight paths. Links
-  // that share rays pass the same `line`; null: the link has a search of its own.
+  // Predicts a link between positions over the bottom profile `seabed`, without capacity. `seabed` is null
+  // where it is not known; it is not used along straight paths. Links that share rays pass the same `line`;
+  // null: the link has a search of its own.
   Answer survey(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to, const Seabed& seabed,
                 channel_server::SharedLine* line);
   // Returns the paths that survey(from, to) found along rays.

@@ -32,7 +32,8 @@ Sample tolerances(const std::vector<CoverageQuantity>& wanted) {
   };
   const bool level = asks(CoverageQuantity::kLevel) || asks(CoverageQuantity::kSnr);
   return {kDeliveryTolerance, level ? kLevelToleranceDb : kNotLooked,
-          asks(CoverageQuantity::kDelay) ? kDelayToleranceS : kNotLooked};
+          asks(CoverageQuantity::kDelay) ? kDelayToleranceS : kNotLooked,
+          asks(CoverageQuantity::kSnr) ? kLevelToleranceDb : kNotLooked};
 }
 
 class Mapping {
@@ -43,13 +44,14 @@ class Mapping {
       : links_({config, terrain, from}),
         terrain_(*terrain),
         from_ned_m_(from.position_ned_m),
+        level_z_m_(level_z_m(config.terrain, *terrain)),
         surface_z_m_(config.scenario.sea_surface_z_m),
         area_(area),
         tolerance_(tolerances(wanted)),
         threads_(threads),
         sharing_(sharing) {
     const std::size_t cells = area.side * area.side;
-    for (auto* values : {&map_.delivery, &map_.level_db, &map_.delay_s})
+    for (auto* values : {&map_.delivery, &map_.level_db, &map_.delay_s, &map_.snr_db})
       values->assign(area.depths_m.size(), std::vector<double>(cells, kNothing));
     map_.area = area;
   }
@@ -58,9 +60,8 @@ class Mapping {
     seabed_z_m_.resize(area_.side * area_.side, kNothing);
     for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell)
       seabed_z_m_[cell] = seabed_z_m(terrain_, place(cell, 0)).value_or(kNothing);
-    const auto level = level_z_m(terrain_);
-    if (level && !links_.is_in_a_field()) {
-      by_range(*level);
+    if (level_z_m_ && !links_.is_in_a_field() && !links_.is_among_noise()) {
+      by_range(*level_z_m_);
     } else {
       over_terrain();
     }
@@ -83,6 +84,7 @@ class Mapping {
     map_.delivery[depth][cell] = sample[0];
     map_.level_db[depth][cell] = sample[1];
     map_.delay_s[depth][cell] = sample[2];
+    map_.snr_db[depth][cell] = sample[3];
   }
 
   void by_range(double bottom_z_m) {
@@ -208,6 +210,7 @@ class Mapping {
   CoverageLinks links_;
   const bathymetry::Terrain& terrain_;
   Vec3 from_ned_m_;
+  std::optional<double> level_z_m_;
   double surface_z_m_;
   const CoverageArea& area_;
   Sample tolerance_;
@@ -219,7 +222,10 @@ class Mapping {
 
 }  // namespace
 
-std::optional<double> level_z_m(const bathymetry::Terrain& terrain) {
+std::optional<double> level_z_m(const bathymetry::TerrainRecipe& recipe, const bathymetry::Terrain& terrain) {
+  // A shape may lie beyond a base grid without end; a raster goes on as at its edge.
+  const bool is_flat = recipe.kind == bathymetry::TerrainKind::kFlat && recipe.relief.rms_m == 0;
+  if (terrain.is_endless() && !is_flat) return std::nullopt;
   const double z_m = terrain.grid(0).post(0, 0);
   for (std::size_t i = 0; i < terrain.grid_count(); ++i) {
     const auto& posts = terrain.grid(i).posts();
@@ -248,9 +254,10 @@ std::vector<double> Coverage::values(CoverageQuantity quantity, std::size_t dept
     case CoverageQuantity::kSnr:
       break;
   }
-  std::vector<double> snr_db = level_db.at(depth);
-  for (double& value : snr_db) value -= noise_level_db;
-  return snr_db;
+  if (!snr_db.empty()) return snr_db.at(depth);
+  std::vector<double> over_ambient_db = level_db.at(depth);
+  for (double& value : over_ambient_db) value -= noise_level_db;
+  return over_ambient_db;
 }
 
 std::optional<double> Coverage::mean_delivery(std::size_t depth) const {

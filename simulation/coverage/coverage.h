@@ -5,8 +5,8 @@
 // middle of the cell, computed as by `halocline link` (scenario/link_surveyor.h). Over terrain each cell has
 // a bottom profile, and links may share rays (RaySharing): either the depths of a cell, or the cells on a
 // bearing. Bearings are so dense that neighbours are one cell apart at the farthest corner. Where the water
-// depends on depth only and the terrain is level, links of equal range are equal, and links whose ranges
-// differ by less than a cell are interpolated where that is verified (sampling.h).
+// depends on depth only, the terrain is level and no vehicle makes noise, links of equal range are equal, and
+// links whose ranges differ by less than a cell are interpolated where that is verified (sampling.h).
 //
 // Error relative to `halocline link`. Over level terrain it is the tolerance of the interpolation, for the
 // quantities asked for: delivery 0.002, level 0.03 dB, delay 0.3 us. Over terrain it is zero without shared
@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "bathymetry/rasters/terrain_recipe.h"
 #include "bathymetry/terrain/terrain.h"
 #include "core/for_each.h"
 #include "core/frames.h"
@@ -71,9 +72,11 @@ struct Coverage {
   // Values for each depth, row by row from the south and within a row from the west. NaN where the seabed is
   // unknown or the depth is below it.
   std::vector<std::vector<double>> delivery, level_db, delay_s;
-  double noise_level_db = 0;  // over the band of the modem
+  std::vector<std::vector<double>> snr_db;  // likewise; empty: noise_level_db holds in all cells
+  double noise_level_db = 0;                // of the ambient noise, over the band of the modem
 
-  // Returns the values of a quantity at the depth with that index. SNR is the level minus the noise level.
+  // Returns the values of a quantity at the depth with that index. SNR is the level minus that of the ambient
+  // noise and the noise of vehicles.
   std::vector<double> values(CoverageQuantity quantity, std::size_t depth) const;
   // Returns the mean delivery over the cells that have water at that depth; empty when none has.
   std::optional<double> mean_delivery(std::size_t depth) const;
@@ -81,8 +84,9 @@ struct Coverage {
   std::optional<std::size_t> best_depth() const;
 };
 
-// Returns z of a terrain that is level everywhere, m; empty for any other terrain.
-std::optional<double> level_z_m(const bathymetry::Terrain& terrain);
+// Returns z of a terrain that is level everywhere, beyond its grids too, m; empty for any other terrain.
+// `recipe`: that of the terrain.
+std::optional<double> level_z_m(const bathymetry::TerrainRecipe& recipe, const bathymetry::Terrain& terrain);
 
 // Computes the map with `threads` threads. Throws InvalidArgument when `from` is inside the seabed.
 Coverage compute_coverage(const ScenarioConfig& config,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/coverage/coverage_links.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "acoustics/modem/modem.h"
@@ -56,6 +57,11 @@ bool CoverageLinks::along_rays() const {
   return config_.channel_server.propagation.model == channel_server::PropagationModel::kRays;
 }
 
+bool CoverageLinks::is_among_noise() const {
+  const auto& vehicles = config_.channel_server.vehicles;
+  return std::any_of(vehicles.begin(), vehicles.end(), [](const auto& vehicle) { return vehicle.noise; });
+}
+
 double CoverageLinks::noise_level_db() const { return surveyor().noise_level(from_.modem.modem).value; }
 
 channel_server::SeabedMap CoverageLinks::seabed_map() const {
@@ -79,7 +85,7 @@ Sample CoverageLinks::sample(LinkSurveyor& surveyor, const Vec3& to_ned_m, const
   const channel_server::LinkEnd there{0, to_ned_m, Vec3::Zero(), &receiving_modem(to_, transmitter)};
   const LinkSurveyor::Answer answer = surveyor.survey(here, there, seabed, line);
   return {answer.forecast.delivery_probability, answer.reception.budget.received_level.value,
-          answer.reception.budget.delay_s};
+          answer.reception.budget.delay_s, answer.reception.budget.snr.value};
 }
 
 std::vector<Sample> CoverageLinks::links(LinkSurveyor& surveyor, const Vec3& place_ned_m,

@@ -52,7 +52,9 @@ class CoverageLinks {
              const std::function<void(LinkSurveyor&, std::size_t)>& item) const;
   // True when the water varies horizontally (an ocean field).
   bool is_in_a_field() const { return static_cast<bool>(environment().field); }
-  double noise_level_db() const;
+  // True when a vehicle makes noise, so that links of equal range differ.
+  bool is_among_noise() const;
+  double noise_level_db() const;  // of the ambient noise
   // Returns an empty seabed map with the settings that the scenario's links use.
   channel_server::SeabedMap seabed_map() const;
   // Surveys the seabed that rays to a position need; does nothing for straight paths.

@@ -18,8 +18,8 @@
 
 namespace halocline::clients {
 
-// Values of the function: delivery probability, level in dB, delay in s (coverage.h).
-using Sample = std::array<double, 3>;
+// Values of the function: delivery probability, level in dB, delay in s, SNR in dB (coverage.h).
+using Sample = std::array<double, 4>;
 
 // Returns the function at each of `places`, which ascend, from calls of `compute` at some of them. Each value
 // is within its tolerance, which must be 0 or more.

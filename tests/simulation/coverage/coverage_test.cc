@@ -12,8 +12,10 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/link/link_budget.h"
+#include "acoustics/noise/noise_spectrum.h"
 #include "bathymetry/rasters/terrain_recipe.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/vehicles/vehicle_noise.h"
 #include "core/check.h"
 #include "core/random.h"
 #include "core/units.h"
@@ -164,6 +166,33 @@ TEST(Coverage, AlongStraightLinesEqualsLinksIn1000RandomCells) {
   config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
   CoverageArea area{.middle_north_m = -3250, .cell_m = 50, .side = 80, .depths_m = {5, 90}};
   expect_links_in_random_cells(config, "buoy", area, kInterpolated);
+}
+
+TEST(Coverage, AmongTheNoiseOfVehiclesEqualsLinksInRandomCells) {
+  ScenarioConfig config = level_sea();
+  channel_server::NoiseSource noise;
+  noise.at_1m = acoustics::NoiseSpectrum({100, 100'000}, {150, 120});
+  noise.driver = channel_server::NoiseDriver::kNone;
+  config.channel_server.vehicles.at(0).noise = noise;
+  const CoverageArea area{.middle_north_m = -3250, .cell_m = 300, .side = 12, .depths_m = {5, 45}};
+  Differences most = kEqual;
+  most.cells = 50;
+  expect_links_in_random_cells(config, "buoy", area, most);
+  const Coverage map =
+      compute_coverage(config, make_terrain(config).terrain, link_end(config, "buoy"), area, kAll, 2);
+  EXPECT_LT(map.values(CoverageQuantity::kSnr, 0).front(), map.level_db[0].front() - map.noise_level_db - 1);
+}
+
+// The shape lies beyond a base grid whose posts are all level.
+TEST(Coverage, BeyondTheBaseGridEqualsLinksInRandomCells) {
+  ScenarioConfig config = level_sea();
+  config.terrain.kind = bathymetry::TerrainKind::kSeamount;
+  config.terrain.seamount = {
+      .depth_m = 100, .height_m = 90, .radius_m = 500, .summit_x_m = 12'000, .summit_y_m = 0};
+  const CoverageArea area{.middle_north_m = 13'300, .cell_m = 100, .side = 4, .depths_m = {5, 45}};
+  Differences most = kEqual;
+  most.cells = 20;
+  expect_links_in_random_cells(config, "10500,0,30", area, most);
 }
 
 TEST(Coverage, DoesNotDependOnTheNumberOfThreads) {
