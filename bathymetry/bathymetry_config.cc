@@ -154,7 +154,11 @@ void visit(ConfigVisitor& v, TerrainRecipe& t) {
       bus::choice(s, "frame", t.frame, {"flat", "enu"},
                   "rasters: flat (z is depth) or enu (the earth's curvature in z)");
     });
-    visit_domain(s, t.domain);
+    if (!s.writing()) {
+      with_kind(s, t, TerrainKind::kRaster, [&] { s.boolean("whole_file", t.whole_file, ""); });
+    }
+    const bool is_whole_file = t.kind == TerrainKind::kRaster && t.whole_file;
+    s.when(!is_whole_file, "whole_file = false", [&] { visit_domain(s, t.domain); });
     visit_shapes(s, t);
     with_kind(s, t, TerrainKind::kRaster, [&] {
       s.section("raster", "kind = raster: GeoTIFF, netCDF, ESRI ASCII and other files of elevations",
@@ -170,7 +174,7 @@ void visit(ConfigVisitor& v, TerrainRecipe& t) {
     s.list(
         "nested", "A finer raster inside", t.nested.size(), [&](std::size_t n) { t.nested.resize(n); },
         [&](ConfigVisitor& item, std::size_t n) { visit_nested(item, t.nested[n]); });
-    const bool uses_grid = !t.is_level() && !(t.kind == TerrainKind::kRaster && t.whole_file);
+    const bool uses_grid = !t.is_level() && !is_whole_file;
     if (uses_grid) check_domain(s, t.domain);
   });
 }

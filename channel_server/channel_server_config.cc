@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -108,7 +109,10 @@ void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicl
   });
 }
 
-void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
+void visit_rules(bus::ConfigVisitor& v, ServerRules& r, PropagationModel model) {
+  const auto with_rays = [&](const std::function<void()>& body) {
+    v.when(model == PropagationModel::kRays, "propagation.model = \"rays\"", body);
+  };
   double rate_hz = 1 / r.link_period.seconds();
   v.number("link_rate_hz", rate_hz, {kMinLinkRateHz, kMaxLinkRateHz, "Hz", "link tables of each vehicle"});
   r.link_period = SimDuration::from_seconds(1 / rate_hz);
@@ -136,17 +140,21 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
               {1, 64, "", "points of the bottom surveyed for each link"});
   v.number("echo_reuse_distance_m", r.echoes.reuse_distance_m,
            {0, 1e5, "m", "how far the ends of a link may move before its echoes are surveyed again"});
-  v.number("profile_reuse_distance_m", r.profile_reuse_distance_m,
-           {0.1, 1000, "m", "rays, link tables: lattice of the ends of bottom profiles"});
-  v.number("profile_spacing_m", r.seabed.spacing_m,
-           {1, 1000, "m", "rays: lattice of the depths that the bottom is made of"});
+  with_rays([&] {
+    v.number("profile_reuse_distance_m", r.profile_reuse_distance_m,
+             {0.1, 1000, "m", "rays, link tables: lattice of the ends of bottom profiles"});
+    v.number("profile_spacing_m", r.seabed.spacing_m,
+             {1, 1000, "m", "rays: lattice of the depths that the bottom is made of"});
+  });
   v.number(
       "row_reuse_distance_m", r.row_reuse_distance_m,
       {0, 1000, "m", "link tables: how far the ends of a link may move before its row is computed again"});
-  visit_count(v, "max_searches_per_tick", r.max_searches_per_tick,
-              {0, 1e6, "",
-               "rays, link tables: paths searched for at a tick, the most audible and most changed links "
-               "first; 0: all"});
+  with_rays([&] {
+    visit_count(v, "max_searches_per_tick", r.max_searches_per_tick,
+                {0, 1e6, "",
+                 "rays, link tables: paths searched for at a tick, the most audible and most changed links "
+                 "first; 0: all"});
+  });
   visit_count(v, "threads", r.threads, {1, 64, "", "that compute link tables and the paths of packets"});
   visit_count(v, "predicted_payload_bytes", r.predicted_payload_bytes,
               {1, acoustics::kMaxPayloadBytes, "bytes", "of the packets whose delivery link tables predict"});
@@ -229,7 +237,7 @@ void visit(bus::ConfigVisitor& v, ChannelServerConfig& config) {
       [&](std::size_t n) { losses.resize(n); },
       [&](bus::ConfigVisitor& item, std::size_t i) { visit_extra_loss(item, losses[i]); });
   v.section("channel_server", "How the channel server works",
-            [&](bus::ConfigVisitor& s) { visit_rules(s, config.rules); });
+            [&](bus::ConfigVisitor& s) { visit_rules(s, config.rules, config.propagation.model); });
 }
 
 ConfiguredModems make_modems(const ChannelServerConfig& config) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
@@ -189,7 +190,9 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
              {0.1, 1e6, "s", "fading: coherence time of the medium"});
     v.number("large_scale_fading_db", f.large_scale_db,
              {0, 20, "dB", "fading: standard deviation of a link's level over minutes"});
-    v.number("large_scale_fading_s", f.large_scale_time_s, {0.1, 1e6, "s", "fading: its correlation time"});
+    v.when(f.large_scale_db > 0, "large_scale_fading_db above 0", [&] {
+      v.number("large_scale_fading_s", f.large_scale_time_s, {0.1, 1e6, "s", "fading: its correlation time"});
+    });
     with_rays(v, p, [&] { visit_rough_boundaries(v, f); });
   });
   if (f.enabled && is_coherent_loss(p.surface_loss_model)) {
@@ -255,7 +258,10 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
   visit_fading(v, p);
   with_rays(v, p, [&] {
     visit_reverberation(v, p);
-    v.boolean("coherent", p.coherent, "rays: add paths as phasors at the centre frequency, not their powers");
+    v.when(!p.fading.enabled, "fading = \"none\"", [&] {
+      v.boolean("coherent", p.coherent,
+                "rays: add paths as phasors at the centre frequency, not their powers");
+    });
   });
   visit_replay(v, p.replay);
 }
@@ -268,13 +274,30 @@ void visit_optional(bus::ConfigVisitor& v, std::string_view key, std::optional<d
   value = number;
 }
 
+constexpr std::array<std::string_view, 11> kKeysOfAProfile{"water_rows",
+                                                           "speed_depths_m",
+                                                           "speeds_mps",
+                                                           "isovelocity_mps",
+                                                           "assumed_temperature_degc",
+                                                           "assumed_salinity_psu",
+                                                           "profile_file",
+                                                           "profile_salinity_file",
+                                                           "profile_latitude_deg",
+                                                           "profile_longitude_deg",
+                                                           "profile_time_index"};
+
 void visit_change(bus::ConfigVisitor& v, ChangeConfig& c) {
   v.number("at_s", c.at_s, {0, 1e9, "s", "simulation time from which it holds"});
   visit_optional(v, "wind_mps", c.wind_mps, {0, 60, "m/s", "as in [environment]"});
   visit_optional(v, "shipping", c.shipping, {0, 1, "", "as in [environment]"});
   visit_optional(v, "rain_mm_per_h", c.rain_mm_per_h, {0, 500, "mm/h", "as in [environment]"});
   visit_optional(v, "sea_surface_z_m", c.sea_surface_z_m, {-100, 100, "m", "z of the surface"});
-  if (v.writing() ? !c.profile.has_value() : !v.given("profile")) return;
+  if (v.writing() ? !c.profile.has_value() : !v.given("profile")) {
+    for (const std::string_view key : kKeysOfAProfile) {
+      if (!v.writing() && v.given(key)) v.problem(key, "it needs a profile in the same table");
+    }
+    return;
+  }
   ProfileConfig profile = c.profile.value_or(ProfileConfig());
   visit_profile(v, profile);
   c.profile = profile;
@@ -381,7 +404,7 @@ RayModel make_rays(const ChannelServerConfig& config) {
   if (p.shadow_loss_db > 0) rays.shadow_loss = Decibels{p.shadow_loss_db};
   rays.fading = p.fading;
   rays.reverberation = p.reverberation;
-  rays.coherent = p.coherent;
+  rays.coherent = p.coherent && !p.fading.enabled;
   return rays;
 }
 

@@ -44,6 +44,15 @@ TEST_F(IdleKeys, KeysThatLackTheirChoiceAreWarnedOf) {
        "propagation.bottom_density_ratio", "sediment = \"custom\""},
       {"[propagation]\nfading = \"none\"\nrice_factor_db = 3\n", "propagation.rice_factor_db",
        "fading = \"sea\""},
+      {"[propagation]\nfading = \"sea\"\ncoherent = true\n", "propagation.coherent", "fading = \"none\""},
+      {"[propagation]\nfading = \"sea\"\nlarge_scale_fading_db = 0\nlarge_scale_fading_s = 9\n",
+       "propagation.large_scale_fading_s", "large_scale_fading_db above 0"},
+      {"[propagation]\nmodel = \"straight\"\n[channel_server]\nprofile_reuse_distance_m = 9\n",
+       "channel_server.profile_reuse_distance_m", "propagation.model = \"rays\""},
+      {"[propagation]\nmodel = \"straight\"\n[channel_server]\nprofile_spacing_m = 9\n",
+       "channel_server.profile_spacing_m", "propagation.model = \"rays\""},
+      {"[propagation]\nmodel = \"straight\"\n[channel_server]\nmax_searches_per_tick = 9\n",
+       "channel_server.max_searches_per_tick", "propagation.model = \"rays\""},
       {"[propagation]\nbottom_scattering_db = -30\n", "propagation.bottom_scattering_db",
        "reverberation = \"lambert\""},
       {"[propagation]\nreplay_level = \"file\"\n", "propagation.replay_level",
@@ -71,6 +80,11 @@ TEST_F(IdleKeys, KeysThatLackTheirChoiceAreWarnedOf) {
 TEST_F(IdleKeys, KeysOfAVehicleThatLackTheirChoiceAreWarnedOf) {
   const std::vector<IdleKey> idle{
       {"has_modem = false\n[vehicle.modem]\nsource_level_db = 180\n", "modem", "has_modem = true"},
+      {"has_modem = false\n[vehicle.traffic]\nperiod_s = 9\n", "traffic", "has_modem = true"},
+      {"has_modem = false\n[vehicle.localiser]\nstart_sigma_m = 9\n", "localiser", "has_modem = true"},
+      {"[vehicle.localiser]\ngate = 9\n", "localiser.gate", "beacons"},
+      {"[[vehicle.mission.behaviour]]\nkind = \"survey\"\naltitude_m = 9\nmax_depth_m = 99\ndepth_m = 20\n",
+       "mission.behaviour[0].depth_m", "altitude_m = 0"},
       {"[vehicle.clock]\nset_by_gps = false\ngps_residual_s = 0.1\n", "clock.gps_residual_s",
        "set_by_gps = true"},
       {"[vehicle.noise]\nvaries_with = \"nothing\"\nreference_rpm = 900\n", "noise.reference_rpm",
@@ -111,6 +125,19 @@ TEST_F(IdleKeys, TheCommonCarrierThresholdCountsWhereOneVehicleHasEvents) {
   EXPECT_THAT(findings_in(common + vehicle_with("[vehicle.modem]\nevents = true\n")).warnings, IsEmpty());
   EXPECT_THAT(findings_in(common + vehicle_with("[vehicle.modem]\nevents = false\n")).warnings,
               ElementsAre(HasSubstr("modem.carrier_threshold_db is 3")));
+}
+
+TEST_F(IdleKeys, TheGridOfAWholeRasterIsWarnedOf) {
+  std::string text = level_raster();
+  text.insert(text.find("[terrain.raster]"), "spacing_m = 7\n");
+  EXPECT_THAT(findings_in(text + vehicle_with("")).warnings,
+              ElementsAre(AllOf(HasSubstr("terrain.spacing_m is 7"), HasSubstr("whole_file = false"))));
+}
+
+TEST_F(IdleKeys, AChangeOfTheWaterWithoutAProfileIsToldThatItNeedsOne) {
+  EXPECT_THAT(
+      findings_in("[[environment_change]]\nat_s = 5\nwater_rows = [[0, 10, 35]]\n" + vehicle_with("")).errors,
+      ElementsAre(AllOf(HasSubstr("environment_change[0].water_rows is "), HasSubstr("it needs a profile"))));
 }
 
 }  // namespace

@@ -97,10 +97,16 @@ void visit_circle(ConfigVisitor& v, Behaviour& b) {
 
 void visit_where(ConfigVisitor& v, Behaviour& b) {
   using Kind = BehaviourKind;
+  const auto visit_altitude = [&] {
+    v.number("altitude_m", b.altitude_m, {0, 1000, "m", "above the ground instead of a depth; 0: not used"});
+  };
+  if (!v.writing()) visit_altitude();
   with_kind(v, b, {Kind::kHeading, Kind::kLoiter, Kind::kSurvey}, [&] {
-    v.number("depth_m", b.depth_m, {-100, 12000, "m", "z of heading, loiter and survey"});
+    v.when(b.altitude_m == 0, "altitude_m = 0", [&] {
+      v.number("depth_m", b.depth_m, {-100, 12000, "m", "z of heading, loiter and survey"});
+    });
   });
-  v.number("altitude_m", b.altitude_m, {0, 1000, "m", "above the ground instead of a depth; 0: not used"});
+  visit_altitude();
   v.when(b.altitude_m > 0, "altitude_m above 0", [&] {
     v.number("max_depth_m", b.max_depth_m, {0, 12000, "m", "z never passed on the way to an altitude"});
   });

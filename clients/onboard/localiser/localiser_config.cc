@@ -39,7 +39,7 @@ void visit_clock_rules(ConfigVisitor& v, EstimatorRules& r) {
   v.number("clock_gps_sigma_s", r.clock_gps_sigma_s, {0, 1, "s", "of the offset after a GPS fix"});
 }
 
-void visit_rules(ConfigVisitor& v, EstimatorRules& r) {
+void visit_rules(ConfigVisitor& v, EstimatorRules& r, bool has_beacons) {
   v.number("drift_m_per_sqrt_s", r.drift_m_per_sqrt_s,
            {1e-4, 100, "m/sqrt(s)", "error of dead reckoning: after t seconds this times sqrt(t)"});
   v.number("slip_m_per_sqrt_rad", r.slip_m_per_sqrt_rad,
@@ -49,8 +49,10 @@ void visit_rules(ConfigVisitor& v, EstimatorRules& r) {
   v.number("current_walk_mps_per_sqrt_s", r.current_walk_mps_per_sqrt_s,
            {0, 1, "m/s/sqrt(s)", "how the current changes"});
   v.number("depth_sigma_m", r.depth_sigma_m, {0, 100, "m", "error of the measured depth"});
-  v.number("gate", r.gate,
-           {1, 100, "", "ranges farther off than this many standard deviations are outliers"});
+  v.when(has_beacons, "beacons", [&] {
+    v.number("gate", r.gate,
+             {1, 100, "", "ranges farther off than this many standard deviations are outliers"});
+  });
   visit_clock_rules(v, r);
 }
 
@@ -59,10 +61,13 @@ void visit_vehicle(ConfigVisitor& v, VehicleLocaliser& vehicle) {
   v.text("name", vehicle.vehicle, {}, "");
   bus::integer_as(v, "id", vehicle.vehicle_id, {1, 2147483647, "", ""});
   v.vector3("start_ned_m", vehicle.start_ned_m, {-1e6, 1e6, "m", ""});
+  if (!v.writing()) v.boolean("has_modem", vehicle.has_modem, "");
   if (!v.given("localiser")) return;
-  v.section("localiser", "How this vehicle finds its place", [&](ConfigVisitor& section) {
-    visit_ranging(section, vehicle);
-    visit_rules(section, vehicle.rules);
+  v.when(vehicle.has_modem, "has_modem = true", [&] {
+    v.section("localiser", "How this vehicle finds its place", [&](ConfigVisitor& section) {
+      visit_ranging(section, vehicle);
+      visit_rules(section, vehicle.rules, !vehicle.beacons.empty());
+    });
   });
 }
 

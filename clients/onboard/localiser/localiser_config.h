@@ -30,6 +30,7 @@ struct VehicleLocaliser {
   double timing_sigma_s = 0.0005;    // error of a travel time, standard deviation
   double sound_speed_sigma = 0.001;  // relative error of the mean sound speed, standard deviation
   EstimatorRules rules = {};
+  bool has_modem = true;  // without one, it is not localised
 };
 
 struct LocaliserConfig {

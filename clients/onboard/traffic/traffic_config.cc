@@ -86,9 +86,12 @@ void visit_vehicle(ConfigVisitor& v, VehicleTraffic& traffic) {
   v.shared_with_others();
   v.text("name", traffic.vehicle, {}, "");
   bus::integer_as(v, "id", traffic.vehicle_id, {1, 2147483647, "", ""});
+  if (!v.writing()) v.boolean("has_modem", traffic.has_modem, "");
   if (!v.given("traffic")) return;
-  v.section("traffic", "What the traffic program sends for this vehicle",
-            [&](ConfigVisitor& section) { visit_traffic(section, traffic); });
+  v.when(traffic.has_modem, "has_modem = true", [&] {
+    v.section("traffic", "What the traffic program sends for this vehicle",
+              [&](ConfigVisitor& section) { visit_traffic(section, traffic); });
+  });
 }
 
 const VehicleTraffic* find(const TrafficConfig& config, const std::string& name) {
@@ -98,7 +101,7 @@ const VehicleTraffic* find(const TrafficConfig& config, const std::string& name)
 }
 
 void check_destination(ConfigVisitor& v, const TrafficConfig& config, const VehicleTraffic& traffic) {
-  if (!v.given("traffic")) return;
+  if (!v.given("traffic") || !traffic.has_modem) return;
   v.section("traffic", "", [&](ConfigVisitor& section) {
     const bool is_ping = traffic.kind == modem_send_t::PING;
     if (traffic.is_relayed() && traffic.kind != modem_send_t::DATA)

@@ -31,6 +31,7 @@ struct VehicleTraffic {
   std::int32_t rate = -1;  // number of a rate of the modem; -1: its own
   bool ack = false;        // the receiver's modem acknowledges
   RelayRules relay = {};   // packets with hops above 1 are relayed
+  bool has_modem = true;   // without one, nothing is sent
 
   bool is_relayed() const { return relay.hops > 1; }
   // Returns the payload size of a packet as the modem sees it, bytes.
