@@ -38,7 +38,8 @@ class SlottedMac : public Mac {
   }
   SimTime first_try(SimTime now) const override {
     const std::int64_t slot = rules_.slot.nanoseconds();
-    std::int64_t number = (now.nanoseconds() + slot - 1) / slot;
+    std::int64_t number =
+        next_on_grid(now - SimDuration::from_nanoseconds(1), rules_.slot).nanoseconds() / slot;
     number += ((index_ - number) % count_ + count_) % count_;
     return SimTime::from_nanoseconds(number * slot);
   }
