@@ -139,7 +139,9 @@ StateJournal::~StateJournal() {
   }
 }
 
-void StateJournal::open(std::size_t i) { files_[i] = open_journal(path_ + "." + std::to_string(i), kStateHeader); }
+void StateJournal::open(std::size_t i) {
+  files_[i] = open_journal(path_ + "." + std::to_string(i), kStateHeader);
+}
 
 bool StateJournal::write(std::int64_t session, SimTime at, const Archive& state,
                          std::span<const std::uint8_t> additions) {
