@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bus/bus.h"
+#include "bus/messages/channel_family.h"
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/vehicles/vehicle_equipment.h"
 #include "core/sim_time.h"

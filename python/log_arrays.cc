@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bus/logs/channel_types.h"
+#include "bus/messages/channel_family.h"
 #include "bus/messages/channel_pattern.h"
 #include "bus/messages/message_field.h"
 #include "bus/messages/message_fields.h"

@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "bus/config/scenario.h"
+#include "bus/messages/channel_family.h"
 #include "bus/numbered_publisher.h"
 #include "bus/runtime/node.h"
 #include "bus/runtime/thread_pool.h"

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bus/messages/channel_family.h"
 #include "bus/messages/channel_table.h"
 #include "bus/messages/message_codec.h"
 #include "core/names.h"

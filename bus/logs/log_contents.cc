@@ -10,6 +10,7 @@
 
 #include "bus/logs/channel_types.h"
 #include "bus/logs/foreign_message.h"
+#include "bus/messages/channel_family.h"
 #include "bus/messages/message_codec.h"
 #include "bus/messages/sequence_number.h"
 #include "core/names.h"

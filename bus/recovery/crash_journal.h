@@ -42,6 +42,7 @@
 #include <vector>
 
 #include "bus/bus.h"
+#include "bus/messages/channel_family.h"
 #include "bus/numbered_publisher.h"
 #include "bus/recovery/message_journal.h"
 #include "core/sim_time.h"

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bus/logs/channel_types.h"
+#include "bus/messages/channel_family.h"
 #include "bus/messages/channel_pattern.h"
 #include "bus/messages/message_field.h"
 #include "bus/messages/message_fields.h"

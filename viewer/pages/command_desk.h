@@ -15,6 +15,7 @@
 #include "bus/messages/message_codec.h"
 #include "bus/messages/messages.h"
 #include "core/sim_time.h"
+#include "runs/timeline/packet_book.h"
 #include "runs/timeline/run_timeline.h"
 
 namespace halocline::monitor {

@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "clients/modem_gateway/endpoint.h"
+#include "clients/modem_gateway/gateway_config.h"
 #include "tests/support/process.h"
 
 namespace halocline::modem_gateway::testing {
