@@ -185,7 +185,7 @@ const std::vector<Room>& rooms() {
        {},
        "a source of packets needs messages alone"},
       {"clients/recorder",
-       {"core", "bus", "bus/logs", "bus/runtime"},
+       {"core", "bus", "bus/config", "bus/logs", "bus/runtime"},
        {},
        "a recorder knows bytes and their numbers, and no message"},
       {"clients/modem_gateway/protocols",
