@@ -23,7 +23,7 @@ import numpy as np
 import halocline
 from halocline import _halocline
 
-TREE = pathlib.Path(__file__).resolve().parents[3]
+TREE = pathlib.Path(__file__).resolve().parents[2]
 SCENARIO = TREE / "scenarios/harbour.toml"
 BIN = pathlib.Path(sys.argv.pop(1))
 FLOAT32 = set(re.findall(r"^\s*float\s+(\w+)", "".join(p.read_text() for p in TREE.glob("lcmtypes/*.lcm")), re.M))

@@ -236,8 +236,8 @@ TEST_F(Join, WhatScriptsInstallAndBuildTheyDoOutsideOfTheRun) {
   write_script("tree/scripts/build", note);
   write_script("tree/scripts/types", note);
   write_script("tree/bin/npm", note +
-                                   "\nmkdir -p ../../../build/monitor/page node_modules\n"
-                                   "echo the page of the test >../../../build/monitor/page/index.html");
+                                   "\nmkdir -p ../../build/monitor/page node_modules\n"
+                                   "echo the page of the test >../../build/monitor/page/index.html");
   write_script("tree/bin/java", "readlink /proc/self/ns/net >'" + here_ + "/network of the spy'");
   fs::create_directories("tree/viewer/page/src");
   for (const char* file : {"package-lock.json", "index.html", "page.ts", "page.js", ".npmrc", "src/page.ts"})

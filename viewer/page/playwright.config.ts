@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ../../../scripts/monitor_test starts this with the server's URL in HALOCLINE_MONITOR_URL.
+// ../../scripts/monitor_test starts this with the server's URL in HALOCLINE_MONITOR_URL.
 import { defineConfig } from "@playwright/test";
 
 export default defineConfig({
@@ -8,7 +8,7 @@ export default defineConfig({
   workers: 1,
   timeout: 60_000,
   expect: { timeout: 15_000 },
-  outputDir: "../../../build/monitor/e2e",
+  outputDir: "../../build/monitor/e2e",
   reporter: "list",
   use: {
     baseURL: process.env.HALOCLINE_MONITOR_URL,

@@ -6,7 +6,7 @@ export default defineConfig({
   base: "./",
   plugins: [svelte()],
   build: {
-    outDir: "../../../build/monitor/page",
+    outDir: "../../build/monitor/page",
     emptyOutDir: true,
     target: "es2022",
     chunkSizeWarningLimit: 900, // three

@@ -4,7 +4,7 @@ import type { ChildProcess } from "node:child_process";
 import type { Page } from "@playwright/test";
 import { Programs, chart, expect, seconds, test, vehicle, vehicles } from "./fixtures";
 
-const SCENARIO = "../../../scenarios/harbour.toml";
+const SCENARIO = "../../scenarios/harbour.toml";
 const programs = new Programs();
 const node = (name: string) => programs.start(`halocline-${name}`, SCENARIO, "--log-level", "warning");
 let bathymetry: ChildProcess;
