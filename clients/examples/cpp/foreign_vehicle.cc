@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Vehicle with a modem that uses LCM and the message types alone. It circles, announces its modem, sends
-// packets, and prints their outcomes and what it receives. To build and run it by hand from the root of the
-// tree (docs/extending.md shows the same in other languages):
+// packets, and prints their outcomes and what it receives. By hand from the root of the tree:
 //
 //   $ mkdir -p build/mine && lcm-gen --cpp --cpp-std c++11 --cpp-hpath build/mine lcmtypes/*.lcm
 //   $ g++ -std=c++17 -I build/mine clients/examples/cpp/foreign_vehicle.cc -llcm -o build/mine/vehicle_cpp
@@ -39,7 +38,7 @@ struct Options {
 };
 
 constexpr double kRadiusM = 100, kSpeedMps = 1.5, kRepeatS = 0.5;
-constexpr const char* kOutcomes[] = {  // index: the number in packet_outcome_t
+constexpr const char* kOutcomes[] = {  // indexed by the number in packet_outcome_t
     "received", "below cutoff", "receiver gone", "shadow",     "blocked",      "out of band",
     "collided", "half duplex",  "doppler",       "bit errors", "not acquired", "foreign",
     "too weak", "too steep",    "out of reach",  "asleep",     "extra loss",   "no power"};
