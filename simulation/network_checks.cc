@@ -49,7 +49,7 @@ class NetworkChecks {
              "a tone and twice the greatest travel time");
     if (mac == MacKind::kMaca || mac == MacKind::kDacap) {
       expect("handshake_s", rules_.handshake, 2 * longest_s(kMarkBytes) + 2 * hop_s(),
-             "a request, a leave and twice the travel time to the farthest destination");
+             "a request to send, a clear to send and twice the travel time to the farthest destination");
       expect("exchange_s", rules_.exchange, longest_s(data_bytes()) + 2 * hop_s(),
              "the data and twice the travel time to the farthest destination");
     }
