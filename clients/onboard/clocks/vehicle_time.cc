@@ -2,6 +2,7 @@
 #include "clients/onboard/clocks/vehicle_time.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "bus/messages/channels.h"
 #include "bus/messages/messages.h"
@@ -11,7 +12,7 @@ namespace halocline::clients {
 namespace {
 
 // Fixes kept of each vehicle for a node that is restarted: the latest one, and those that do not apply yet.
-constexpr std::ptrdiff_t kFixesKept = 16;
+constexpr std::size_t kFixesKept = 16;
 // Bound on the rate of a clock, s/s; only its random walk may exceed it (VehicleClocks).
 constexpr double kFastest = 1.001;
 
@@ -28,24 +29,22 @@ VehicleTime::VehicleTime(bus::Bus& bus, const ClockSetConfig& config)
     if (!clock.settings.is_set_by_gps) continue;
     bus.subscribe<vehicle_gps_t>(
         bus::channels::kGps.of(clock.vehicle),
-        [this, vehicle = clock.vehicle](const vehicle_gps_t& fix) { add_fix(vehicle, fix.utime); },
+        [this, id = clock.id](const vehicle_gps_t& fix) { add_fix(id, SimTime::from_utime(fix.utime)); },
         bus::Wakeup::kMayAdvanceDue);
   }
 }
 
-void VehicleTime::add_fix(std::string_view vehicle, std::int64_t utime) {
-  clocks_.add_fix(vehicle, SimTime::from_utime(utime));
-  fixes_.emplace_back(vehicle, utime);
-  keep_set(vehicle, utime);
-  const auto is_of_it = [&](const Fix& fix) { return fix.first == vehicle; };
-  if (std::count_if(fixes_.begin(), fixes_.end(), is_of_it) > kFixesKept)
-    fixes_.erase(std::find_if(fixes_.begin(), fixes_.end(), is_of_it));
+void VehicleTime::add_fix(std::int32_t vehicle_id, SimTime fix) {
+  clocks_.add_fix(owners_.at(vehicle_id), fix);
+  std::set<SimTime>& sets = sets_[vehicle_id];
+  sets.insert(fix + fix_lag_);
+  if (sets.size() > kFixesKept) sets.erase(sets.begin());
 }
 
-void VehicleTime::keep_set(std::string_view vehicle, std::int64_t utime) {
-  std::set<SimTime>& sets = sets_[std::string(vehicle)];
-  sets.insert(SimTime::from_utime(utime) + fix_lag_);
-  if (sets.size() > static_cast<std::size_t>(kFixesKept)) sets.erase(sets.begin());
+const std::set<SimTime>& VehicleTime::sets_of(std::int32_t vehicle_id) const {
+  static const std::set<SimTime> kNone;
+  const auto found = sets_.find(vehicle_id);
+  return found == sets_.end() ? kNone : found->second;
 }
 
 SimTime VehicleTime::shown(std::int32_t vehicle_id, SimTime at) const {
@@ -70,22 +69,18 @@ SimTime VehicleTime::due(std::int32_t vehicle_id, SimTime shown_time) const {
 }
 
 SimDuration VehicleTime::set_by(std::int32_t vehicle_id, SimTime from, SimTime to) const {
-  const auto owner = owners_.find(vehicle_id);
-  const auto sets = owner == owners_.end() ? sets_.end() : sets_.find(owner->second);
-  SimDuration sum;
-  if (sets == sets_.end()) return sum;
   constexpr SimDuration kBefore = SimDuration::from_nanoseconds(1);
-  for (auto at = sets->second.upper_bound(from); at != sets->second.end() && *at <= to; ++at)
+  const std::set<SimTime>& sets = sets_of(vehicle_id);
+  SimDuration sum;
+  for (auto at = sets.upper_bound(from); at != sets.end() && *at <= to; ++at)
     sum = sum + (shown(vehicle_id, *at) - shown(vehicle_id, *at - kBefore)) - kBefore;
   return sum;
 }
 
 SimTime VehicleTime::next_set(std::int32_t vehicle_id) const {
-  const auto owner = owners_.find(vehicle_id);
-  const auto sets = owner == owners_.end() ? sets_.end() : sets_.find(owner->second);
-  if (sets == sets_.end()) return SimTime::never();
-  const auto at = sets->second.upper_bound(now_);
-  return at == sets->second.end() ? SimTime::never() : *at;
+  const std::set<SimTime>& sets = sets_of(vehicle_id);
+  const auto at = sets.upper_bound(now_);
+  return at == sets.end() ? SimTime::never() : *at;
 }
 
 SimTime VehicleTime::instant_of(std::int32_t vehicle_id, SimTime shown_time, SimTime now) const {
@@ -94,17 +89,15 @@ SimTime VehicleTime::instant_of(std::int32_t vehicle_id, SimTime shown_time, Sim
 
 void VehicleTime::restart(SimTime now) {
   clocks_.clear();
-  fixes_.clear();
   sets_.clear();
   now_ = now;
 }
 
 void VehicleTime::archive(Archive& a) {
-  a(fixes_, now_);
+  a(sets_, now_);
   if (!a.is_loading()) return;
-  for (const auto& [vehicle, utime] : fixes_) {
-    clocks_.add_fix(vehicle, SimTime::from_utime(utime));
-    keep_set(vehicle, utime);
+  for (const auto& [vehicle_id, vehicle] : owners_) {
+    for (const SimTime set : sets_of(vehicle_id)) clocks_.add_fix(vehicle, set - fix_lag_);
   }
 }
 

@@ -9,13 +9,9 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
-#include <functional>
 #include <map>
 #include <set>
 #include <string>
-#include <string_view>
-#include <utility>
 
 #include "bus/bus.h"
 #include "channel_server/vehicles/vehicle_clocks.h"
@@ -59,15 +55,14 @@ class VehicleTime {
   void archive(Archive& a);
 
  private:
-  using Fix = std::pair<std::string, std::int64_t>;  // vehicle and time of the fix, us
-  void add_fix(std::string_view vehicle, std::int64_t utime);
-  void keep_set(std::string_view vehicle, std::int64_t utime);
+  void add_fix(std::int32_t vehicle_id, SimTime fix);
+  // Returns the instants at which fixes kept set the clock; empty for a vehicle without any.
+  const std::set<SimTime>& sets_of(std::int32_t vehicle_id) const;
 
   channel_server::VehicleClocks clocks_;
   SimDuration fix_lag_;
-  std::map<std::int32_t, std::string> owners_;  // vehicles with a clock of their own: name by id
-  std::map<std::string, std::set<SimTime>, std::less<>> sets_;  // when fixes kept set the clock of a vehicle
-  std::deque<Fix> fixes_;
+  std::map<std::int32_t, std::string> owners_;      // vehicles with a clock of their own: name by id
+  std::map<std::int32_t, std::set<SimTime>> sets_;  // instants at which fixes kept set a vehicle's clock
   SimTime now_;
 };
 
