@@ -2,13 +2,14 @@
 #include "vehicle_sim/vehicle_sim_node.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <cstdint>
 #include <functional>
 #include <variant>
 
 #include "bus/transport/subscription.h"
 #include "core/check.h"
 #include "core/frames.h"
+#include "core/text/hex_digits.h"
 #include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/sensors/sensor_errors.h"
 #include "vehicle_sim/sensors/sensor_settings.h"
@@ -34,9 +35,7 @@ SimTime last_on_grid(SimTime until, SimDuration period) { return next_on_grid(un
 
 // The name contains the session, so that recorded replies to another run are not mistaken for its own.
 std::string client_name(const bus::NodeIdentity& identity) {
-  char session[17];
-  std::snprintf(session, sizeof session, "%016llx", static_cast<unsigned long long>(identity.session));
-  return identity.name.substr(0, 7) + "-" + session;
+  return identity.name.substr(0, 7) + "-" + hex_digits(static_cast<std::uint64_t>(identity.session));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "core/check.h"
 #include "core/csv_table.h"
 #include "core/memory/memory_budget.h"
+#include "core/text/hex_digits.h"
 #include "core/units.h"
 
 namespace halocline::bathymetry {
@@ -110,11 +111,7 @@ GridGeometry DomainRecipe::geometry() const {
           static_cast<int>(cells(size_east_m, spacing_m)) + 1};
 }
 
-std::string version_text(std::uint64_t version) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(version));
-  return text;
-}
+std::string version_text(std::uint64_t version) { return hex_digits(version); }
 
 std::string extent_text(const Terrain& terrain) {
   const GridGeometry& g = terrain.extent();

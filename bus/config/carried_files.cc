@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -24,6 +23,8 @@
 #include "core/files/input_file.h"
 #include "core/hash.h"
 #include "core/text/base64.h"
+#include "core/text/hex_digits.h"
+#include "core/text/lower_case.h"
 
 namespace halocline::bus {
 namespace {
@@ -33,12 +34,6 @@ namespace fs = std::filesystem;
 // Limit for a line of text; files with longer lines are written as base 64.
 constexpr std::size_t kMaxLine = 1000;
 constexpr std::size_t kBytesOfBase64 = 750;  // bytes in one line of base 64
-
-std::string hash_text(std::uint64_t hash) {
-  std::array<char, 17> text{};
-  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
-  return text.data();
-}
 
 // Hashes a file in pieces; each piece is hashed with the hash of the previous ones as its seed.
 std::string hash_of_file(const std::string& place) {
@@ -50,7 +45,7 @@ std::string hash_of_file(const std::string& place) {
     if (file.gcount() > 0)
       hash = xxh3(std::string_view(piece.data(), static_cast<std::size_t>(file.gcount())), hash);
   }
-  return hash_text(hash);
+  return hex_digits(hash);
 }
 
 // A large file is hashed only once in a process, unless it changes.
@@ -105,11 +100,6 @@ std::string base64_lines_of(const std::string& bytes) {
     lines.push_back(base64_of({reinterpret_cast<const std::uint8_t*>(piece.data()), piece.size()}));
   }
   return array_of("base64", lines);
-}
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
 }
 
 // True for the endings, after the raster's name or its stem, that GDAL's drivers look for. `own` is the
@@ -212,7 +202,7 @@ UnpackedFiles::~UnpackedFiles() {
 }
 
 void UnpackedFiles::add(const std::string& name, const std::string& bytes, const std::string& xxh3_text) {
-  require(hash_text(xxh3(bytes)) == xxh3_text, "its bytes have the hash " + hash_text(xxh3(bytes)));
+  require(hex_digits(xxh3(bytes)) == xxh3_text, "its bytes have the hash " + hex_digits(xxh3(bytes)));
   Named named{(fs::path(folder_) / name).string(), bytes.size(), ""};
   add(name, named);
   std::ofstream file(named.place, std::ios::binary);
@@ -283,7 +273,7 @@ CarriedFiles::Table CarriedFiles::table_of(const std::string& name, const std::s
             0, names_files};
   carried_bytes_ += size;
   const std::string bytes = content_of(place, path, *this);
-  return {head + "xxh3 = \"" + hash_text(xxh3(bytes)) + "\"\n" +
+  return {head + "xxh3 = \"" + hex_digits(xxh3(bytes)) + "\"\n" +
               (is_plain_text(bytes) ? lines_of(bytes) : base64_lines_of(bytes)),
           size, names_files};
 }

@@ -11,6 +11,7 @@
 #include "bus/version.h"
 #include "core/atomic_file.h"
 #include "core/hash.h"
+#include "core/text/hex_digits.h"
 
 namespace halocline::clients {
 namespace {
@@ -29,7 +30,7 @@ std::optional<std::string> content_of(const std::string& path) {
 
 // Returns the checksum of a result together with the name of its run's folder.
 std::string check_sum(const std::string& folder, const std::string& text) {
-  return fmt::format("{:016x}\n", xxh3(fs::path(folder).filename().string() + "\n" + text));
+  return hex_digits(xxh3(fs::path(folder).filename().string() + "\n" + text)) + "\n";
 }
 
 // Quotes a text for a shell, in single quotes.
@@ -42,7 +43,7 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 std::string run_identity(const std::string& effective_configuration) {
-  return fmt::format("{:016x}", xxh3(std::string(bus::kVersion) + "\n" + effective_configuration));
+  return hex_digits(xxh3(std::string(bus::kVersion) + "\n" + effective_configuration));
 }
 
 std::string run_folder(const std::string& out, const std::string& identity) {
