@@ -6,10 +6,8 @@
 //   std::ifstream in(cast.place());
 #pragma once
 
-#include <concepts>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace halocline {
@@ -17,10 +15,12 @@ namespace halocline {
 class FilePath {
  public:
   FilePath() = default;
-  // Makes the path of a file at `place`.
-  template <class Text>
-  requires std::convertible_to<Text, std::string> FilePath(Text&& place)
-      : given_(std::forward<Text>(place)), place_(given_) {}
+  // Makes the path of a file at `place`. Implicit, because a place stands for its file.
+  // NOLINTBEGIN(google-explicit-constructor)
+  FilePath(std::string place) : given_(std::move(place)), place_(given_) {}
+  FilePath(const char* place) : FilePath(std::string(place)) {}
+  // NOLINTEND(google-explicit-constructor)
+
   // `given` is the text in the configuration; `origin` belongs to the reader and lives as long as the path.
   FilePath(std::string given, std::string place, std::shared_ptr<void> origin)
       : given_(std::move(given)), place_(std::move(place)), origin_(std::move(origin)) {}
@@ -33,9 +33,6 @@ class FilePath {
   [[nodiscard]] bool empty() const { return place_.empty(); }
 
   bool operator==(const FilePath& other) const { return place_ == other.place_; }
-  template <class Text>
-  requires std::convertible_to<const Text&, std::string_view>
-  bool operator==(const Text& text) const { return place_ == std::string_view(text); }
 
  private:
   std::string given_, place_;
