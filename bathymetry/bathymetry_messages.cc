@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "bathymetry/terrain/height_grid.h"
-#include "bathymetry/terrain/profile.h"
 #include "bathymetry/terrain/terrain.h"
 #include "core/frames.h"
 
@@ -16,8 +15,6 @@ namespace {
 static_assert(static_cast<int>(QueryMode::kClosestHit) == ray_query_t::CLOSEST_HIT);
 static_assert(static_cast<int>(QueryMode::kOccluded) == ray_query_t::OCCLUDED);
 static_assert(static_cast<int>(QueryMode::kDepth) == ray_query_t::DEPTH);
-static_assert(static_cast<int>(QueryMode::kUniformProfile) == ray_query_t::UNIFORM_PROFILE);
-static_assert(static_cast<int>(QueryMode::kExactProfile) == ray_query_t::EXACT_PROFILE);
 static_assert(static_cast<int>(QueryMode::kDepthTiles) == ray_query_t::DEPTH_TILES);
 static_assert(static_cast<int>(RayStatus::kHit) == ray_reply_t::HIT);
 static_assert(static_cast<int>(RayStatus::kMiss) == ray_reply_t::MISS);
@@ -85,13 +82,6 @@ ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
   for (const RayStatus status : answers.statuses)
     message.ray_status.push_back(static_cast<std::int8_t>(status));
   message.result_m = answers.results_m;
-  message.num_samples = static_cast<std::int32_t>(answers.samples.size());
-  for (const ProfilePoint& sample : answers.samples) {
-    const bool valid = sample.status == DepthStatus::kOk;
-    message.sample_distance_m.push_back(sample.distance_m);
-    message.sample_seabed_z_m.push_back(valid ? sample.z_m : 0);
-    message.sample_valid.push_back(valid ? 1 : 0);
-  }
   return message;
 }
 
@@ -102,11 +92,6 @@ RayAnswers from_message(const ray_reply_t& message) {
   for (const std::int8_t status : message.ray_status)
     answers.statuses.push_back(static_cast<RayStatus>(status));
   answers.results_m = message.result_m;
-  for (std::size_t n = 0; n < message.sample_distance_m.size(); ++n) {
-    const bool valid = message.sample_valid[n] != 0;
-    answers.samples.push_back({message.sample_distance_m[n], valid ? message.sample_seabed_z_m[n] : kUnknown,
-                               valid ? DepthStatus::kOk : DepthStatus::kNoData});
-  }
   return answers;
 }
 

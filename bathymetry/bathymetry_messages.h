@@ -37,7 +37,6 @@ ray_query_t to_message(const QueryHeader& header, const RayBatch& batch, const V
 ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
                        const std::string& terrain_version, std::int64_t session);
 
-// A sample that is invalid on the bus becomes one without data.
 RayAnswers from_message(const ray_reply_t& message);
 
 QueryHeader header_of(const terrain_query_t& message);

@@ -106,9 +106,6 @@ class Terrain {
   // a position that is not finite.
   std::optional<HeldDepth> held_depth_at(double x_m, double y_m) const;
 
-  // Returns the surface over the cell that contains a point beyond the base grid, and the point's position in
-  // it; empty where the terrain ends at its edge.
-  std::optional<std::pair<BilinearCell, CellPosition>> cell_beyond(double x_m, double y_m) const;
   bool is_endless() const { return beyond_.has_value(); }
 
   // Returns where the ray first meets the bottom. A ray that starts exactly on the bottom hits at range 0.
@@ -160,6 +157,9 @@ class Terrain {
   std::size_t patch_around(const GridGeometry& geometry, std::size_t number) const;
   const Patch& finest_patch(const Patch& from, double x_m, double y_m) const;
   const float* shallowest_around(const Vec3& point_ned_m) const;
+  // Returns the surface over the cell that contains a point beyond the base grid, and the point's position in
+  // it; empty where the terrain ends at its edge.
+  std::optional<std::pair<BilinearCell, CellPosition>> cell_beyond(double x_m, double y_m) const;
   DepthSample sample(const Patch& patch, double x_m, double y_m) const;
   Departure depart(const Ray& ray) const;
   void append_segments(const Patch& patch, const Ray& unit_ray, Interval interval,
