@@ -27,7 +27,6 @@ static_assert(static_cast<int>(Refusal::kTooMany) == ray_reply_t::REFUSED_TOO_MA
 static_assert(static_cast<int>(Refusal::kOtherTerrain) == ray_reply_t::REFUSED_OTHER_TERRAIN);
 static_assert(static_cast<int>(Refusal::kBadQuery) == ray_reply_t::REFUSED_BAD_QUERY);
 
-std::vector<double> as_list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 Vec3 as_vector(const std::vector<double>& list) { return {list[0], list[1], list[2]}; }
 
 }  // namespace
@@ -51,24 +50,6 @@ RayBatch from_message(const ray_query_t& message) {
   return batch;
 }
 
-ray_query_t to_message(const QueryHeader& header, const RayBatch& batch, const Vec3& base_ned_m) {
-  ray_query_t message;
-  message.utime = header.utime;
-  message.client_name = header.client_name;
-  message.request_id = header.request_id;
-  message.expected_terrain = batch.expected_terrain;
-  message.query_mode = static_cast<std::int8_t>(batch.mode);
-  message.sample_spacing_m = batch.sample_spacing_m;
-  for (int axis = 0; axis < 3; ++axis) message.base_origin_ned_m[axis] = base_ned_m[axis];
-  message.num_rays = static_cast<std::int32_t>(batch.rays.size());
-  for (const Ray& ray : batch.rays) {
-    message.offset_m.push_back(as_list(ray.origin_ned_m - base_ned_m));
-    message.direction.push_back(as_list(ray.direction));
-    message.max_range_m.push_back(ray.max_range_m);
-  }
-  return message;
-}
-
 ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
                        const std::string& terrain_version, std::int64_t session) {
   ray_reply_t message;
@@ -83,16 +64,6 @@ ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
     message.ray_status.push_back(static_cast<std::int8_t>(status));
   message.result_m = answers.results_m;
   return message;
-}
-
-RayAnswers from_message(const ray_reply_t& message) {
-  RayAnswers answers;
-  answers.refusal = static_cast<Refusal>(message.reply_status);
-  answers.reason = message.refusal;
-  for (const std::int8_t status : message.ray_status)
-    answers.statuses.push_back(static_cast<RayStatus>(status));
-  answers.results_m = message.result_m;
-  return answers;
 }
 
 QueryHeader header_of(const terrain_query_t& message) {

@@ -166,12 +166,4 @@ double mean_signal(const std::vector<SoundPath>& paths, const GuardWindow& windo
   return sum;
 }
 
-double mean_interference(const std::vector<SoundPath>& paths, const GuardWindow& window) {
-  double sum = 0;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    sum += window.shares[i].interference * to_power_ratio(paths[i].level).value;
-  }
-  return sum;
-}
-
 }  // namespace halocline::acoustics

@@ -59,7 +59,5 @@ std::vector<LikelyWindow> likely_windows(const std::vector<SoundPath>& paths, co
 
 // Mean signal power of a window, the sum of w^2 P, uPa^2.
 double mean_signal(const std::vector<SoundPath>& paths, const GuardWindow& window);
-// Mean power that the window leaves to interfere, the sum of interference shares times P, uPa^2.
-double mean_interference(const std::vector<SoundPath>& paths, const GuardWindow& window);
 
 }  // namespace halocline::acoustics

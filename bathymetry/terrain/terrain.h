@@ -116,19 +116,11 @@ class Terrain {
   // hundred rays on.
   std::vector<RayHit> closest_hits(std::span<const Ray> rays, VectorUnit unit = widest_vector_unit()) const;
 
-  // Tests whether the bottom lies between two points: `hit` is blocked (range from `from`), `miss` is free,
-  // other statuses as above. The first and last `skin_m` (0 or more) of the segment are skipped, for ends
-  // that lie on the bottom.
-  RayHit occluded(const Vec3& from_ned_m, const Vec3& to_ned_m, double skin_m) const;
-
   // Geometry of the base grid: the rectangle between its first and last post, which maps show.
   const GridGeometry& extent() const { return patches_.front().grid.geometry(); }
   // Grids after blending, base first.
   std::size_t grid_count() const { return patches_.size(); }
   const HeightGrid& grid(std::size_t index) const { return patches_[index].grid; }
-
-  // Returns the index of the finest grid over (x, y); -1 outside.
-  int grid_index_at(double x_m, double y_m) const;
 
   // Hash of the content (geometry and posts, bit by bit): equal terrains have equal versions in every
   // process.

@@ -104,7 +104,6 @@ void ShardExchange::take(const found_paths_t& message) {
 }
 
 void ShardExchange::keep(const link_search_t& search) {
-  ++received_;
   const auto paths = std::make_shared<const FoundPaths>(to_found(search));
   newer_.paths += paths->arrivals.paths.size() + 1;
   newer_.searches.insert_or_assign(key_of(search.sea_hash, to_query(search)), paths);
@@ -154,7 +153,6 @@ void ShardExchange::publish(found_paths_t message, std::size_t peer) {
   message.shard_index = shard_.index;
   message.shard_count = shard_.count;
   message.num_searches = static_cast<std::int32_t>(message.searches.size());
-  published_ += message.num_searches;
   publisher_.publish(channel_of(static_cast<int>(peer)), std::move(message));
 }
 

@@ -78,9 +78,6 @@ class ShardExchange : public PathExchange {
   // Drops everything, for another run.
   void clear();
 
-  std::int64_t searches_received() const { return received_; }
-  std::int64_t searches_published() const { return published_; }
-
  private:
   // Hash of the sea; frequency; ends of the bottom profile; source depth, receiver depth and range;
   // diffuse_below_pressure.
@@ -114,7 +111,6 @@ class ShardExchange : public PathExchange {
   Half newer_, older_;
   SimTime tick_, waits_until_ = SimTime::never();
   bool has_news_of_terrain_ = false;
-  std::int64_t received_ = 0, published_ = 0;
 };
 
 }  // namespace halocline::channel_server

@@ -42,8 +42,6 @@ class UnlistedVehicles {
   // Forgets all tracked vehicles and candidates.
   void clear();
 
-  std::size_t tracked() const { return tracked_; }
-
  private:
   struct Candidate {
     VehicleId id = 0;

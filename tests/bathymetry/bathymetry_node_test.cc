@@ -13,6 +13,7 @@
 #include "bus/messages/channels.h"
 #include "bus/transport/event_log.h"
 #include "core/sim_time.h"
+#include "tests/bathymetry/ray_queries.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 #include "tests/support/tolerance.h"
 

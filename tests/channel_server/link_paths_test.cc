@@ -19,6 +19,7 @@
 #include "core/units.h"
 #include "tests/channel_server/link_queries.h"
 #include "tests/channel_server/node_bench.h"
+#include "tests/channel_server/water_models.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::channel_server {

@@ -2,6 +2,7 @@
 #include "acoustics/reception/guard_window.h"
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -18,6 +19,14 @@ namespace {
 Modem modem() { return {}; }
 
 SoundPath path_at(double delay_s, double level_db) { return {.delay_s = delay_s, .level = {level_db}}; }
+
+// Mean power that the window leaves to interfere: the sum of interference shares times P.
+double mean_interference(const std::vector<SoundPath>& paths, const GuardWindow& window) {
+  double sum = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    sum += window.shares[i].interference * to_power_ratio(paths[i].level).value;
+  return sum;
+}
 
 double share_db(double power) { return to_decibels({power}).value; }
 

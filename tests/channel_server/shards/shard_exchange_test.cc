@@ -30,6 +30,7 @@
 #include "channel_server/water_model.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/channel_server/flat_bottom.h"
+#include "tests/channel_server/water_models.h"
 
 namespace halocline::channel_server {
 namespace {
