@@ -11,7 +11,7 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(ROOT / "studies"))
 sys.dont_write_bytecode = True
 from fleet.measure import LONGEST_S, Refusal
 from fleet.output import markdown, three_digits

@@ -73,7 +73,7 @@ BODIES = {"figure4": figure4, "figure6": figure6, "figure7": figure7, "bands": b
 def mark_of(figure):
     """Changes with the numbers, as far as a reader could see it."""
     numbers = [[f"{number:.4g}" if math.isfinite(number) else "" for number in row] for row in figure.rows + figure.marks]
-    return f"<!-- {hashlib.sha256(repr(numbers).encode()).hexdigest()[:16]} of the numbers, by scripts/reproduce_paper -->"
+    return f"<!-- {hashlib.sha256(repr(numbers).encode()).hexdigest()[:16]} of the numbers, by studies/reproduce_paper -->"
 
 
 def draw(figure, path):
