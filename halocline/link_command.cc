@@ -154,7 +154,7 @@ void add_link_command(CLI::App& app, int& exit_code) {
   add_force_option(*command, options->force);
   command->footer(
       footer("  halocline link scenarios/seamount.toml --from auv-1 --to auv-2 --arrivals --plot a.svg\n"
-             "  halocline link scenarios/figure6.toml --from 0,0,100 --to 180,0,100 --json"));
+             "  halocline link scenarios/shelf.toml --from 0,0,60 --to 2000,0,60 --json"));
   command->callback([options, &exit_code] { exit_code = link(*options); });
 }
 

@@ -54,12 +54,12 @@ def read_csv(path):
         return list(csv.DictReader(file))
 
 
-def water_of(scenario):
-    """A scenario of the project, without its vehicles."""
-    return (ROOT / "scenarios" / scenario).read_text().split("[[vehicle]]")[0]
-
-
 def vehicle(number, north_m, depth_m, **modem):
     keys = "".join(f"{key} = {value!r}\n" for key, value in modem.items())
     return (f'[[vehicle]]\nname = "at-{number}"\nid = {number}\nmodel = "fixed"\nstart_ned_m = [{north_m!r}, 0.0, {depth_m!r}]\n'
             + ("[vehicle.modem]\n" + keys if keys else ""))
+
+
+def traffic(start_s, destination):
+    """The one packet that the vehicle above it sends."""
+    return f'[vehicle.traffic]\nperiod_s = 100\nstart_s = {start_s}\ndestination = "at-{destination}"\npayload_bytes = 8\n'
