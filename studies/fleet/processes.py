@@ -93,8 +93,8 @@ def last_statuses(log):
 def processes(count, laying, model, duration_s, recorder):
     """Runs the fleet for `duration_s` of wall time after its start, and returns tables: CPU, losses, and what the
     log lacks."""
-    (ROOT / "runs").mkdir(exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=ROOT / "runs") as folder:
+    (ROOT / "results").mkdir(exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=ROOT / "results") as folder:
         scenario, log = os.path.join(folder, "fleet.toml"), os.path.join(folder, "run.lcmlog")
         pathlib.Path(scenario).write_text(fleet(count, laying, model, START_S + duration_s + END_S))
         run = subprocess.Popen([ROOT / "scripts/run_distributed", scenario, "--log", log, "--recorder", recorder],
