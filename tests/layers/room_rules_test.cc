@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/layers/room_table.h"
 #include "tests/layers/source_tree.h"
 
 namespace halocline::layers {
@@ -28,6 +29,8 @@ TEST(Layers, NothingIncludesAnExample) {
 }
 
 TEST(Layers, TheTreeKeepsItsRules) { EXPECT_THAT(breaches(sources_below(HALOCLINE_SOURCE_DIR)), IsEmpty()); }
+
+TEST(Layers, ExemptionsAreFew) { EXPECT_LE(exemptions().size(), 12U); }
 
 TEST(Layers, NoRoomsIncludeEachOtherInACircleAtAnyDepth) {
   const std::vector<SourceFile> sources = sources_below(HALOCLINE_SOURCE_DIR);

@@ -7,11 +7,14 @@ namespace halocline::layers {
 
 const std::vector<Room>& rooms() {
   static const std::vector<Room> table{
-      {"core", {}, {"Eigen/", "sleef.h"}, "values that every room may use stand on no room"},
+      {"core", {}, {"Eigen/", "sleef.h", "xxhash.h"}, "values that every room may use stand on no room"},
       {"core/files", {"core", "core/memory"}, {}, "who stands on core may stand on all of it"},
       {"core/memory", {"core"}, {}, "who stands on core may stand on all of it"},
       {"core/text", {}, {}, "who stands on core may stand on all of it"},
-      {"ocean", {"core"}, {"fmt/"}, "the ocean moves vehicles and carries sound, and knows neither"},
+      {"ocean",
+       {"core"},
+       {"fmt/", "netcdf.h"},  // netCDF: linked by the module that reads ocean fields
+       "the ocean moves vehicles and carries sound, and knows neither"},
       {"acoustics/math", {"core"}, {}, "quadrature and grids know no sea"},
       {"acoustics/noise", {"core", "acoustics/math"}, {}, "what noise sounds like is the same in every sea"},
       {"acoustics/sea",
@@ -33,7 +36,7 @@ const std::vector<Room>& rooms() {
        "rays that places share are made of rays, and no search of one link knows of them"},
       {"acoustics/fading",
        {"core", "core/files", "acoustics/math", "acoustics/sea"},
-       {},
+       {"hdf5.h"},  // linked by the module that reads measured channels
        "fading depends on paths and the sea, not on modems"},
       {"acoustics/reception",
        {"core", "acoustics/math", "acoustics/modem", "acoustics/fading"},
@@ -52,7 +55,7 @@ const std::vector<Room>& rooms() {
       {"bathymetry/rasters",
        {"core", "core/files", "core/memory", "bathymetry/terrain", "ocean/cf_axis.h", "ocean/cf_units.h",
         "ocean/netcdf_file.h", "ocean/netcdf_header.h"},
-       {},
+       {"gdal", "ogr", "cpl_"},  // GDAL: linked by the module that reads rasters
        "rasters become terrain, nothing else; files of the sea have one reader of axes and units"},
       {"bathymetry",
        {"core", "bathymetry/terrain", "bathymetry/rasters", "bus", "bus/config", "bus/runtime"},
@@ -69,7 +72,7 @@ const std::vector<Room>& rooms() {
        "a sensor measures the state of one vehicle"},
       {"vehicle_sim/world",
        {"core", "vehicle_sim/dynamics", "bathymetry/terrain/terrain.h"},
-       {},
+       {"ode/"},
        "the world holds bodies on the terrain's surface, of which it knows the interface alone"},
       {"vehicle_sim",
        {"core", "ocean", "vehicle_sim/dynamics", "vehicle_sim/power", "vehicle_sim/sensors",
@@ -224,9 +227,11 @@ const std::vector<Room>& rooms() {
        {"fmt/"},
        "a mission by time needs neither files nor sockets, so that reports and monitors share "
        "it"},
-      {"viewer/web", {"core"}, {}, "bytes and callbacks: what is served is made elsewhere"},
+      {"viewer/web", {"core"}, {"boost/"}, "bytes and callbacks: what is served is made elsewhere"},
       {"viewer/sources",
-       {"core", "bus", "bus/config", "bus/runtime", "runs/timeline", "runs/analysis"},
+       // Scales of colour are centred at what a modem needs.
+       {"core", "bus", "bus/config", "bus/runtime", "runs/timeline", "runs/analysis",
+        "acoustics/modem/half_delivery.h"},
        {"lcm/"},
        "a bus and a log are one to those who show them"},
       {"viewer/pages",
@@ -259,7 +264,7 @@ const std::vector<Room>& rooms() {
       {"runs/plot", {"core"}, {}, "a plot is of numbers"},
       {"runs/analysis",
        {"core", "bus", "bus/config", "bus/logs", "bus/runtime", "runs/timeline", "runs/plot"},
-       {"fmt/", "nlohmann/"},
+       {"fmt/", "nlohmann/", "boost/math/"},
        "what is computed of a log needs no simulator"},
       {"viewer/report",
        {"core", "bus", "runs/timeline", "runs/plot", "runs/analysis"},
@@ -277,7 +282,7 @@ const std::vector<Room>& rooms() {
        "a formula needs acoustics and the numbers of modems alone"},
       {"runs/export",
        {"core", "bus", "runs/timeline", "runs/foxglove", "bathymetry/terrain/local_frame.h"},
-       {"fmt/", "nlohmann/"},
+       {"fmt/", "nlohmann/", "netcdf"},
        "a mission in formats of others needs no simulator"},
       {"halocline/sweep",
        {"core", "bus", "bus/config", "bus/logs", "bus/runtime", "runs/timeline", "runs/analysis",
@@ -338,7 +343,7 @@ const std::vector<Room>& rooms() {
        {"core", "acoustics/link", "acoustics/modem", "acoustics/sea", "bathymetry/rasters",
         "bathymetry/terrain", "bus", "bus/runtime", "channel_server", "channel_server/vehicles",
         "channel_server/propagation", "runs/export", "runs/plot", "simulation"},
-       {"fmt/"},
+       {"fmt/", "gdal", "ogr"},  // GDAL: linked by the module that writes maps
        "a map is made of links, as the scenario has them"},
       {"halocline",
        {"core",
