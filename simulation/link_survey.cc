@@ -13,7 +13,7 @@
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/modem/modem.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/published_range.h"
 #include "bathymetry/ray_service.h"
@@ -84,10 +84,10 @@ bool parse_position(const std::string& text, Vec3& position) {
 
 // Returns measured taps as arrivals. A measured level does not tell its causes apart: all of the loss counts
 // as spreading.
-acoustics::Arrivals measured_arrivals(const channel_server::Reception& reception, Decibels source_level) {
-  acoustics::Arrivals arrivals;
+acoustics::Eigenrays measured_arrivals(const channel_server::Reception& reception, Decibels source_level) {
+  acoustics::Eigenrays arrivals;
   for (const channel_server::SoundPath& tap : reception.paths) {
-    acoustics::Arrival path;
+    acoustics::Eigenray path;
     path.delay_s = tap.delay_s;
     path.amplitude = elementary::exp10((tap.level - source_level).value / 20);
     path.phase_rad = tap.phase_rad;
@@ -99,10 +99,10 @@ acoustics::Arrivals measured_arrivals(const channel_server::Reception& reception
 // Returns the single straight path as an arrival. The transmission loss without absorption and beam patterns
 // is its spreading loss:
 //   amplitude = 10^((absorption_db + beam_loss_db - transmission_loss_db) / 20)
-acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
-                                     const acoustics::Transducers& beams) {
+acoustics::Eigenrays straight_arrival(const channel_server::Reception& reception,
+                                      const acoustics::Transducers& beams) {
   const acoustics::LinkBudget& budget = reception.budget;
-  acoustics::Arrival path;
+  acoustics::Eigenray path;
   path.delay_s = budget.delay_s;
   path.path_length_m = budget.range_m;
   path.absorption_db = budget.absorption_db_per_km * budget.range_m / 1000;
@@ -117,7 +117,7 @@ acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
 
 // Describes the paths of a reception, for any propagation model.
 LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to,
-                           const channel_server::Reception& reception, acoustics::Arrivals arrivals) {
+                           const channel_server::Reception& reception, acoustics::Eigenrays arrivals) {
   const Vec3 way = to.position_ned_m - from.position_ned_m;
   const double surface_z_m = config.scenario.sea_surface_z_m;
   LinkArrivals all{
@@ -137,12 +137,12 @@ LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& fr
   return all;
 }
 
-acoustics::Arrivals arrivals_of(LinkSurveyor& surveyor, const channel_server::LinkEnd& from,
-                                const channel_server::LinkEnd& to,
-                                const channel_server::Reception& reception) {
+acoustics::Eigenrays arrivals_of(LinkSurveyor& surveyor, const channel_server::LinkEnd& from,
+                                 const channel_server::LinkEnd& to,
+                                 const channel_server::Reception& reception) {
   if (reception.measured) return measured_arrivals(reception, from.modem->source_level);
-  if (is_along_rays(reception.used)) return surveyor.arrivals(from, to);
-  return reception.paths.empty() ? acoustics::Arrivals()
+  if (is_along_rays(reception.used)) return surveyor.eigenrays(from, to);
+  return reception.paths.empty() ? acoustics::Eigenrays()
                                  : straight_arrival(reception, {from.modem->beam, to.modem->beam});
 }
 

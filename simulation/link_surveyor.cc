@@ -79,8 +79,8 @@ LinkSurveyor::Answer LinkSurveyor::survey(const LinkEnd& from, const LinkEnd& to
                         : propagation().reception_without_capacity(SimTime(), link.from, link.to));
 }
 
-acoustics::Arrivals LinkSurveyor::arrivals(const LinkEnd& from, const LinkEnd& to) {
-  return rays_->arrivals(SimTime(), from, to);
+acoustics::Eigenrays LinkSurveyor::eigenrays(const LinkEnd& from, const LinkEnd& to) {
+  return rays_->eigenrays(SimTime(), from, to);
 }
 
 Decibels LinkSurveyor::noise_level(const acoustics::Modem& transmitter) {

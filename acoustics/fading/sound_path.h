@@ -19,7 +19,7 @@ struct SoundPath {
   double phase_rad = 0;        // phase of reflections and caustics, without the phase of the delay
   std::uint64_t identity = 0;  // unchanged for both directions of a link and under small motions of its ends
   PathFading fading = {};
-  bool diffuse = false;  // not one path but many weak ones in a window of angles (acoustics/rays/arrivals.h)
+  bool diffuse = false;  // not one path but many weak ones in a window of angles (acoustics/rays/eigenray.h)
 };
 
 }  // namespace halocline::acoustics

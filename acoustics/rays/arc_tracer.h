@@ -43,7 +43,7 @@
 #include <vector>
 
 #include "acoustics/rays/arcs/arc_steps.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/section_tracer.h"
 #include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/bottom_profile.h"

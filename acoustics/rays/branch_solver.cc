@@ -177,7 +177,7 @@ void BranchSolver::polish(const FanRay& a, const FanRay& b, const ReceiverImage&
     if (path && cache_ != nullptr) cache_->chains().keep(*path, image);
   }
   if (!path) return;
-  if (windows_ != nullptr) windows_->note(path->arrival);
+  if (windows_ != nullptr) windows_->note(path->eigenray);
   paths_.push_back(std::move(*path));
 }
 

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/depth_fan.h"
 #include "acoustics/rays/diffuse_windows.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/profile_path.h"
 
@@ -71,8 +71,8 @@ class BranchSolver {
   // Finds the paths between two rays of one bounce sequence between which zeta is monotone.
   void solve_monotone(const FanRay& a, const FanRay& b);
 
-  // Returns all paths found, after finish() of arrivals.h.
-  std::vector<Arrival> finished() const { return folds_.finished(paths_); }
+  // Returns all paths found, after finish() of eigenray.h.
+  std::vector<Eigenray> finished() const { return folds_.finished(paths_); }
 
  private:
   template <class Visit>

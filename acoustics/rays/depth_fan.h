@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/profile_path.h"
 #include "acoustics/rays/traced_ray.h"
@@ -82,12 +82,12 @@ class PathChains {
   };
   // The direction in which a path between two nodes arrives, at a share of the depth from one to the other;
   // empty when it is horizontal there.
-  std::optional<Direction> arrival_between(const Node& a, const Node& b, double sine_a, double sine_b,
-                                           double share) const;
+  std::optional<Direction> direction_between(const Node& a, const Node& b, double sine_a, double sine_b,
+                                             double share) const;
   static std::int64_t number_of(const ReceiverImage& image);
   // Factor by which tolerances are wider for a path, 1..100.
   double slack_of(const Node& a, const Node& b) const;
-  void note_strength(const Arrival& path);
+  void note_strength(const Eigenray& path);
   std::optional<ProfilePath> interpolated(const Node& a, const Node& b, const ReceiverImage& image) const;
 
   const ArcTracer& tracer_;
@@ -144,7 +144,7 @@ class DepthFan : public SharedRays {
   DepthFan& operator=(const DepthFan&) = delete;
 
   // Implements SharedRays::at; only the receiver's depth and the options may change from call to call.
-  std::vector<Arrival> at(const ProfiledSea& sea, const RayLink& link) override;
+  std::vector<Eigenray> at(const ProfiledSea& sea, const RayLink& link) override;
 
  private:
   class Column;

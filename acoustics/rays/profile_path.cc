@@ -55,7 +55,7 @@ Detour greatest_detour(const std::vector<RayPoint>& points, std::size_t first, s
 
 // A course of straight lines from bounce to bounce, all at the same angle: the image sources of a flat sea
 // (acoustics/rays/image_rays.h).
-std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const Arrival& path) {
+std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const Eigenray& path) {
   std::vector<double> depths{link.source_depth_m};
   bool up = path.surface_bounces != path.bottom_bounces ? path.surface_bounces > path.bottom_bounces
                                                         : path.launch_angle_rad < 0;
@@ -77,7 +77,7 @@ std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const A
 // Needed because the wave field of rays that graze a boundary or turn beside a knot changes their range
 // (acoustics/math/turning_field.h). Empty over a bottom that is not level.
 std::optional<std::vector<RayPoint>> scaled_way(const ProfiledSea& sea, const RayLink& link,
-                                                const Arrival& path) {
+                                                const Eigenray& path) {
   constexpr double kLonger = 1.5;
   RayLink far = link;
   far.range_m *= kLonger;
@@ -121,11 +121,11 @@ double cosine_of(const TracedRay& ray) { return std::sqrt(1 - ray.sine * ray.sin
 
 }  // namespace
 
-Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDetails& details,
-                   const ArrivalPlace& place) {
+Eigenray eigenray_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDetails& details,
+                     const ArrivalPlace& place) {
   // A^2 = c_r cos_s / (c_s r |q|) (Jensen and others 2011, section 3.3).
   const double speed = cosine_of(ray) / ray.xi;
-  Arrival path;
+  Eigenray path;
   // The ray passes close to the receiver but not through it. A wavefront of vertical slowness sin / c covers
   // the difference:
   //   tau = tau_ray + sin / c (target - zeta), with its sign reversed on an odd number of bounces
@@ -159,7 +159,7 @@ std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, d
   tracer.trace(theta, ray, &details);
   if (!is_kept(tracer, ray) || std::abs(ray.zeta - target) > kFarOff) return std::nullopt;
   return ProfilePath{
-      arrival_of(tracer, ray, details, {tracer.range_m(), target, std::max(std::abs(ray.q), kMinTube)}),
+      eigenray_of(tracer, ray, details, {tracer.range_m(), target, std::max(std::abs(ray.q), kMinTube)}),
       target, ray.zeta_slope, ray.family};
 }
 
@@ -173,7 +173,7 @@ std::optional<DiffuseRay> diffuse_ray(const ArcTracer& tracer, double theta, std
   TracedDetails details;
   tracer.trace(theta, ray, &details);
   if (!ray.arrived) return std::nullopt;
-  Arrival path = arrival_of(tracer, ray, details, {tracer.range_m(), ray.zeta, 1});
+  Eigenray path = eigenray_of(tracer, ray, details, {tracer.range_m(), ray.zeta, 1});
   path.phase_rad = 0;
   path.diffuse = true;
   path.identity = diffuse_identity(ray.theta, window);
@@ -211,8 +211,8 @@ void ProfileFolds::note(double theta) {
     tracer_.trace(theta, ray, &details);
     if (!is_kept(tracer_, ray) || ray.family != before_.family) continue;
     ray.caustics = std::min(before_.caustics, after_.caustics);
-    Arrival path = arrival_of(tracer_, ray, details,
-                              {tracer_.range_m(), target, cosine_of(ray) * fold.tube_slope(x, frequency)});
+    Eigenray path = eigenray_of(tracer_, ray, details,
+                                {tracer_.range_m(), target, cosine_of(ray) * fold.tube_slope(x, frequency)});
     path.phase_rad = std::fmod(path.phase_rad + pi / 4, 2 * pi);  // half of the caustic's pi / 2
     found_.push_back({path, target, x, std::sqrt(2 * std::abs(off / fold.curvature))});
   }
@@ -220,41 +220,41 @@ void ProfileFolds::note(double theta) {
 
 // Pairs the rays of each fold with it. Delays and tubes of rays over a bent bottom do not agree closely
 // enough to derive the place of a fold from them.
-std::vector<Arrival> ProfileFolds::finished(const std::vector<ProfilePath>& paths) const {
-  std::vector<Arrival> arrivals;
-  arrivals.reserve(paths.size() + found_.size());
-  for (const ProfilePath& path : paths) arrivals.push_back(path.arrival);
+std::vector<Eigenray> ProfileFolds::finished(const std::vector<ProfilePath>& paths) const {
+  std::vector<Eigenray> eigenrays;
+  eigenrays.reserve(paths.size() + found_.size());
+  for (const ProfilePath& path : paths) eigenrays.push_back(path.eigenray);
   std::vector<FoldMember> members(paths.size());
   std::uint64_t family = kNoFamily;
   for (const Found& found : found_) {
     if (found.x <= 0) {
-      arrivals.push_back(found.path);
+      eigenrays.push_back(found.path);
       continue;
     }
     // The two rays of the same image on both sides of the fold, roughly as far from it as predicted.
     std::optional<std::size_t> below, above;
     for (std::size_t i = 0; i < paths.size(); ++i) {
       if (paths[i].target != found.target || members[i].family != kNoFamily) continue;
-      const double off = arrivals[i].launch_angle_rad - found.path.launch_angle_rad;
+      const double off = eigenrays[i].launch_angle_rad - found.path.launch_angle_rad;
       const double share = std::abs(off) / found.to_rays_rad;
       if (share > kMinFoldShare && share < 1 / kMinFoldShare) (off < 0 ? below : above) = i;
     }
     if (!below || !above) continue;
     const bool is_one = found.x < kMergedFold;
     const auto member = [&](std::size_t i) {
-      return FoldMember{family, arrivals[i].launch_angle_rad, arrivals[i].caustics, 0, found.x};
+      return FoldMember{family, eigenrays[i].launch_angle_rad, eigenrays[i].caustics, 0, found.x};
     };
     ++family;
     members[*below] = member(*below);
     if (is_one) ++family;
     members[*above] = member(*above);
     if (!is_one) continue;
-    arrivals[*below] = found.path;
-    arrivals[*above].amplitude = 0;
+    eigenrays[*below] = found.path;
+    eigenrays[*above].amplitude = 0;
   }
-  members.resize(arrivals.size());
-  finish(arrivals, members, tracer_.sea().options);
-  return arrivals;
+  members.resize(eigenrays.size());
+  finish(eigenrays, members, tracer_.sea().options);
+  return eigenrays;
 }
 
 // The steps grow with the angle: 0.6 degrees near the horizontal, 4 degrees at 60.
@@ -305,7 +305,7 @@ double leave_out_core(const ArcTracer& tracer, std::vector<double>& angles) {
   return edge;
 }
 
-std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, const Arrival& path,
+std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, const Eigenray& path,
                                std::size_t max_points) {
   // The path is traced whatever it loses.
   ProfiledSea open = sea;

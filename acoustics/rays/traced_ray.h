@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_section.h"
@@ -48,7 +48,7 @@ struct TracedRay {
   double q = 0, p = 0;             // the ray tube of acoustics/rays/arc_tracer.h
   double factor = 1;               // pressure factor of all bounces
   int surface_bounces = 0, bottom_bounces = 0, upper_turns = 0, lower_turns = 0, caustics = 0;
-  // the same for rays of the same events that turned in the same layers: arrivals.h
+  // the same for rays of the same events that turned in the same layers: eigenray.h
   std::uint64_t family = 0;
   std::vector<EventCode> events;
 
@@ -81,7 +81,7 @@ class SharedRays {
   virtual ~SharedRays() = default;
   // The paths of a link, as profile_rays(). From call to call only the receiver and the options change; what
   // the sea of the first call refers to has to outlive this object.
-  virtual std::vector<Arrival> at(const ProfiledSea& sea, const RayLink& link) = 0;
+  virtual std::vector<Eigenray> at(const ProfiledSea& sea, const RayLink& link) = 0;
 };
 
 // Events, counts, losses and phases of bounces.

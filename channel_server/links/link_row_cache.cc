@@ -8,7 +8,7 @@
 
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/link/ray_doppler.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "core/check.h"
 #include "core/elementary.h"
 
@@ -79,7 +79,7 @@ LinkRow LinkRowCache::reused(const Kept& kept, const EndPair& now, SimTime tick,
   row.paths_age = row.paths_age + (tick - kept.made_at);
   if (row.state != PathState::kOpen) return row;
   row.forecast.first_path_delay_s += later_s(kept.first);
-  acoustics::Arrival first;
+  acoustics::Eigenray first;
   first.launch_angle_rad = kept.first.launch_rad;
   first.arrival_angle_rad = kept.first.arrival_rad;
   row.doppler_factor =

@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "acoustics/link/link_kernel.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/environment_timeline.h"

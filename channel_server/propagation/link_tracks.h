@@ -18,7 +18,7 @@
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/traced_ray.h"
 
 namespace halocline::channel_server {

@@ -9,7 +9,7 @@
 #include "acoustics/link/energy_flux.h"
 #include "acoustics/rays/bearings/range_fan.h"
 #include "acoustics/rays/depth_fan.h"
-#include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "core/check.h"
 #include "core/hash.h"
 
@@ -41,8 +41,8 @@ std::shared_ptr<const FoundPaths> found_paths(const RayModel& model, const PathS
   auto found = std::make_shared<FoundPaths>();
   found->given = query.given;
   found->mean_depth_m = along.mean_depth_m;
-  found->arrivals =
-      arrivals(along.sea, query.link, usable_solver(model.solver, along.sea, query.link), shared);
+  found->eigenrays =
+      eigenrays(along.sea, query.link, usable_solver(model.solver, along.sea, query.link), shared);
   found->blocked = cuts_straight_line(along.sea.bottom_profile, query.link);
   found->beyond_terrain = seabed.beyond_terrain;
   return found;
@@ -193,12 +193,12 @@ std::shared_ptr<const FoundPaths> flux_only_paths(const RayModel& model, const a
       std::clamp(mean_z_m - environment.sea_surface_z_m, deepest_end_m + kEvenM, acoustics::kDeepestWater);
   const acoustics::LinkWater along = water_along(model, water, environment, query, depth_m);
   auto windows =
-      acoustics::flux_only_arrivals({along.water, depth_m, model.bottom, surface_of(model, environment),
-                                     options_of(model, query), seabed.mean_square_slope},
-                                    query.link, model.weak_below_diffuse);
+      acoustics::flux_only_eigenrays({along.water, depth_m, model.bottom, surface_of(model, environment),
+                                      options_of(model, query), seabed.mean_square_slope},
+                                     query.link, model.weak_below_diffuse);
   if (!windows) return nullptr;
   auto found = std::make_shared<FoundPaths>();
-  found->arrivals = {acoustics::RaySolver::kArcs, *std::move(windows)};
+  found->eigenrays = {acoustics::RaySolver::kArcs, *std::move(windows)};
   found->mean_depth_m = depth_m;
   found->beyond_terrain = seabed.beyond_terrain;
   return found;

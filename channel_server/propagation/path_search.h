@@ -15,9 +15,9 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
 #include "acoustics/link/field_section.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/extrapolate_arrivals.h"
+#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/extrapolate_eigenrays.h"
 #include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
@@ -109,7 +109,7 @@ inline bool is_of_one_sea(const PathQuery& a, const PathQuery& b) {
 
 struct FoundPaths {
   std::shared_ptr<const SeabedProfile> given;  // the given bottom, whose address is in the key
-  acoustics::Arrivals arrivals;
+  acoustics::Eigenrays eigenrays;
   double mean_depth_m = 0;      // mean depth of the water between the ends
   bool blocked = false;         // the bottom cuts the straight line
   bool beyond_terrain = false;  // see SeabedProfile
@@ -165,8 +165,8 @@ struct SharedLine {
   std::unique_ptr<acoustics::SharedRays> rays;  // refers to the sea of `line`
 };
 
-// Returns the arrivals of a link by its incoherent energy flux alone (acoustics/link/energy_flux.h), when the
-// link is weak enough and its bottom uneven enough; null for other links.
+// Returns the eigenrays of a link by its incoherent energy flux alone (acoustics/link/energy_flux.h), when
+// the link is weak enough and its bottom uneven enough; null for other links.
 std::shared_ptr<const FoundPaths> flux_only_paths(const RayModel& model, const acoustics::RayWater& water,
                                                   const acoustics::Environment& environment,
                                                   const PathQuery& query, const SeabedPlaces& seabed);
@@ -208,7 +208,7 @@ std::uint64_t number_of(const acoustics::PathIdentity& identity);
 // and a tenth of that in depth, because the wavefronts of nearly horizontal sound curve most across depth.
 // Cells are halved until the link is at least 20 cells long; links shorter than 20 / 64 of `distance_m` are
 // not replaced. So the searched link is a function of the link alone, whatever was searched before. It lies
-// within 2.5 % of the range in range and 0.25 % of the range in depth. acoustics/rays/extrapolate_arrivals.h
+// within 2.5 % of the range in range and 0.25 % of the range in depth. acoustics/rays/extrapolate_eigenrays.h
 // extrapolates its paths to the link.
 std::optional<acoustics::RayLink> middle_of_cell(const acoustics::RayLink& link, double distance_m);
 

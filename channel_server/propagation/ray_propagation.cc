@@ -14,7 +14,7 @@
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/extrapolate_arrivals.h"
+#include "acoustics/rays/extrapolate_eigenrays.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
@@ -56,18 +56,18 @@ Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const 
   return answer(task, *searches_.find(task, line), kCapacity);
 }
 
-acoustics::Arrivals RayPropagation::arrivals(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+acoustics::Eigenrays RayPropagation::eigenrays(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   const Task task = searches_.for_itself(at, from, to);
   const LinkSearches::Paths found_paths = searches_.find(task);
   if (!found_paths) return {};
-  acoustics::Arrivals all = found_paths->arrivals;
+  acoustics::Eigenrays all = found_paths->eigenrays;
   if (task.reversed) {
-    for (acoustics::Arrival& path : all.paths) path = backwards(path);
+    for (acoustics::Eigenray& path : all.paths) path = backwards(path);
   }
   const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
   std::erase_if(all.paths,
-                [&](const acoustics::Arrival& path) { return !(weighted_pressure(path, beams) > 0); });
-  if (all.silent() && !found_paths->arrivals.silent()) all.lack = acoustics::PathLack::kTooWeak;
+                [&](const acoustics::Eigenray& path) { return !(weighted_pressure(path, beams) > 0); });
+  if (all.silent() && !found_paths->eigenrays.silent()) all.lack = acoustics::PathLack::kTooWeak;
   return all;
 }
 
@@ -156,14 +156,14 @@ Reception RayPropagation::answer(const Task& task, const FoundPaths& found,
   Reception reception;
   reception.used = found.beyond_terrain ? PropagationUsed::kRaysBeyondTerrain : PropagationUsed::kRays;
   reception.paths_age = task.age;
-  const std::optional<acoustics::Arrivals> elsewhere = arrivals_at(task, found);
-  const acoustics::Arrivals& arrivals = elsewhere ? *elsewhere : found.arrivals;
+  const std::optional<acoustics::Eigenrays> elsewhere = eigenrays_at(task, found);
+  const acoustics::Eigenrays& eigenrays = elsewhere ? *elsewhere : found.eigenrays;
   reception.paths = with_reverberation(model_.reverberation, {found.mean_depth_m, boundaries_.trapped_share},
-                                       sound_paths(task, arrivals));
+                                       sound_paths(task, eigenrays));
   reception.delay_spread_s = delay_spread_s(reception.paths);
   reception.diffuse_level = diffuse_level(reception.paths);
   if (!reception.paths.empty()) {
-    set_open(task, arrivals, capacity, reception);
+    set_open(task, eigenrays, capacity, reception);
   } else {
     reception.state = state_without_path(found);
     set_silent(task, capacity, reception);
@@ -173,28 +173,28 @@ Reception RayPropagation::answer(const Task& task, const FoundPaths& found,
 
 PathState RayPropagation::state_without_path(const FoundPaths& found) {
   using acoustics::PathLack;
-  if (!found.arrivals.silent()) return PathState::kTooWeak;  // absorbed beyond the range of a double
-  if (found.arrivals.lack == PathLack::kTooWeak) return PathState::kTooWeak;
-  if (found.arrivals.lack == PathLack::kTooSteep) return PathState::kTooSteep;
+  if (!found.eigenrays.silent()) return PathState::kTooWeak;  // absorbed beyond the range of a double
+  if (found.eigenrays.lack == PathLack::kTooWeak) return PathState::kTooWeak;
+  if (found.eigenrays.lack == PathLack::kTooSteep) return PathState::kTooSteep;
   return found.blocked ? PathState::kBlocked : PathState::kShadow;
 }
 
-std::optional<acoustics::Arrivals> RayPropagation::arrivals_at(const Task& task,
-                                                               const FoundPaths& found) const {
+std::optional<acoustics::Eigenrays> RayPropagation::eigenrays_at(const Task& task,
+                                                                 const FoundPaths& found) const {
   const acoustics::RayLink &searched = task.query.link, &link = task.link;
   const bool itself = searched.range_m == link.range_m && searched.source_depth_m == link.source_depth_m &&
                       searched.receiver_depth_m == link.receiver_depth_m;
   if (itself) return std::nullopt;
   const acoustics::EndSpeeds speeds = end_speeds(*task.water, *task.environment, task.query);
-  return acoustics::Arrivals{found.arrivals.solver,
-                             extrapolate_arrivals(found.arrivals.paths, searched, speeds, link)};
+  return acoustics::Eigenrays{found.eigenrays.solver,
+                              extrapolate_eigenrays(found.eigenrays.paths, searched, speeds, link)};
 }
 
 std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,
-                                                   const acoustics::Arrivals& arrivals) const {
+                                                   const acoustics::Eigenrays& eigenrays) const {
   std::vector<SoundPath> paths;
-  for (const acoustics::Arrival& arrival : arrivals.paths) {
-    if (const auto path = received_path(boundaries_, *task.environment, task.ends, arrival, task.reversed))
+  for (const acoustics::Eigenray& eigenray : eigenrays.paths) {
+    if (const auto path = received_path(boundaries_, *task.environment, task.ends, eigenray, task.reversed))
       paths.push_back(*path);
   }
   return paths;
@@ -208,10 +208,10 @@ LinkTracks RayPropagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd
       bottom_under(*searches_.seabed_of(task.query), task.link, task.environment->sea_surface_z_m);
   const acoustics::RaySurface surface{model_.surface, task.environment->noise.wind_mps};
   std::vector<FoundPath> paths;
-  for (const acoustics::Arrival& arrival : found_paths->arrivals.paths) {
-    if (const auto path = received_path(boundaries_, *task.environment, task.ends, arrival, task.reversed)) {
-      paths.push_back({arrival, *path,
-                       kept_at_surface(boundaries_, *task.environment, task.query.frequency_hz, arrival)});
+  for (const acoustics::Eigenray& eigenray : found_paths->eigenrays.paths) {
+    if (const auto path = received_path(boundaries_, *task.environment, task.ends, eigenray, task.reversed)) {
+      paths.push_back({eigenray, *path,
+                       kept_at_surface(boundaries_, *task.environment, task.query.frequency_hz, eigenray)});
     }
   }
   const acoustics::LinkWater water =
@@ -223,7 +223,7 @@ LinkTracks RayPropagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd
   return tracks;
 }
 
-Decibels RayPropagation::received_level(const Task& task, const acoustics::Arrivals& arrivals,
+Decibels RayPropagation::received_level(const Task& task, const acoustics::Eigenrays& eigenrays,
                                         const std::vector<SoundPath>& paths) const {
   if (model_.fading.enabled) {
     const double power = mean_power(model_.fading, paths, task.ends.from.modem->band());
@@ -234,26 +234,26 @@ Decibels RayPropagation::received_level(const Task& task, const acoustics::Arriv
   const LinkEnd &first = task.reversed ? to : from, &last = task.reversed ? from : to;
   acoustics::FieldOptions field;
   field.transducers = {first.modem->beam, last.modem->beam};
-  return std::max(from.modem->source_level + coherent_level(arrivals, from.modem->centre_frequency_hz, field),
-                  kSilence);
+  return std::max(
+      from.modem->source_level + coherent_level(eigenrays, from.modem->centre_frequency_hz, field), kSilence);
 }
 
-void RayPropagation::set_open(const Task& task, const acoustics::Arrivals& arrivals,
+void RayPropagation::set_open(const Task& task, const acoustics::Eigenrays& eigenrays,
                               acoustics::Capacity capacity, Reception& reception) const {
   const Vec3 &from = task.ends.from.position_ned_m, &to = task.ends.to.position_ned_m;
-  const Decibels level = received_level(task, arrivals, reception.paths);
+  const Decibels level = received_level(task, eigenrays, reception.paths);
   const SoundPath& first = reception.paths[first_significant(reception.paths)];
-  // There are as many arrivals as paths unless one was absorbed altogether, so the arrival is found by its
+  // There are as many eigenrays as paths unless one was absorbed altogether, so the eigenray is found by its
   // delay.
-  const auto arrival = std::find_if(arrivals.paths.begin(), arrivals.paths.end(),
-                                    [&](const auto& one) { return one.delay_s == first.delay_s; });
+  const auto eigenray = std::find_if(eigenrays.paths.begin(), eigenrays.paths.end(),
+                                     [&](const auto& one) { return one.delay_s == first.delay_s; });
   acoustics::LinkBudget& budget = reception.budget;
   budget = task.kernel->budget_of_path(from, to, task.ends.from.modem->source_level - level,
-                                       arrival->path_length_m, capacity, task.ends.to.above_ambient);
+                                       eigenray->path_length_m, capacity, task.ends.to.above_ambient);
   budget.delay_s = reception.paths[best_window(reception.paths, *task.ends.to.modem).strongest].delay_s;
   if (first.delay_s > 0) budget.mean_sound_speed_mps = budget.range_m / first.delay_s;
-  if (arrival->path_length_m > 0) {
-    budget.absorption_db_per_km = 1000 * arrival->absorption_db / arrival->path_length_m;
+  if (eigenray->path_length_m > 0) {
+    budget.absorption_db_per_km = 1000 * eigenray->absorption_db / eigenray->path_length_m;
   }
 }
 

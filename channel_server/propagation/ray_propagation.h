@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Propagation along rays over the known bottom between the ends of a link.
 //
-// Model. acoustics/rays/eigenray.h finds the paths. The level of each path is, in dB,
+// Model. acoustics/rays/eigenray_search.h finds the paths. The level of each path is, in dB,
 //
 //   source level - spreading - losses at bounces - absorption - loss of both beams
 //
@@ -31,12 +31,12 @@
 // (RayModel::diffuse_below_noise).
 //
 // reception() searches every link by itself. receptions(), for tables, may let links share searches, whose
-// paths are extrapolated to each link (link_searches.h, acoustics/rays/extrapolate_arrivals.h); so may
+// paths are extrapolated to each link (link_searches.h, acoustics/rays/extrapolate_eigenrays.h); so may
 // packets. With a limited number of searches a tick, a link may keep the paths of an earlier tick,
 // extrapolated in the same way: Reception::paths_age.
 //
 // Ends above the surface are placed on it. Left out: the slope of the bottom across the link
-// (acoustics/rays/eigenray.h).
+// (acoustics/rays/eigenray_search.h).
 #pragma once
 
 #include <cstdint>
@@ -51,8 +51,8 @@
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
@@ -118,7 +118,7 @@ class RayPropagation : public Propagation {
                            const std::shared_ptr<const SeabedProfile>& seabed, SharedLine* line);
   // Returns the eigenrays behind reception(), one for each of its paths except those of reverberation, in
   // their order. Amplitudes exclude the beams of the modems.
-  acoustics::Arrivals arrivals(SimTime at, const LinkEnd& from, const LinkEnd& to);
+  acoustics::Eigenrays eigenrays(SimTime at, const LinkEnd& from, const LinkEnd& to);
   LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
                           const Vec3& from_ned_m, const Vec3& to_ned_m,
@@ -143,12 +143,12 @@ class RayPropagation : public Propagation {
                              acoustics::Capacity capacity = acoustics::Capacity::kComputed);
   Reception answer(const Task& task, const FoundPaths& found, acoustics::Capacity capacity) const;
   static PathState state_without_path(const FoundPaths& found);
-  // Returns the arrivals extrapolated to the ends of the task; empty when they were found at these ends.
-  std::optional<acoustics::Arrivals> arrivals_at(const Task& task, const FoundPaths& found) const;
-  std::vector<SoundPath> sound_paths(const Task& task, const acoustics::Arrivals& arrivals) const;
-  Decibels received_level(const Task& task, const acoustics::Arrivals& arrivals,
+  // Returns the eigenrays extrapolated to the ends of the task; empty when they were found at these ends.
+  std::optional<acoustics::Eigenrays> eigenrays_at(const Task& task, const FoundPaths& found) const;
+  std::vector<SoundPath> sound_paths(const Task& task, const acoustics::Eigenrays& eigenrays) const;
+  Decibels received_level(const Task& task, const acoustics::Eigenrays& eigenrays,
                           const std::vector<SoundPath>& paths) const;
-  void set_open(const Task& task, const acoustics::Arrivals& arrivals, acoustics::Capacity capacity,
+  void set_open(const Task& task, const acoustics::Eigenrays& eigenrays, acoustics::Capacity capacity,
                 Reception& reception) const;
   void set_silent(const Task& task, acoustics::Capacity capacity, Reception& reception) const;
 

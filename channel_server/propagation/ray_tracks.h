@@ -7,7 +7,7 @@
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/traced_ray.h"
 #include "channel_server/propagation/link_tracks.h"
 #include "core/units.h"
@@ -16,7 +16,7 @@ namespace halocline::channel_server {
 
 // Path as a search found it, and as the receiver gets it.
 struct FoundPath {
-  acoustics::Arrival arrival;
+  acoustics::Eigenray arrival;
   acoustics::SoundPath path;
   Decibels kept_at_surface;  // see received_path.h
 };

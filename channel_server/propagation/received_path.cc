@@ -13,7 +13,7 @@ namespace halocline::channel_server {
 namespace {
 
 double kept_share_of(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
-                     double frequency_hz, const acoustics::Arrival& path, double bottom_sine_squares) {
+                     double frequency_hz, const acoustics::Eigenray& path, double bottom_sine_squares) {
   return kept_share(
       boundaries.fading, environment.noise.wind_mps, frequency_hz, boundaries.trapped_share,
       {path.surface_bounces, path.bottom_bounces, path.surface_sine_squares, bottom_sine_squares});
@@ -21,7 +21,7 @@ double kept_share_of(const RoughBoundaries& boundaries, const acoustics::Environ
 
 }  // namespace
 
-acoustics::Arrival backwards(acoustics::Arrival path) {
+acoustics::Eigenray backwards(acoustics::Eigenray path) {
   const double launch = path.launch_angle_rad;
   path.launch_angle_rad = -path.arrival_angle_rad;
   path.arrival_angle_rad = -launch;
@@ -30,9 +30,9 @@ acoustics::Arrival backwards(acoustics::Arrival path) {
 
 std::optional<SoundPath> received_path(const RoughBoundaries& boundaries,
                                        const acoustics::Environment& environment, const EndPair& ends,
-                                       const acoustics::Arrival& arrival, bool reversed) {
+                                       const acoustics::Eigenray& arrival, bool reversed) {
   const auto& [from, to] = ends;
-  const acoustics::Arrival path = reversed ? backwards(arrival) : arrival;
+  const acoustics::Eigenray path = reversed ? backwards(arrival) : arrival;
   const double pressure = weighted_pressure(path, {from.modem->beam, to.modem->beam});
   if (!(pressure > 0)) return std::nullopt;  // absorbed beyond the range of a double
   const double frequency_hz = from.modem->centre_frequency_hz;
@@ -66,7 +66,7 @@ std::optional<SoundPath> received_path(const RoughBoundaries& boundaries,
 
 // Over a bottom that does not scatter, the remaining share is the surface's.
 Decibels kept_at_surface(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
-                         double frequency_hz, const acoustics::Arrival& arrival) {
+                         double frequency_hz, const acoustics::Eigenray& arrival) {
   return to_decibels(PowerRatio{kept_share_of(boundaries, environment, frequency_hz, arrival, 0)});
 }
 

@@ -7,7 +7,7 @@
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/sound_path.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/propagation.h"
 #include "core/units.h"
@@ -21,16 +21,16 @@ struct RoughBoundaries {
 };
 
 // Returns the same path followed from its other end.
-acoustics::Arrival backwards(acoustics::Arrival path);
+acoustics::Eigenray backwards(acoustics::Eigenray path);
 
 // Returns the path as received; empty when no energy is left. `reversed`: the arrival was found from the
 // receiver to the transmitter.
 std::optional<SoundPath> received_path(const RoughBoundaries& boundaries,
                                        const acoustics::Environment& environment, const EndPair& ends,
-                                       const acoustics::Arrival& arrival, bool reversed);
+                                       const acoustics::Eigenray& arrival, bool reversed);
 
 // Returns the share of the path's power that scattering at the surface leaves in it, dB, 0 or less.
 Decibels kept_at_surface(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
-                         double frequency_hz, const acoustics::Arrival& arrival);
+                         double frequency_hz, const acoustics::Eigenray& arrival);
 
 }  // namespace halocline::channel_server

@@ -9,7 +9,7 @@
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/modem/beam_pattern.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ray_water.h"
 #include "bus/messages/channels.h"
@@ -106,7 +106,7 @@ void ShardExchange::take(const found_paths_t& message) {
 void ShardExchange::keep(const link_search_t& search) {
   ++received_;
   const auto paths = std::make_shared<const FoundPaths>(to_found(search));
-  newer_.paths += paths->arrivals.paths.size() + 1;
+  newer_.paths += paths->eigenrays.paths.size() + 1;
   newer_.searches.insert_or_assign(key_of(search.sea_hash, to_query(search)), paths);
   if (newer_.paths < kMaxPathsOfHalf) return;
   older_ = std::move(newer_);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "acoustics/link/received_field.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 
 namespace halocline::clients {
 
@@ -29,7 +29,7 @@ struct DelaySpreads {
 // Paths of a link, and all that is known for their output.
 struct LinkArrivals {
   acoustics::RayLink link;
-  acoustics::Arrivals arrivals;
+  acoustics::Eigenrays eigenrays;
   bool modems_known = false;          // `received` has one element for each path
   acoustics::Transducers beams = {};  // beam patterns that weight the summary and the impulse response
   std::vector<ReceivedPath> received = {};
@@ -50,7 +50,7 @@ std::string why_silent(const LinkArrivals& found);
 // that at 1 m and includes the beam patterns. Without a path there is no row.
 void print_impulse_response(std::ostream& out, const LinkArrivals& found, double carrier_hz, double rate_hz);
 
-// Writes the arrivals of several links.
+// Writes the eigenrays of several links.
 //
 // CSV has one row for each path; a link without a path has none. Columns:
 //

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/rays/arcs/ray_column.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "tests/acoustics/rays/layered_waters.h"

@@ -145,7 +145,7 @@ TEST(Beams, ArrivalsAreThoseOfTheReceptionAlsoWhereABeamSilencesThem) {
   const auto counts = [&](const acoustics::Modem& modem) {
     const LinkEnd here = end_at(from, modem), there = end_at(to, modem);
     return std::pair(rays.reception(at_s(0), here, there).paths.size(),
-                     rays.arrivals(at_s(0), here, there).paths.size());
+                     rays.eigenrays(at_s(0), here, there).paths.size());
   };
   const auto [received, stated] = counts(plain);
   ASSERT_GT(received, 0u);
