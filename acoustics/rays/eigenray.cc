@@ -21,6 +21,12 @@ using std::numbers::pi;
 constexpr double kMergedDelay = 1e-6;  // s
 const double kMergedAngle = to_radians(0.02);
 
+constexpr int kCountBits = 14, kBranchBits = 7;  // of a packed identity
+
+constexpr std::uint64_t low_bits(std::uint64_t number, int bits) {
+  return number & ((std::uint64_t{1} << bits) - 1);
+}
+
 // Sort key: paths are large and are moved only once.
 struct Key {
   std::uint64_t kind;
@@ -147,6 +153,27 @@ double most_loss_db(const RayOptions& options) {
 }
 
 }  // namespace
+
+std::uint64_t PathIdentity::number() const {
+  std::uint64_t number = launched_up ? 1 : 0;
+  for (const int count : {surface_bounces, bottom_bounces, upper_turns, lower_turns}) {
+    number = number << kCountBits | low_bits(static_cast<std::uint64_t>(count), kCountBits);
+  }
+  return number << kBranchBits | low_bits(static_cast<std::uint64_t>(branch), kBranchBits);
+}
+
+PathIdentity PathIdentity::of_number(std::uint64_t number) {
+  PathIdentity identity;
+  identity.branch = static_cast<int>(low_bits(number, kBranchBits));
+  number >>= kBranchBits;
+  for (int* count :
+       {&identity.lower_turns, &identity.upper_turns, &identity.bottom_bounces, &identity.surface_bounces}) {
+    *count = static_cast<int>(low_bits(number, kCountBits));
+    number >>= kCountBits;
+  }
+  identity.launched_up = number != 0;
+  return identity;
+}
 
 double Eigenray::received_pressure() const { return amplitude * elementary::exp10(-absorption_db / 20); }
 

@@ -29,6 +29,12 @@ struct PathIdentity {
   int upper_turns = 0, lower_turns = 0;  // turns in the water itself, above and below
   int branch = 0;  // 0, 1, ... by rising launch angle among paths that agree in all of the above
   auto operator<=>(const PathIdentity&) const = default;
+
+  // The identity packed into one number. Each count is truncated to its low bits: 14 for bounces and turns, 7
+  // for the branch.
+  std::uint64_t number() const;
+  // The identity with that number.
+  static PathIdentity of_number(std::uint64_t number);
 };
 
 // Geometry of a path between two ends, and what the sea leaves of its sound.

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/rays/eigenray.h"
 #include "core/check.h"
@@ -128,12 +128,12 @@ void LinkRowCache::keep(std::size_t index, const EndPair& ends, const Reception&
             {},
             {},
             row};
-  const auto angles_of = [](const SoundPath& path) {
+  const auto angles_of = [](const Arrival& path) {
     return Angles{path.launch_angle_rad, path.arrival_angle_rad};
   };
   const auto strongest =
       std::find_if(reception.paths.begin(), reception.paths.end(),
-                   [&](const SoundPath& path) { return path.delay_s == reception.budget.delay_s; });
+                   [&](const Arrival& path) { return path.delay_s == reception.budget.delay_s; });
   if (strongest != reception.paths.end()) {
     kept.strongest = angles_of(*strongest);
     kept.first = angles_of(reception.paths[first_significant(reception.paths)]);

@@ -91,16 +91,6 @@ Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment&
   return Decibels{gain_db};
 }
 
-// Each count is truncated to its low bits: 14 for bounces and turns, 7 for the branch.
-std::uint64_t number_of(const acoustics::PathIdentity& identity) {
-  std::uint64_t number = identity.launched_up ? 1 : 0;
-  for (const int count :
-       {identity.surface_bounces, identity.bottom_bounces, identity.upper_turns, identity.lower_turns}) {
-    number = number << 14 | (static_cast<std::uint64_t>(count) & 0x3FFF);
-  }
-  return number << 7 | (static_cast<std::uint64_t>(identity.branch) & 0x7F);
-}
-
 void validate(const RayModel& model) {
   validate(model.bottom);
   validate(model.options);

@@ -197,10 +197,6 @@ std::optional<acoustics::RaySolver> usable_solver(std::optional<acoustics::RaySo
                                                   const acoustics::RaySea& sea,
                                                   const acoustics::RayLink& link);
 
-// Packs the identity of a path into one number. The identity is that from the link's end of lower id, so both
-// directions have the same number.
-std::uint64_t number_of(const acoustics::PathIdentity& identity);
-
 // Returns the link that is searched in place of `link` of a table, so that one search serves similar links;
 // empty: `link` itself is searched because it is too short for cells of `distance_m` (above 0).
 //

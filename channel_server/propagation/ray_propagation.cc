@@ -18,10 +18,10 @@
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
-#include "channel_server/propagation/link_tracks.h"
+#include "channel_server/propagation/link_chart.h"
 #include "channel_server/propagation/path_search.h"
-#include "channel_server/propagation/ray_tracks.h"
-#include "channel_server/propagation/received_path.h"
+#include "channel_server/propagation/ray_arrival.h"
+#include "channel_server/propagation/ray_chart.h"
 #include "core/elementary.h"
 
 namespace halocline::channel_server {
@@ -159,7 +159,7 @@ Reception RayPropagation::answer(const Task& task, const FoundPaths& found,
   const std::optional<acoustics::Eigenrays> elsewhere = eigenrays_at(task, found);
   const acoustics::Eigenrays& eigenrays = elsewhere ? *elsewhere : found.eigenrays;
   reception.paths = with_reverberation(model_.reverberation, {found.mean_depth_m, boundaries_.trapped_share},
-                                       sound_paths(task, eigenrays));
+                                       arrivals(task, eigenrays));
   reception.delay_spread_s = delay_spread_s(reception.paths);
   reception.diffuse_level = diffuse_level(reception.paths);
   if (!reception.paths.empty()) {
@@ -190,41 +190,38 @@ std::optional<acoustics::Eigenrays> RayPropagation::eigenrays_at(const Task& tas
                               extrapolate_eigenrays(found.eigenrays.paths, searched, speeds, link)};
 }
 
-std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,
-                                                   const acoustics::Eigenrays& eigenrays) const {
-  std::vector<SoundPath> paths;
+std::vector<Arrival> RayPropagation::arrivals(const Task& task, const acoustics::Eigenrays& eigenrays) const {
+  std::vector<Arrival> paths;
   for (const acoustics::Eigenray& eigenray : eigenrays.paths) {
-    if (const auto path = received_path(boundaries_, *task.environment, task.ends, eigenray, task.reversed))
+    if (const auto path = arrival_of(boundaries_, *task.environment, task.ends, eigenray, task.reversed))
       paths.push_back(*path);
   }
   return paths;
 }
 
-LinkTracks RayPropagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+LinkChart RayPropagation::chart(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   const Task task = searches_.for_itself(at, from, to);
   const LinkSearches::Paths found_paths = searches_.find(task);
-  if (!found_paths) return Propagation::tracks(at, from, to);
+  if (!found_paths) return Propagation::chart(at, from, to);
   const acoustics::BottomProfile bottom =
       bottom_under(*searches_.seabed_of(task.query), task.link, task.environment->sea_surface_z_m);
   const acoustics::RaySurface surface{model_.surface, task.environment->noise.wind_mps};
-  std::vector<FoundPath> paths;
-  for (const acoustics::Eigenray& eigenray : found_paths->eigenrays.paths) {
-    if (const auto path = received_path(boundaries_, *task.environment, task.ends, eigenray, task.reversed)) {
-      paths.push_back({eigenray, *path,
-                       kept_at_surface(boundaries_, *task.environment, task.query.frequency_hz, eigenray)});
-    }
+  std::vector<LinkChart::Row> rows;
+  for (const Arrival& arrival : arrivals(task, found_paths->eigenrays)) {
+    const Decibels kept = kept_at_surface(boundaries_, *task.environment, task.query.frequency_hz, arrival);
+    rows.push_back({.arrival = arrival, .surface_db = arrival.surface_loss_db - kept.value});
   }
   const acoustics::LinkWater water =
       water_along(model_, *task.water, *task.environment, task.query, bottom.deepest_m());
-  LinkTracks tracks = tracks_of({water.water, bottom, model_.bottom, surface, model_.options,
-                                 /*core_speed_mps=*/0, water.section.get()},
-                                task.link, task.reversed, std::move(paths), *from.modem, *to.modem);
-  weigh(answer(task, *found_paths, acoustics::Capacity::kLeftOut).paths, *to.modem, tracks);
-  return tracks;
+  LinkChart chart = chart_of({water.water, bottom, model_.bottom, surface, model_.options,
+                              /*core_speed_mps=*/0, water.section.get()},
+                             task.link, task.reversed, std::move(rows), *from.modem, *to.modem);
+  chart.weigh(answer(task, *found_paths, acoustics::Capacity::kLeftOut).paths, *to.modem);
+  return chart;
 }
 
 Decibels RayPropagation::received_level(const Task& task, const acoustics::Eigenrays& eigenrays,
-                                        const std::vector<SoundPath>& paths) const {
+                                        const std::vector<Arrival>& paths) const {
   if (model_.fading.enabled) {
     const double power = mean_power(model_.fading, paths, task.ends.from.modem->band());
     return power > 0 ? std::max(to_decibels(PowerRatio{power}), kSilence) : kSilence;
@@ -242,19 +239,13 @@ void RayPropagation::set_open(const Task& task, const acoustics::Eigenrays& eige
                               acoustics::Capacity capacity, Reception& reception) const {
   const Vec3 &from = task.ends.from.position_ned_m, &to = task.ends.to.position_ned_m;
   const Decibels level = received_level(task, eigenrays, reception.paths);
-  const SoundPath& first = reception.paths[first_significant(reception.paths)];
-  // There are as many eigenrays as paths unless one was absorbed altogether, so the eigenray is found by its
-  // delay.
-  const auto eigenray = std::find_if(eigenrays.paths.begin(), eigenrays.paths.end(),
-                                     [&](const auto& one) { return one.delay_s == first.delay_s; });
+  const Arrival& first = reception.paths[first_significant(reception.paths)];
   acoustics::LinkBudget& budget = reception.budget;
   budget = task.kernel->budget_of_path(from, to, task.ends.from.modem->source_level - level,
-                                       eigenray->path_length_m, capacity, task.ends.to.above_ambient);
+                                       first.path_length_m, capacity, task.ends.to.above_ambient);
   budget.delay_s = reception.paths[best_window(reception.paths, *task.ends.to.modem).strongest].delay_s;
   if (first.delay_s > 0) budget.mean_sound_speed_mps = budget.range_m / first.delay_s;
-  if (eigenray->path_length_m > 0) {
-    budget.absorption_db_per_km = 1000 * eigenray->absorption_db / eigenray->path_length_m;
-  }
+  if (first.path_length_m > 0) budget.absorption_db_per_km = 1000 * first.absorption_db / first.path_length_m;
 }
 
 void RayPropagation::set_silent(const Task& task, acoustics::Capacity capacity, Reception& reception) const {

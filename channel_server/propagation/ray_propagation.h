@@ -44,9 +44,9 @@
 #include <optional>
 #include <vector>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/multipath.h"
@@ -56,12 +56,12 @@
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/link_chart.h"
 #include "channel_server/propagation/link_searches.h"
-#include "channel_server/propagation/link_tracks.h"
 #include "channel_server/propagation/path_exchange.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/propagation/received_path.h"
+#include "channel_server/propagation/ray_arrival.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/propagation/straight_propagation.h"
@@ -119,7 +119,7 @@ class RayPropagation : public Propagation {
   // Returns the eigenrays behind reception(), one for each of its paths except those of reverberation, in
   // their order. Amplitudes exclude the beams of the modems.
   acoustics::Eigenrays eigenrays(SimTime at, const LinkEnd& from, const LinkEnd& to);
-  LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  LinkChart chart(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
                           const Vec3& from_ned_m, const Vec3& to_ned_m,
                           const std::vector<acoustics::BottomPoint>& points) override {
@@ -145,9 +145,9 @@ class RayPropagation : public Propagation {
   static PathState state_without_path(const FoundPaths& found);
   // Returns the eigenrays extrapolated to the ends of the task; empty when they were found at these ends.
   std::optional<acoustics::Eigenrays> eigenrays_at(const Task& task, const FoundPaths& found) const;
-  std::vector<SoundPath> sound_paths(const Task& task, const acoustics::Eigenrays& eigenrays) const;
+  std::vector<Arrival> arrivals(const Task& task, const acoustics::Eigenrays& eigenrays) const;
   Decibels received_level(const Task& task, const acoustics::Eigenrays& eigenrays,
-                          const std::vector<SoundPath>& paths) const;
+                          const std::vector<Arrival>& paths) const;
   void set_open(const Task& task, const acoustics::Eigenrays& eigenrays, acoustics::Capacity capacity,
                 Reception& reception) const;
   void set_silent(const Task& task, acoustics::Capacity capacity, Reception& reception) const;

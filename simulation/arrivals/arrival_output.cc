@@ -46,8 +46,8 @@ void append(std::string& line, const Columns& columns, const Text& text) {
   for (const Column& column : columns) line += (line.empty() ? "" : ",") + text(column);
 }
 
-std::array<Column, 2> received_columns(const ReceivedPath& path) {
-  return {Column{"level_db", path.level_db}, Column{"doppler_factor", path.doppler_factor}};
+std::array<Column, 2> received_columns(const acoustics::Arrival& path) {
+  return {Column{"level_db", path.level.value}, Column{"doppler_factor", path.doppler_factor}};
 }
 
 void print_csv(std::ostream& out, const std::vector<LinkArrivals>& links) {
@@ -122,8 +122,8 @@ void print_row(std::ostream& out, const acoustics::Eigenray& path) {
   }
 }
 
-void print_received(std::ostream& out, const ReceivedPath& path) {
-  out << std::setprecision(2) << std::setw(13) << path.level_db << std::setw(13)
+void print_received(std::ostream& out, const acoustics::Arrival& path) {
+  out << std::setprecision(2) << std::setw(13) << path.level.value << std::setw(13)
       << 1e6 * (path.doppler_factor - 1);
 }
 
@@ -156,7 +156,7 @@ void print_table(std::ostream& out, const LinkArrivals& found) {
 }  // namespace
 
 double path_level_db(const LinkArrivals& found, std::size_t index) {
-  if (found.modems_known) return found.received.at(index).level_db;
+  if (found.modems_known) return found.received.at(index).level.value;
   return 20 * elementary::log10(found.eigenrays.paths.at(index).received_pressure());
 }
 

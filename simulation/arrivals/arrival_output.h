@@ -7,18 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/eigenray.h"
 
 namespace halocline::clients {
 
 enum class OutputFormat { kTable, kCsv, kJson };
-
-// Reception of one path from the transmitter's modem.
-struct ReceivedPath {
-  double level_db;        // dB re 1 uPa
-  double doppler_factor;  // ratio of received to sent frequency
-};
 
 // Spread of a link's paths in time, as in LINKS and `halocline link`.
 struct DelaySpreads {
@@ -32,7 +27,7 @@ struct LinkArrivals {
   acoustics::Eigenrays eigenrays;
   bool modems_known = false;          // `received` has one element for each path
   acoustics::Transducers beams = {};  // beam patterns that weight the summary and the impulse response
-  std::vector<ReceivedPath> received = {};
+  std::vector<acoustics::Arrival> received = {};
   bool blocked = false;                      // the bottom cuts the straight line, and no ray arrives
   std::string found_by = {};                 // empty: the solver's name
   std::optional<DelaySpreads> spreads = {};  // only with known modems

@@ -32,7 +32,7 @@ const std::vector<Room>& rooms() {
        {},
        "rays that places share are made of rays, and no search of one link knows of them"},
       {"acoustics/fading",
-       {"core", "core/files", "acoustics/math", "acoustics/sea"},
+       {"core", "core/files", "acoustics/math", "acoustics/sea", "acoustics/rays"},
        {},
        "fading depends on paths and the sea, not on modems"},
       {"acoustics/reception",

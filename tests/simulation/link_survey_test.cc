@@ -74,7 +74,8 @@ TEST(LinkSurvey, PowersOfThePathsAddUpToTheReceivedLevel) {
     ASSERT_EQ(answer.arrivals.received.size(), answer.arrivals.eigenrays.paths.size());
     EXPECT_EQ(answer.arrivals.received.size() > 1, model == channel_server::PropagationModel::kRays);
     double power = 0;
-    for (const ReceivedPath& path : answer.arrivals.received) power += std::pow(10, path.level_db / 10);
+    for (const acoustics::Arrival& path : answer.arrivals.received)
+      power += std::pow(10, path.level.value / 10);
     EXPECT_NEAR(10 * std::log10(power), answer.reception.budget.received_level.value, 1e-9);
   }
 }
@@ -89,7 +90,7 @@ TEST(LinkSurvey, LevelOfAPathIsItsPressureAtTheSourceLevel) {
     const LinkSurvey answer = survey_link(config, from, link_end(config, "500,0,60"));
     for (std::size_t i = 0; i < answer.arrivals.received.size(); ++i) {
       const double pressure = answer.arrivals.eigenrays.paths[i].received_pressure();
-      EXPECT_NEAR(answer.arrivals.received[i].level_db,
+      EXPECT_NEAR(answer.arrivals.received[i].level.value,
                   from.modem.modem.source_level.value + 20 * std::log10(pressure), 1e-9);
     }
   }

@@ -69,7 +69,8 @@ LinkArrivals with_modems() {
   LinkArrivals found = pekeris().front();
   found.modems_known = true;
   for (std::size_t i = 0; i < found.eigenrays.paths.size(); ++i)
-    found.received.push_back({100.0 - static_cast<double>(i), 1.0 + 1e-6 * static_cast<double>(i)});
+    found.received.push_back(
+        {{}, Decibels{100.0 - static_cast<double>(i)}, 1.0 + 1e-6 * static_cast<double>(i)});
   return found;
 }
 
