@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "acoustics/fading/arrival.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/messages/message_checks.h"
 #include "channel_server/propagation/link_chart.h"

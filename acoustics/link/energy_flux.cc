@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "acoustics/link/slope_diffusion.h"
-#include "acoustics/rays/profile_path.h"
+#include "acoustics/rays/traced_eigenray.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {

@@ -35,8 +35,8 @@ double mixed(double a, double b, double share) { return a + share * (b - a); }
 
 }  // namespace
 
-bool PathChains::Chain::holds(const ProfilePath& path) const {
-  const ProfilePath& one = nodes.front().path;
+bool PathChains::Chain::holds(const ImageHit& path) const {
+  const ImageHit& one = nodes.front().path;
   return one.family == path.family && one.eigenray.caustics == path.eigenray.caustics &&
          one.eigenray.identity == path.eigenray.identity && (one.zeta_slope > 0) == (path.zeta_slope > 0);
 }
@@ -45,7 +45,7 @@ std::int64_t PathChains::number_of(const ReceiverImage& image) {
   return 2 * static_cast<std::int64_t>(image.k) + (image.sign > 0 ? 1 : 0);
 }
 
-void PathChains::keep(const ProfilePath& path, const ReceiverImage& image) {
+void PathChains::keep(const ImageHit& path, const ReceiverImage& image) {
   const double depth_m = tracer_.receiver_depth_m();
   note_strength(path.eigenray);
   Node node{depth_m, tracer_.water_at_receiver().speed_at(depth_m), strongest_.size() - 1, path};
@@ -65,10 +65,10 @@ void PathChains::keep(const ProfilePath& path, const ReceiverImage& image) {
   chain->nodes.insert(place, std::move(node));
 }
 
-std::optional<ProfilePath> PathChains::between(const FanRay& a, const FanRay& b, const ReceiverImage& image) {
+std::optional<ImageHit> PathChains::between(const FanRay& a, const FanRay& b, const ReceiverImage& image) {
   const auto chains = chains_.find(number_of(image));
   if (chains == chains_.end()) return std::nullopt;
-  std::optional<ProfilePath> found;
+  std::optional<ImageHit> found;
   for (const Chain& chain : chains->second) {
     const auto below = std::upper_bound(chain.nodes.begin(), chain.nodes.end(), tracer_.receiver_depth_m(),
                                         [](double depth, const Node& one) { return depth < one.depth_m; });
@@ -106,8 +106,8 @@ std::optional<PathChains::Direction> PathChains::direction_between(const Node& a
   return Direction{std::copysign(std::sqrt(1 - cosine * cosine), sine_a), speed_mps};
 }
 
-std::optional<ProfilePath> PathChains::interpolated(const Node& a, const Node& b,
-                                                    const ReceiverImage& image) const {
+std::optional<ImageHit> PathChains::interpolated(const Node& a, const Node& b,
+                                                 const ReceiverImage& image) const {
   using std::numbers::pi;
   const Eigenray &one = a.path.eigenray, &other = b.path.eigenray;
   const double height = b.depth_m - a.depth_m, share = (tracer_.receiver_depth_m() - a.depth_m) / height;
@@ -146,7 +146,7 @@ std::optional<ProfilePath> PathChains::interpolated(const Node& a, const Node& b
                spread_b = spreading(other) / std::abs(b.path.zeta_slope);
   if (std::abs(spread_b - spread_a) > slack * kMaxSpread * spread_a) return std::nullopt;
 
-  ProfilePath path{one, image.target, slope, a.path.family};
+  ImageHit path{one, image.target, slope, a.path.family};
   Eigenray& mean = path.eigenray;
   const auto mix = [&](double Eigenray::*field) { mean.*field = mixed(one.*field, other.*field, share); };
   for (const auto field : {&Eigenray::range_slowness_spm, &Eigenray::path_length_m, &Eigenray::absorption_db,

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "acoustics/rays/profile_path.h"
+#include "acoustics/rays/traced_eigenray.h"
 #include "acoustics/sea/ray_water.h"
 #include "core/elementary.h"
 

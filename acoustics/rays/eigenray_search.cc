@@ -12,7 +12,7 @@
 #include "acoustics/rays/image_rays.h"
 #include "acoustics/rays/layered_rays.h"
 #include "acoustics/rays/profile_rays.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "core/elementary.h"

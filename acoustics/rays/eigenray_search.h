@@ -28,7 +28,7 @@
 #include <optional>
 
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"

@@ -10,7 +10,7 @@
 #include "acoustics/math/fold_field.h"
 #include "acoustics/math/hermite_cubic.h"
 #include "acoustics/rays/arcs/layered_legs.h"
-#include "acoustics/rays/layered_path.h"
+#include "acoustics/rays/layered_eigenray.h"
 #include "core/check.h"
 #include "core/elementary.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "acoustics/rays/fan_tracer.h"
-#include "acoustics/rays/profile_path.h"
+#include "acoustics/rays/traced_eigenray.h"
 
 namespace halocline::acoustics {
 namespace {

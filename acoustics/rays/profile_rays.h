@@ -30,7 +30,7 @@
 #include "acoustics/rays/diffuse_windows.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/fan_tracer.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 
 namespace halocline::acoustics {
 

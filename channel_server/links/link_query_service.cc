@@ -7,7 +7,7 @@
 
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/links/echo_survey.h"
 #include "channel_server/links/waiting_queries.h"

@@ -16,7 +16,7 @@
 #include "acoustics/fading/arrival.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 
 namespace halocline::channel_server {
 

@@ -44,7 +44,7 @@ namespace halocline::channel_server {
 
 class LinkSearches {
  public:
-  using Paths = std::shared_ptr<const FoundPaths>;
+  using Paths = std::shared_ptr<const SearchResult>;
   // Simulation time for which an unused result is kept, and at most twice that. Vehicles that lie still or
   // soon pass a cell again reuse it, and memory is bounded by four minutes of results however long the run.
   static constexpr SimDuration kKept = SimDuration::from_milliseconds(120'000);

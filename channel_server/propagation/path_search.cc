@@ -35,10 +35,10 @@ acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environ
 
 double middle(double value, double cell) { return cell * (std::floor(value / cell) + 0.5); }
 
-std::shared_ptr<const FoundPaths> found_paths(const RayModel& model, const PathSea& along,
-                                              const PathQuery& query, const SeabedProfile& seabed,
-                                              acoustics::SharedRays* shared) {
-  auto found = std::make_shared<FoundPaths>();
+std::shared_ptr<const SearchResult> result_over(const RayModel& model, const PathSea& along,
+                                                const PathQuery& query, const SeabedProfile& seabed,
+                                                acoustics::SharedRays* shared) {
+  auto found = std::make_shared<SearchResult>();
   found->given = query.given;
   found->mean_depth_m = along.mean_depth_m;
   found->eigenrays =
@@ -137,16 +137,16 @@ PathSea path_sea(const RayModel& model, const acoustics::RayWater& water,
           depth_m};
 }
 
-std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
-                                               const acoustics::Environment& environment,
-                                               const PathQuery& query, const SeabedProfile& seabed) {
-  return found_paths(model, path_sea(model, water, environment, query, seabed), query, seabed, nullptr);
+std::shared_ptr<const SearchResult> search_paths(const RayModel& model, const acoustics::RayWater& water,
+                                                 const acoustics::Environment& environment,
+                                                 const PathQuery& query, const SeabedProfile& seabed) {
+  return result_over(model, path_sea(model, water, environment, query, seabed), query, seabed, nullptr);
 }
 
-std::shared_ptr<const FoundPaths> PathLine::search(const RayModel& model, const acoustics::RayWater& water,
-                                                   const acoustics::Environment& environment,
-                                                   const PathQuery& query, const SeabedProfile& seabed,
-                                                   acoustics::SharedRays* shared) {
+std::shared_ptr<const SearchResult> PathLine::search(const RayModel& model, const acoustics::RayWater& water,
+                                                     const acoustics::Environment& environment,
+                                                     const PathQuery& query, const SeabedProfile& seabed,
+                                                     acoustics::SharedRays* shared) {
   if (!sea_) {
     PathQuery at_surface = query;
     at_surface.link.source_depth_m = at_surface.link.receiver_depth_m = 0;
@@ -158,7 +158,7 @@ std::shared_ptr<const FoundPaths> PathLine::search(const RayModel& model, const 
   };
   if (!is_above(query.link.source_depth_m, 0) || !is_above(query.link.receiver_depth_m, query.link.range_m))
     return search_paths(model, water, environment, query, seabed);
-  return found_paths(model, *sea_, query, seabed, shared);
+  return result_over(model, *sea_, query, seabed, shared);
 }
 
 SharedLine SharedLine::of_depths() { return {{}, std::make_unique<acoustics::DepthFan>()}; }
@@ -171,9 +171,9 @@ bool may_be_flux_only(const RayModel& model, const acoustics::RayWater& water, c
   return acoustics::may_be_flux_only(water, options_of(model, query), query.link, model.weak_below_diffuse);
 }
 
-std::shared_ptr<const FoundPaths> flux_only_paths(const RayModel& model, const acoustics::RayWater& water,
-                                                  const acoustics::Environment& environment,
-                                                  const PathQuery& query, const SeabedPlaces& seabed) {
+std::shared_ptr<const SearchResult> flux_only_paths(const RayModel& model, const acoustics::RayWater& water,
+                                                    const acoustics::Environment& environment,
+                                                    const PathQuery& query, const SeabedPlaces& seabed) {
   const auto [least, most] = std::minmax_element(seabed.z_m.begin(), seabed.z_m.end());
   if (*most - *least < kEvenM) return nullptr;
   double mean_z_m = 0;
@@ -187,7 +187,7 @@ std::shared_ptr<const FoundPaths> flux_only_paths(const RayModel& model, const a
                                       options_of(model, query), seabed.mean_square_slope},
                                      query.link, model.weak_below_diffuse);
   if (!windows) return nullptr;
-  auto found = std::make_shared<FoundPaths>();
+  auto found = std::make_shared<SearchResult>();
   found->eigenrays = {acoustics::RaySolver::kArcs, *std::move(windows)};
   found->mean_depth_m = depth_m;
   found->beyond_terrain = seabed.beyond_terrain;

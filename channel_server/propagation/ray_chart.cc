@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "acoustics/modem/beam_pattern.h"
-#include "acoustics/rays/profile_path.h"
+#include "acoustics/rays/traced_eigenray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "channel_server/propagation/ray_arrival.h"
 #include "core/elementary.h"

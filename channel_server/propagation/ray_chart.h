@@ -6,7 +6,7 @@
 
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 #include "channel_server/propagation/link_chart.h"
 
 namespace halocline::channel_server {

@@ -58,16 +58,16 @@ Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const 
 
 acoustics::Eigenrays RayPropagation::eigenrays(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   const Task task = searches_.for_itself(at, from, to);
-  const LinkSearches::Paths found_paths = searches_.find(task);
-  if (!found_paths) return {};
-  acoustics::Eigenrays all = found_paths->eigenrays;
+  const LinkSearches::Paths found = searches_.find(task);
+  if (!found) return {};
+  acoustics::Eigenrays all = found->eigenrays;
   if (task.reversed) {
     for (acoustics::Eigenray& path : all.paths) path = backwards(path);
   }
   const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
   std::erase_if(all.paths,
                 [&](const acoustics::Eigenray& path) { return !(weighted_pressure(path, beams) > 0); });
-  if (all.silent() && !found_paths->eigenrays.silent()) all.lack = acoustics::PathLack::kTooWeak;
+  if (all.silent() && !found->eigenrays.silent()) all.lack = acoustics::PathLack::kTooWeak;
   return all;
 }
 
@@ -151,7 +151,7 @@ Reception RayPropagation::straight_instead(SimTime at, const EndPair& ends, Prop
   return reception;
 }
 
-Reception RayPropagation::answer(const Task& task, const FoundPaths& found,
+Reception RayPropagation::answer(const Task& task, const SearchResult& found,
                                  acoustics::Capacity capacity) const {
   Reception reception;
   reception.used = found.beyond_terrain ? PropagationUsed::kRaysBeyondTerrain : PropagationUsed::kRays;
@@ -171,7 +171,7 @@ Reception RayPropagation::answer(const Task& task, const FoundPaths& found,
   return reception;
 }
 
-PathState RayPropagation::state_without_path(const FoundPaths& found) {
+PathState RayPropagation::state_without_path(const SearchResult& found) {
   using acoustics::PathLack;
   if (!found.eigenrays.silent()) return PathState::kTooWeak;  // absorbed beyond the range of a double
   if (found.eigenrays.lack == PathLack::kTooWeak) return PathState::kTooWeak;
@@ -180,7 +180,7 @@ PathState RayPropagation::state_without_path(const FoundPaths& found) {
 }
 
 std::optional<acoustics::Eigenrays> RayPropagation::eigenrays_at(const Task& task,
-                                                                 const FoundPaths& found) const {
+                                                                 const SearchResult& found) const {
   const acoustics::RayLink &searched = task.query.link, &link = task.link;
   const bool itself = searched.range_m == link.range_m && searched.source_depth_m == link.source_depth_m &&
                       searched.receiver_depth_m == link.receiver_depth_m;
@@ -201,13 +201,13 @@ std::vector<Arrival> RayPropagation::arrivals(const Task& task, const acoustics:
 
 LinkChart RayPropagation::chart(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   const Task task = searches_.for_itself(at, from, to);
-  const LinkSearches::Paths found_paths = searches_.find(task);
-  if (!found_paths) return Propagation::chart(at, from, to);
+  const LinkSearches::Paths found = searches_.find(task);
+  if (!found) return Propagation::chart(at, from, to);
   const acoustics::BottomProfile bottom =
       bottom_under(*searches_.seabed_of(task.query), task.link, task.environment->sea_surface_z_m);
   const acoustics::RaySurface surface{model_.surface, task.environment->noise.wind_mps};
   std::vector<LinkChart::Row> rows;
-  for (const Arrival& arrival : arrivals(task, found_paths->eigenrays)) {
+  for (const Arrival& arrival : arrivals(task, found->eigenrays)) {
     const Decibels kept = kept_at_surface(boundaries_, *task.environment, task.query.frequency_hz, arrival);
     rows.push_back({.arrival = arrival, .surface_db = arrival.surface_loss_db - kept.value});
   }
@@ -216,7 +216,7 @@ LinkChart RayPropagation::chart(SimTime at, const LinkEnd& from, const LinkEnd& 
   LinkChart chart = chart_of({water.water, bottom, model_.bottom, surface, model_.options,
                               /*core_speed_mps=*/0, water.section.get()},
                              task.link, task.reversed, std::move(rows), *from.modem, *to.modem);
-  chart.weigh(answer(task, *found_paths, acoustics::Capacity::kLeftOut).paths, *to.modem);
+  chart.weigh(answer(task, *found, acoustics::Capacity::kLeftOut).paths, *to.modem);
   return chart;
 }
 

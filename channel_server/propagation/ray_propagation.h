@@ -141,10 +141,10 @@ class RayPropagation : public Propagation {
   Reception along_rays(SimTime at, const Task& task, acoustics::Capacity capacity);
   Reception straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,
                              acoustics::Capacity capacity = acoustics::Capacity::kComputed);
-  Reception answer(const Task& task, const FoundPaths& found, acoustics::Capacity capacity) const;
-  static PathState state_without_path(const FoundPaths& found);
+  Reception answer(const Task& task, const SearchResult& found, acoustics::Capacity capacity) const;
+  static PathState state_without_path(const SearchResult& found);
   // Returns the eigenrays extrapolated to the ends of the task; empty when they were found at these ends.
-  std::optional<acoustics::Eigenrays> eigenrays_at(const Task& task, const FoundPaths& found) const;
+  std::optional<acoustics::Eigenrays> eigenrays_at(const Task& task, const SearchResult& found) const;
   std::vector<Arrival> arrivals(const Task& task, const acoustics::Eigenrays& eigenrays) const;
   Decibels received_level(const Task& task, const acoustics::Eigenrays& eigenrays,
                           const std::vector<Arrival>& paths) const;

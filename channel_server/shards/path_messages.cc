@@ -75,7 +75,7 @@ acoustics::Eigenray to_eigenray(const eigenray_t& m) {
 }  // namespace
 
 std::optional<link_search_t> to_message(std::int64_t sea_hash, const PathQuery& query,
-                                        const FoundPaths& found) {
+                                        const SearchResult& found) {
   const auto& paths = found.eigenrays.paths;
   if (paths.size() > kMaxEigenrays || !std::all_of(paths.begin(), paths.end(), fits)) return std::nullopt;
   link_search_t message;
@@ -105,8 +105,8 @@ PathQuery to_query(const link_search_t& message) {
   return query;
 }
 
-FoundPaths to_found(const link_search_t& message) {
-  FoundPaths found;
+SearchResult to_result(const link_search_t& message) {
+  SearchResult found;
   found.mean_depth_m = message.mean_depth_m;
   found.blocked = message.is_blocked != 0;
   found.beyond_terrain = message.is_beyond_terrain != 0;

@@ -8,8 +8,8 @@
 
 #include "acoustics/math/fold_field.h"
 #include "acoustics/math/hermite_cubic.h"
-#include "acoustics/rays/profile_path.h"
 #include "acoustics/rays/profile_rays.h"
+#include "acoustics/rays/traced_eigenray.h"
 #include "core/check.h"
 #include "core/elementary.h"
 
@@ -57,14 +57,13 @@ RangeFan::RangeFan(std::vector<double> ranges_m) : ranges_m_(std::move(ranges_m)
 
 RangeFan::Traced RangeFan::traced(const ArcTracer& tracer, double theta) const {
   Traced traced{theta, {}, {}};
-  tracer.trace_past(
-      theta, ranges_m_, [&](std::size_t at, const TracedRay& ray, const TracedDetails& details) {
-        const double cosine = std::sqrt(1 - ray.sine * ray.sine);
-        const double orientation = (ray.surface_bounces + ray.bottom_bounces) % 2 == 0 ? 1 : -1;
-        traced.places.push_back({ray.zeta, orientation, ray.zeta - orientation * ray.z, Before::kNone});
-        traced.rays.push_back({ray.zeta_slope, orientation * ray.sine * ray.xi / cosine,
-                               eigenray_of(tracer, ray, details, {ranges_m_[at], ray.zeta, cosine})});
-      });
+  tracer.trace_past(theta, ranges_m_, [&](std::size_t at, const RayTrace& ray, const TraceDetails& details) {
+    const double cosine = std::sqrt(1 - ray.sine * ray.sine);
+    const double orientation = (ray.surface_bounces + ray.bottom_bounces) % 2 == 0 ? 1 : -1;
+    traced.places.push_back({ray.zeta, orientation, ray.zeta - orientation * ray.z, Before::kNone});
+    traced.rays.push_back({ray.zeta_slope, orientation * ray.sine * ray.xi / cosine,
+                           eigenray_of(tracer, ray, details, {ranges_m_[at], ray.zeta, cosine})});
+  });
   return traced;
 }
 

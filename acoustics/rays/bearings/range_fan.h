@@ -22,7 +22,7 @@
 #include "acoustics/math/fold_field.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 
 namespace halocline::acoustics {
 

@@ -13,7 +13,7 @@
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/eigenray_search.h"
 #include "acoustics/rays/profile_rays.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
 #include "acoustics/sea/sound_speed_profile.h"
@@ -153,8 +153,8 @@ TEST_P(ProfileCompleteness, NoRayOfADenseFanIsMissingOverTheBottom) {
     }
     for (const FanResult& ray : straight_fan(GetParam().profile, link, 20'000, most)) {
       // Rays too faint for the solver are no loss: trace again for the bounces' factor.
-      TracedRay traced;
-      TracedDetails details;
+      RayTrace traced;
+      TraceDetails details;
       const ProfiledSea profiled{sea.water, sea.bottom_profile, sea.bottom, sea.surface, sea.options};
       ArcTracer(profiled, link).trace(ray.theta, traced, &details);
       // Where a bent facet would throw a grazing ray into itself the solver lets the facet's own slope
@@ -258,7 +258,7 @@ TEST(ProfileRays, AnArcThatBendsDownOverACrestMeetsItsFarSide) {
   const RaySea sea = sea_of({{0, 1600}, {300, 1300}}, BottomProfile({{0, 200}, {500, 100}, {1500, 130}}));
   const ProfiledSea profiled{sea.water, sea.bottom_profile, sea.bottom, sea.surface, sea.options};
   const double theta = -std::atan(500 / (1600.0 - 182));
-  TracedRay ray;
+  RayTrace ray;
   ArcTracer(profiled, {182, 50, 600}).trace(theta, ray);
   EXPECT_TRUE(ray.arrived);
   EXPECT_EQ(ray.bottom_bounces, 0);

@@ -222,7 +222,7 @@ TEST(PathMessages, PathsComeBackToTheLastBit) {
   query.places = {1.1, -2.2, 3.3, 1e3 / 7};
   query.link = {10.1, 20.2, 1000.3};
   query.diffuse_below_pressure = 1e-7 / 3;
-  FoundPaths found;
+  SearchResult found;
   found.mean_depth_m = 100.0 / 3;
   found.blocked = true;
   found.eigenrays = {
@@ -233,7 +233,7 @@ TEST(PathMessages, PathsComeBackToTheLastBit) {
   ASSERT_EQ(bus::decode(std::span<const std::uint8_t>(bus::encoded(*message)), decoded), "");
   const PathQuery query_again = to_query(decoded);
   EXPECT_EQ(query_again.key(), query.key());
-  const FoundPaths again = to_found(decoded);
+  const SearchResult again = to_result(decoded);
   EXPECT_EQ(again.mean_depth_m, found.mean_depth_m);
   EXPECT_EQ(again.blocked, found.blocked);
   EXPECT_EQ(again.eigenrays.solver, found.eigenrays.solver);
@@ -246,7 +246,7 @@ TEST(PathMessages, PathsComeBackToTheLastBit) {
 TEST(PathMessages, WhatTheMessageCannotHoldIsNotTold) {
   PathQuery query;
   query.frequency_hz = 25'000;
-  FoundPaths found;
+  SearchResult found;
   found.eigenrays.paths.assign(401, some_path(0.7));
   EXPECT_FALSE(to_message(42, query, found));
   found.eigenrays.paths = {some_path(0.7)};

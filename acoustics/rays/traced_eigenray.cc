@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/profile_path.h"
+#include "acoustics/rays/traced_eigenray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,8 +83,8 @@ std::optional<std::vector<RayPoint>> scaled_way(const ProfiledSea& sea, const Ra
   far.range_m *= kLonger;
   if (!sea.profile.is_flat_until(far.range_m)) return std::nullopt;
   std::vector<RayPoint> way{{0, link.source_depth_m}};
-  TracedRay ray;
-  TracedDetails details;
+  RayTrace ray;
+  TraceDetails details;
   details.track = &way;
   ArcTracer(sea, far).trace(path.launch_angle_rad, ray, &details);
   const bool comes_down = path.arrival_angle_rad > 0;
@@ -111,18 +111,18 @@ std::optional<std::vector<RayPoint>> scaled_way(const ProfiledSea& sea, const Ra
   return way;
 }
 
-bool is_kept(const ArcTracer& tracer, const TracedRay& ray) {
+bool is_kept(const ArcTracer& tracer, const RayTrace& ray) {
   const RayOptions& options = tracer.sea().options;
   return ray.arrived && ray.factor >= options.min_boundary_factor &&
          ray.surface_bounces + ray.bottom_bounces <= options.max_bounces;
 }
 
-double cosine_of(const TracedRay& ray) { return std::sqrt(1 - ray.sine * ray.sine); }
+double cosine_of(const RayTrace& ray) { return std::sqrt(1 - ray.sine * ray.sine); }
 
 }  // namespace
 
-Eigenray eigenray_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDetails& details,
-                     const ArrivalPlace& place) {
+Eigenray eigenray_of(const ArcTracer& tracer, const RayTrace& ray, const TraceDetails& details,
+                     const TubeEnd& end) {
   // A^2 = c_r cos_s / (c_s r |q|) (Jensen and others 2011, section 3.3).
   const double speed = cosine_of(ray) / ray.xi;
   Eigenray path;
@@ -130,14 +130,14 @@ Eigenray eigenray_of(const ArcTracer& tracer, const TracedRay& ray, const Traced
   // the difference:
   //   tau = tau_ray + sin / c (target - zeta), with its sign reversed on an odd number of bounces
   const double down = (ray.surface_bounces + ray.bottom_bounces) % 2 == 0 ? 1 : -1;
-  path.delay_s = details.delay_s + ray.sine / speed * down * (place.target_m - ray.zeta);
+  path.delay_s = details.delay_s + ray.sine / speed * down * (end.target_m - ray.zeta);
   path.amplitude = ray.factor * std::sqrt(speed * elementary::cos(ray.theta) /
-                                          (tracer.source_speed_mps() * place.range_m * place.tube_m));
+                                          (tracer.source_speed_mps() * end.range_m * end.tube_m));
   path.phase_rad =
       positive_angle(pi * (ray.surface_bounces % 2) + details.bottom_phase_rad + ray.caustics * pi / 2);
   path.launch_angle_rad = ray.theta;
   path.launch_slowness_spm = elementary::cos(ray.theta) / tracer.source_speed_mps();
-  path.range_slowness_spm = details.slowness_over_range / place.range_m;
+  path.range_slowness_spm = details.slowness_over_range / end.range_m;
   path.arrival_angle_rad = elementary::asin(ray.sine);
   path.path_length_m = details.length_m;
   path.absorption_db = details.absorption_db;
@@ -153,12 +153,12 @@ Eigenray eigenray_of(const ArcTracer& tracer, const TracedRay& ray, const Traced
   return path;
 }
 
-std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, double target) {
-  TracedRay ray;
-  TracedDetails details;
+std::optional<ImageHit> image_hit(const ArcTracer& tracer, double theta, double target) {
+  RayTrace ray;
+  TraceDetails details;
   tracer.trace(theta, ray, &details);
   if (!is_kept(tracer, ray) || std::abs(ray.zeta - target) > kFarOff) return std::nullopt;
-  return ProfilePath{
+  return ImageHit{
       eigenray_of(tracer, ray, details, {tracer.range_m(), target, std::max(std::abs(ray.q), kMinTube)}),
       target, ray.zeta_slope, ray.family};
 }
@@ -169,8 +169,8 @@ PathIdentity diffuse_identity(double theta, std::size_t window) {
 }
 
 std::optional<DiffuseRay> diffuse_ray(const ArcTracer& tracer, double theta, std::size_t window) {
-  TracedRay ray;
-  TracedDetails details;
+  RayTrace ray;
+  TraceDetails details;
   tracer.trace(theta, ray, &details);
   if (!ray.arrived) return std::nullopt;
   Eigenray path = eigenray_of(tracer, ray, details, {tracer.range_m(), ray.zeta, 1});
@@ -192,7 +192,7 @@ void ProfileFolds::note(double theta) {
   if (!before_.arrived) return;
   tracer_.trace(theta + kFoldStep, after_);
   if (!after_.arrived || before_.family != after_.family) return;
-  const auto slowness = [](const TracedRay& one) { return one.sine * one.xi / cosine_of(one); };
+  const auto slowness = [](const RayTrace& one) { return one.sine * one.xi / cosine_of(one); };
   // The fold in the coordinate u = unfolded depth, with the slowness p = sin / c.
   const Fold fold{(after_.zeta_slope - before_.zeta_slope) / (2 * kFoldStep),
                   (slowness(after_) - slowness(before_)) / (2 * kFoldStep)};
@@ -206,8 +206,8 @@ void ProfileFolds::note(double theta) {
     const double target = image + std::round((turn - image) / period) * period, off = target - turn;
     const double x = off / std::copysign(fold.length_m(frequency), fold.curvature);
     if (x < kDarkFold || x > kLitFold) continue;
-    TracedRay ray;
-    TracedDetails details;
+    RayTrace ray;
+    TraceDetails details;
     tracer_.trace(theta, ray, &details);
     if (!is_kept(tracer_, ray) || ray.family != before_.family) continue;
     ray.caustics = std::min(before_.caustics, after_.caustics);
@@ -220,10 +220,10 @@ void ProfileFolds::note(double theta) {
 
 // Pairs the rays of each fold with it. Delays and tubes of rays over a bent bottom do not agree closely
 // enough to derive the place of a fold from them.
-std::vector<Eigenray> ProfileFolds::finished(const std::vector<ProfilePath>& paths) const {
+std::vector<Eigenray> ProfileFolds::finished(const std::vector<ImageHit>& paths) const {
   std::vector<Eigenray> eigenrays;
   eigenrays.reserve(paths.size() + found_.size());
-  for (const ProfilePath& path : paths) eigenrays.push_back(path.eigenray);
+  for (const ImageHit& path : paths) eigenrays.push_back(path.eigenray);
   std::vector<FoldMember> members(paths.size());
   std::uint64_t family = kNoFamily;
   for (const Found& found : found_) {
@@ -315,8 +315,8 @@ std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, cons
   const RayLink held = held_apart(link);
   const ArcTracer tracer(open, held);
   std::vector<RayPoint> way{{0, tracer.source_depth_m()}};
-  TracedRay ray;
-  TracedDetails details;
+  RayTrace ray;
+  TraceDetails details;
   details.track = &way;
   tracer.trace(path.launch_angle_rad, ray, &details);
   // On the shadow side of a fold the path is that of the fold, which does not pass through the receiver.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/layered_path.h"
+#include "acoustics/rays/layered_eigenray.h"
 
 #include <algorithm>
 #include <cmath>

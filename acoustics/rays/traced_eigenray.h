@@ -16,7 +16,7 @@
 #include "acoustics/math/fold_field.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 
 namespace halocline::acoustics {
 
@@ -54,24 +54,24 @@ class ImageSources {
   double z_, period_;
 };
 
-// An eigenray, with what identifies it when it is searched again.
-struct ProfilePath {
+// A traced ray that passes an image of the receiver: its eigenray, and how the search finds it again.
+struct ImageHit {
   Eigenray eigenray;
   double target;             // image of the receiver, m of unfolded depth
   double zeta_slope = 0;     // d zeta / d theta of the ray, m/rad
   std::uint64_t family = 0;  // eigenray family of the ray
 };
-// The place at which a ray arrives: the horizontal range, the image of the receiver in unfolded depth, and
-// the width |q| of the ray tube there per radian of launch angle, all in metres.
-struct ArrivalPlace {
+// The end of a ray tube: the horizontal range, the image of the receiver in unfolded depth, and the width |q|
+// of the tube there per radian of launch angle, all in metres.
+struct TubeEnd {
   double range_m, target_m, tube_m;
 };
 // The eigenray of a traced ray, with the amplitude A of the ray tube: A^2 = c_r cos_s / (c_s r |q|).
-Eigenray eigenray_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDetails& details,
-                     const ArrivalPlace& place);
+Eigenray eigenray_of(const ArcTracer& tracer, const RayTrace& ray, const TraceDetails& details,
+                     const TubeEnd& end);
 // The path of the ray launched at `theta`, which passes the image `target` of the receiver within a few
 // millimetres of unfolded depth; empty when the options exclude it.
-std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, double target);
+std::optional<ImageHit> image_hit(const ArcTracer& tracer, double theta, double target);
 
 // Identity of the diffuse path of a window of launch angles around `theta`, the one numbered `window` in
 // its link. No eigenray has such an identity.
@@ -98,7 +98,7 @@ class ProfileFolds {
   void note(double theta);
   // Returns all eigenrays, after finish() of eigenray.h. A receiver on the shadow side of a fold or close to
   // it gets a single path; one further on the illuminated side gets two, with the fold's field.
-  std::vector<Eigenray> finished(const std::vector<ProfilePath>& paths) const;
+  std::vector<Eigenray> finished(const std::vector<ImageHit>& paths) const;
 
  private:
   struct Found {
@@ -108,7 +108,7 @@ class ProfileFolds {
   };
 
   const ArcTracer& tracer_;
-  TracedRay before_, after_;  // scratch buffers
+  RayTrace before_, after_;  // scratch buffers
   std::vector<Found> found_;
 };
 

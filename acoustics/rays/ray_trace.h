@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Types common to the ray tracers and the eigenray searches: one traced ray, the sea it travels through, and
-// the losses of its bounces.
+// Types common to the ray tracers and the eigenray searches: the state of one ray while it
+// is traced, the sea it travels through, and the losses of its bounces.
 //
 // Thread rule: values; threads may call at the same time.
 #pragma once
@@ -39,7 +39,8 @@ struct EventCode {
   bool operator==(const EventCode&) const = default;
 };
 
-struct TracedRay {
+// State of the tracer of one ray.
+struct RayTrace {
   double theta = 0;                // launch angle, rad, positive down
   bool arrived = false;            // false: too faint, turned back, or too many bounces
   double zeta = 0;                 // unfolded depth at the receiver's range, m
@@ -63,7 +64,7 @@ struct RayPoint {
 };
 
 // Sums along a ray that only an eigenray needs.
-struct TracedDetails {
+struct TraceDetails {
   double delay_s = 0, length_m = 0, absorption_db = 0, bottom_phase_rad = 0, bottom_loss_db = 0,
          surface_loss_db = 0, surface_sine_squares = 0, bottom_sine_squares = 0;
   double slowness_over_range = 0;  // sum of xi dr, s
@@ -93,9 +94,9 @@ class BounceLosses {
   // Records a bounce with the given sine of the grazing angle. Returns false when the ray stops there: it has
   // bounced too often, or its bounces leave less than a quarter of the least boundary factor. With `details`,
   // losses are exact.
-  [[nodiscard]] bool at_surface(double sine, TracedRay& ray, TracedDetails* details) const;
-  [[nodiscard]] bool at_bottom(const Facet& facet, double sine, double speed_mps, TracedRay& ray,
-                               TracedDetails* details) const;
+  [[nodiscard]] bool at_surface(double sine, RayTrace& ray, TraceDetails* details) const;
+  [[nodiscard]] bool at_bottom(const Facet& facet, double sine, double speed_mps, RayTrace& ray,
+                               TraceDetails* details) const;
 
   // True when the options exclude a ray launched at `theta` after `bounces`.
   bool is_excluded(double theta, int bounces) const {
