@@ -38,9 +38,9 @@ LinkEndRequest to_end_request(const link_end_t& message) {
   return end;
 }
 
-ray_path_t to_message(const LinkChart::Row& row) {
+arrival_t to_message(const LinkChart::Row& row) {
   const acoustics::Arrival& arrival = row.arrival;
-  ray_path_t message{};
+  arrival_t message{};
   message.path_delay_s = arrival.delay_s;
   message.path_level_db = arrival.level.value;
   message.phase_rad = arrival.phase_rad;
