@@ -59,7 +59,7 @@ void ArcTracer::add_details(const State& s, double dr, double z, double sine, Tr
   const double chord = std::sqrt(dr * dr + (z - s.z) * (z - s.z));
   const double length = chord * asin_over(s.xi * g * chord / 2);
   details.delay_s += s.xi * dr / mix * atanh_over(s.xi * g * dr / mix);
-  details.length_m += length;
+  details.path_length_m += length;
   details.slowness_over_range += s.xi * dr;
   const double top = sea_.water.depths_m()[s.layer], height = sea_.water.depths_m()[s.layer + 1] - top;
   const LayerAbsorption& layer = sea_.water.absorption()[s.layer];

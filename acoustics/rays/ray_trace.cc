@@ -71,7 +71,7 @@ bool BounceLosses::at_bottom(const Facet& facet, double sine, double speed_mps, 
   } else {
     const Reflection one = bottom_reflection_at_sine(bottom_, std::min(sine, 1.0), speed_mps);
     ray.factor *= one.magnitude;
-    details->bottom_phase_rad += one.phase_rad;
+    details->phase_rad += one.phase_rad;
     details->bottom_loss_db += one.loss_db();
     details->bottom_sine_squares += sine * sine;
   }

@@ -63,10 +63,9 @@ struct RayPoint {
   double range_m, depth_m;
 };
 
-// Sums along a ray that only an eigenray needs.
-struct TraceDetails {
-  double delay_s = 0, length_m = 0, absorption_db = 0, bottom_phase_rad = 0, bottom_loss_db = 0,
-         surface_loss_db = 0, surface_sine_squares = 0, bottom_sine_squares = 0;
+// The eigenray of a ray as far as it is traced: delay, length, absorption, the phase of the bottom, and the
+// losses and squared sines of the bounces.
+struct TraceDetails : Eigenray {
   double slowness_over_range = 0;  // sum of xi dr, s
   // When not null, receives the course of the ray from just after the source to the receiver's range: the
   // ends of all arcs, and points on them that keep the straight line between points within kTrackErrorM of

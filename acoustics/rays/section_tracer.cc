@@ -182,7 +182,7 @@ void SectionTracer::add_details(const State& s, const Step& step, TraceDetails& 
   };
   const auto length = [](const Stage& k, double) { return k.per_c / k.xi; };
   details.delay_s += step.dr * mean([](const Stage& k, double) { return k.per_c * k.per_c / k.xi; });
-  details.length_m += step.dr * mean(length);
+  details.path_length_m += step.dr * mean(length);
   details.slowness_over_range += step.dr * mean([](const Stage& k, double) { return k.xi; });
   details.absorption_db +=
       step.dr * mean([&](const Stage& k, double share) {

@@ -125,26 +125,19 @@ Eigenray eigenray_of(const ArcTracer& tracer, const RayTrace& ray, const TraceDe
                      const TubeEnd& end) {
   // A^2 = c_r cos_s / (c_s r |q|) (Jensen and others 2011, section 3.3).
   const double speed = cosine_of(ray) / ray.xi;
-  Eigenray path;
+  Eigenray path = details;
   // The ray passes close to the receiver but not through it. A wavefront of vertical slowness sin / c covers
   // the difference:
   //   tau = tau_ray + sin / c (target - zeta), with its sign reversed on an odd number of bounces
   const double down = (ray.surface_bounces + ray.bottom_bounces) % 2 == 0 ? 1 : -1;
-  path.delay_s = details.delay_s + ray.sine / speed * down * (end.target_m - ray.zeta);
+  path.delay_s += ray.sine / speed * down * (end.target_m - ray.zeta);
   path.amplitude = ray.factor * std::sqrt(speed * elementary::cos(ray.theta) /
                                           (tracer.source_speed_mps() * end.range_m * end.tube_m));
-  path.phase_rad =
-      positive_angle(pi * (ray.surface_bounces % 2) + details.bottom_phase_rad + ray.caustics * pi / 2);
+  path.phase_rad = positive_angle(pi * (ray.surface_bounces % 2) + details.phase_rad + ray.caustics * pi / 2);
   path.launch_angle_rad = ray.theta;
   path.launch_slowness_spm = elementary::cos(ray.theta) / tracer.source_speed_mps();
   path.range_slowness_spm = details.slowness_over_range / end.range_m;
   path.arrival_angle_rad = elementary::asin(ray.sine);
-  path.path_length_m = details.length_m;
-  path.absorption_db = details.absorption_db;
-  path.surface_loss_db = details.surface_loss_db;
-  path.bottom_loss_db = details.bottom_loss_db;
-  path.surface_sine_squares = details.surface_sine_squares;
-  path.bottom_sine_squares = details.bottom_sine_squares;
   path.surface_bounces = ray.surface_bounces;
   path.bottom_bounces = ray.bottom_bounces;
   path.caustics = ray.caustics;
