@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "acoustics/rays/eigenray.h"
 #include "core/check.h"
 #include "core/random.h"
 

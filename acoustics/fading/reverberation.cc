@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "acoustics/rays/eigenray.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/units.h"

@@ -12,6 +12,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/modem/packet_format.h"
 #include "acoustics/prediction/link_prediction.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
 #include "channel_server/modems/modem_config.h"

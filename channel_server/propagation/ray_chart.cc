@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/rays/traced_eigenray.h"
 #include "acoustics/sea/bottom_profile.h"

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/modem/modem.h"

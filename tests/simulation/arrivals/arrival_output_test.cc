@@ -12,6 +12,7 @@
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/rays/eigenray_search.h"
 #include "core/csv_table.h"
+#include "core/units.h"
 #include "runs/plot/plot.h"
 #include "simulation/arrivals/arrival_plot.h"
 #include "simulation/arrivals/sea_files.h"
