@@ -131,13 +131,23 @@ LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& fr
   return all;
 }
 
-acoustics::Eigenrays eigenrays_of(LinkSurveyor& surveyor, const channel_server::LinkEnd& from,
-                                  const channel_server::LinkEnd& to,
-                                  const channel_server::Reception& reception) {
-  if (reception.measured) return measured_eigenrays(reception, from.modem->source_level);
-  if (is_along_rays(reception.used)) return surveyor.eigenrays(from, to);
+acoustics::PathLack lack_of(channel_server::PathState state) {
+  if (state == channel_server::PathState::kTooWeak) return acoustics::PathLack::kTooWeak;
+  if (state == channel_server::PathState::kTooSteep) return acoustics::PathLack::kTooSteep;
+  return acoustics::PathLack::kShadow;
+}
+
+acoustics::Eigenrays eigenrays_of(const channel_server::Reception& reception,
+                                  const acoustics::Modem& transmitter, const acoustics::Modem& receiver) {
+  if (reception.measured) return measured_eigenrays(reception, transmitter.source_level);
+  if (is_along_rays(reception.used)) {
+    acoustics::Eigenrays eigenrays{reception.solver, {}, lack_of(reception.state)};
+    std::remove_copy_if(reception.paths.begin(), reception.paths.end(), std::back_inserter(eigenrays.paths),
+                        acoustics::is_reverberation);
+    return eigenrays;
+  }
   return reception.paths.empty() ? acoustics::Eigenrays()
-                                 : straight_eigenray(reception, {from.modem->beam, to.modem->beam});
+                                 : straight_eigenray(reception, {transmitter.beam, receiver.beam});
 }
 
 channel_server::Multipath echo_likelihood(const ScenarioConfig& config, const bathymetry::Terrain& terrain,
@@ -246,7 +256,7 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
   answer.reception = std::move(reception);
   answer.forecast = forecast;
   answer.arrivals = link_arrivals(config, from, to, answer.reception,
-                                  eigenrays_of(surveyor, here, there, answer.reception));
+                                  eigenrays_of(answer.reception, transmitter, receiver));
   answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
   answer.multipath = surveyor.along_rays()
                          ? multipath_of(answer.reception, receiver.min_receivable_level)

@@ -30,6 +30,7 @@
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/link_chart.h"
@@ -105,7 +106,8 @@ struct Reception {
   acoustics::LinkBudget budget;
   PathState state = PathState::kOpen;
   PropagationUsed used = PropagationUsed::kStraight;
-  double delay_spread_s = 0;  // from the first significant path to the last
+  acoustics::RaySolver solver = acoustics::RaySolver::kImages;  // of the paths; valid along rays
+  double delay_spread_s = 0;                                    // from the first significant path to the last
   // Level of the diffuse paths, a part of the received level; kSilence without any.
   Decibels diffuse_level = kSilence;
   std::vector<Arrival> paths;  // sorted by delay; empty unless the state is kOpen

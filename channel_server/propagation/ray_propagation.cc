@@ -56,21 +56,6 @@ Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const 
   return answer(task, *searches_.find(task, line), kCapacity);
 }
 
-acoustics::Eigenrays RayPropagation::eigenrays(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  const Task task = searches_.for_itself(at, from, to);
-  const LinkSearches::Paths found = searches_.find(task);
-  if (!found) return {};
-  acoustics::Eigenrays all = found->eigenrays;
-  if (task.reversed) {
-    for (acoustics::Eigenray& path : all.paths) path = backwards(path);
-  }
-  const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
-  std::erase_if(all.paths,
-                [&](const acoustics::Eigenray& path) { return !(weighted_pressure(path, beams) > 0); });
-  if (all.silent() && !found->eigenrays.silent()) all.lack = acoustics::PathLack::kTooWeak;
-  return all;
-}
-
 std::vector<std::optional<Reception>> RayPropagation::packet_receptions(SimTime at,
                                                                         const std::vector<EndPair>& links,
                                                                         const ForEach& for_each) {
@@ -158,6 +143,7 @@ Reception RayPropagation::answer(const Task& task, const SearchResult& found,
   reception.paths_age = task.age;
   const std::optional<acoustics::Eigenrays> elsewhere = eigenrays_at(task, found);
   const acoustics::Eigenrays& eigenrays = elsewhere ? *elsewhere : found.eigenrays;
+  reception.solver = eigenrays.solver;
   reception.paths = with_reverberation(model_.reverberation, {found.mean_depth_m, boundaries_.trapped_share},
                                        arrivals(task, eigenrays));
   reception.delay_spread_s = delay_spread_s(reception.paths);

@@ -116,9 +116,6 @@ class RayPropagation : public Propagation {
   // the link by itself.
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed, SharedLine* line);
-  // Returns the eigenrays behind reception(), one for each of its paths except those of reverberation, in
-  // their order. Amplitudes exclude the beams of the modems.
-  acoustics::Eigenrays eigenrays(SimTime at, const LinkEnd& from, const LinkEnd& to);
   LinkChart chart(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
                           const Vec3& from_ned_m, const Vec3& to_ned_m,

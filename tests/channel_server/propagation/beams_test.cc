@@ -132,7 +132,7 @@ TEST(Beams, ATransmitterThatLooksDownSendsNothingUp) {
 
 // At 1 MHz water takes about 320 dB/km: over 19 km a double still holds the sound (down by some 6100 dB), and
 // no longer where beams take 400 dB more.
-TEST(Beams, ArrivalsAreThoseOfTheReceptionAlsoWhereABeamSilencesThem) {
+TEST(Beams, PathsThatABeamSilencesAreLeftOut) {
   acoustics::Modem plain;
   plain.centre_frequency_hz = 1e6;
   acoustics::Modem insensitive = plain;
@@ -141,17 +141,11 @@ TEST(Beams, ArrivalsAreThoseOfTheReceptionAlsoWhereABeamSilencesThem) {
   const auto seabed = std::make_shared<SeabedMap>(SeabedRule{});
   testing::survey(*seabed, from, to, [](const Vec3&) { return 5000.0; });
   RayPropagation rays(std::make_shared<EnvironmentTimeline>(even_water()), seabed, {});
-  const auto counts = [&](const acoustics::Modem& modem) {
-    const LinkEnd here = end_at(from, modem), there = end_at(to, modem);
-    return std::pair(rays.reception(at_s(0), here, there).paths.size(),
-                     rays.eigenrays(at_s(0), here, there).paths.size());
+  const auto received = [&](const acoustics::Modem& modem) {
+    return rays.reception(at_s(0), end_at(from, modem), end_at(to, modem)).paths.size();
   };
-  const auto [received, stated] = counts(plain);
-  ASSERT_GT(received, 0u);
-  EXPECT_EQ(stated, received);
-  const auto [received_insensitive, stated_insensitive] = counts(insensitive);
-  EXPECT_LT(received_insensitive, received);
-  EXPECT_EQ(stated_insensitive, received_insensitive);
+  ASSERT_GT(received(plain), 0u);
+  EXPECT_LT(received(insensitive), received(plain));
 }
 
 TEST(Beams, TheLevelIsTheSumOfWeighedPathsAndTheBudgetFollows) {
