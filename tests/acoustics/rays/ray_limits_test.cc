@@ -3,6 +3,7 @@
 // bounces.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -167,6 +168,13 @@ TEST(RayLimits, AReceiverUnderTheBottomIsRefusedAtAnyRange) {
   const RaySea sea = sea_of({{0, 1500}}, BottomProfile({{0, 90}, {10, 40}}));
   EXPECT_NO_THROW(eigenrays(sea, {89, 89, 0.01}));
   EXPECT_THROW(eigenrays(sea, {89, 91, 0.01}), InvalidArgument);
+}
+
+TEST(PathIdentity, IsThatOfItsNumber) {
+  const PathIdentity identity{true, 400, 399, 3, 16'383, 127};
+  EXPECT_EQ(PathIdentity::of_number(identity.number()), identity);
+  EXPECT_EQ(PathIdentity::of_number(~std::uint64_t{0}).number(), ~std::uint64_t{0});
+  EXPECT_EQ((PathIdentity{.branch = 17}).number(), 17u);
 }
 
 // ---------------------------------------------------------------------------------------------- bounces
