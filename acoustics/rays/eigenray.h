@@ -62,7 +62,7 @@ struct Eigenray {
   // resolved one by one (acoustics/rays/diffuse_windows.h). The amplitude is the root of their mean total
   // power and the phase has no meaning; the other fields are those of one ray among them.
   bool diffuse = false;
-  PathIdentity identity;
+  PathIdentity identity = {};
 
   // Received pressure relative to that at 1 m, absorption included.
   double received_pressure() const;
