@@ -93,7 +93,7 @@ void print_paths(const LinkOptions& options, const LinkSurveyEnd& from, const Li
     write_plot(arrival_plot({found}, options.from + " to " + options.to), options.plot);
   if (options.impulse_rate_hz > 0) {
     print_impulse_response(std::cout, found, from.modem.modem.centre_frequency_hz, options.impulse_rate_hz);
-    if (found.arrivals.silent()) std::cerr << why_silent(found) << "\n";
+    if (found.eigenrays.silent()) std::cerr << why_silent(found) << "\n";
     return;
   }
   const bool json = options.json || options.format == "json";

@@ -6,9 +6,9 @@
 #include <tuple>
 #include <utility>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 #include "acoustics/link/ray_doppler.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "core/check.h"
 #include "core/elementary.h"
 
@@ -79,7 +79,7 @@ LinkRow LinkRowCache::reused(const Kept& kept, const EndPair& now, SimTime tick,
   row.paths_age = row.paths_age + (tick - kept.made_at);
   if (row.state != PathState::kOpen) return row;
   row.forecast.first_path_delay_s += later_s(kept.first);
-  acoustics::Arrival first;
+  acoustics::Eigenray first;
   first.launch_angle_rad = kept.first.launch_rad;
   first.arrival_angle_rad = kept.first.arrival_rad;
   row.doppler_factor =
@@ -128,12 +128,12 @@ void LinkRowCache::keep(std::size_t index, const EndPair& ends, const Reception&
             {},
             {},
             row};
-  const auto angles_of = [](const SoundPath& path) {
+  const auto angles_of = [](const Arrival& path) {
     return Angles{path.launch_angle_rad, path.arrival_angle_rad};
   };
   const auto strongest =
       std::find_if(reception.paths.begin(), reception.paths.end(),
-                   [&](const SoundPath& path) { return path.delay_s == reception.budget.delay_s; });
+                   [&](const Arrival& path) { return path.delay_s == reception.budget.delay_s; });
   if (strongest != reception.paths.end()) {
     kept.strongest = angles_of(*strongest);
     kept.first = angles_of(reception.paths[first_significant(reception.paths)]);

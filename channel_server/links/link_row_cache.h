@@ -9,8 +9,8 @@
 // principle,
 //   tau = tau_then + (cos a dr - sin a dz_transmitter) / c_transmitter + sin b dz_receiver / c_receiver,
 // with the horizontal range r, depths z and sound speeds c; d marks changes since the row was computed.
-// (acoustics/rays/extrapolate_arrivals.h extrapolates whole paths by the same principle.) Levels and delivery
-// stay as they were: spreading changes by at most 0.2 dB. LinkRow::paths_age grows.
+// (acoustics/rays/extrapolate_eigenrays.h extrapolates whole paths by the same principle.) Levels and
+// delivery stay as they were: spreading changes by at most 0.2 dB. LinkRow::paths_age grows.
 //
 // A row that waits for a search or for the seabed is not stored. The cache depends on all ticks since the
 // start, so threads and shards agree; a server that is restarted computes all rows again. Not thread-safe.

@@ -57,8 +57,8 @@ class ShardExchange : public PathExchange {
   }
   bool is_owner(VehicleId a, VehicleId b) const override { return shard_.owner_of(a, b) == shard_.index; }
   void await(VehicleId a, VehicleId b) override;
-  std::shared_ptr<const FoundPaths> received(const SharedQuery& query) override;
-  void found(const SharedQuery& query, const FoundPaths& paths) override;
+  std::shared_ptr<const SearchResult> received(const SharedQuery& query) override;
+  void found(const SharedQuery& query, const SearchResult& paths) override;
 
   // Sets the terrain, and drops everything received and awaited for another one. With `tells` the other
   // servers learn that there is a terrain to ask for, by a FOUND_PATHS without searches that ends no tick.
@@ -83,7 +83,7 @@ class ShardExchange : public PathExchange {
   // diffuse_below_pressure.
   using Key = std::tuple<std::int64_t, double, ProfileEnds, std::array<double, 3>, double>;
   struct Half {
-    std::map<Key, std::shared_ptr<const FoundPaths>> searches;
+    std::map<Key, std::shared_ptr<const SearchResult>> searches;
     std::size_t paths = 0;
   };
   struct Peer {

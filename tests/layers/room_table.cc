@@ -35,8 +35,8 @@ const std::vector<Room>& rooms() {
        {},
        "rays that places share are made of rays, and no search of one link knows of them"},
       {"acoustics/fading",
-       {"core", "core/files", "acoustics/math", "acoustics/sea"},
-       {"hdf5.h"},  // linked by the module that reads measured channels
+       {"core", "core/files", "acoustics/math", "acoustics/sea", "acoustics/rays"},
+        {"hdf5.h"},  // linked by the module that reads measured channels
        "fading depends on paths and the sea, not on modems"},
       {"acoustics/reception",
        {"core", "acoustics/math", "acoustics/modem", "acoustics/fading"},
@@ -271,8 +271,8 @@ const std::vector<Room>& rooms() {
        {"fmt/"},
        "a report shows what the mission holds and computes nothing of its own"},
       {"simulation/arrivals",
-       {"core", "acoustics/math", "acoustics/sea", "acoustics/modem", "acoustics/rays", "acoustics/link",
-        "runs/plot"},
+       {"core", "acoustics/math", "acoustics/sea", "acoustics/modem", "acoustics/rays", "acoustics/fading",
+        "acoustics/link", "runs/plot"},
        {"nlohmann/"},
        "arrivals are computed from the sea alone"},
       {"halocline/calc",

@@ -32,8 +32,8 @@ LinkEnd end_at(const Vec3& position, const acoustics::Modem& modem, const Vec3& 
   return {0, position, velocity, &modem};
 }
 
-SoundPath path_of(double delay_s, double level_db) {
-  SoundPath path;
+Arrival path_of(double delay_s, double level_db) {
+  Arrival path;
   path.delay_s = delay_s;
   path.level = {level_db};
   return path;
@@ -61,7 +61,7 @@ TEST(StraightPropagation, GivesOnePathWithTheDelayAndLevelOfTheBudget) {
   EXPECT_EQ(reception.used, PropagationUsed::kStraight);
   EXPECT_EQ(reception.delay_spread_s, 0);
   ASSERT_EQ(reception.paths.size(), 1u);
-  const SoundPath& path = reception.paths[0];
+  const Arrival& path = reception.paths[0];
   EXPECT_EQ(path.delay_s, reception.budget.delay_s);
   EXPECT_EQ(path.level, reception.budget.received_level);
   // 500 m across and 500 m down.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Types common to the ray tracers and the eigenray searches: one traced ray, the sea it travels through, and
-// the losses of its bounces.
+// Types common to the ray tracers and the eigenray searches: the state of one ray while it
+// is traced, the sea it travels through, and the losses of its bounces.
 //
 // Thread rule: values; threads may call at the same time.
 #pragma once
@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_section.h"
@@ -39,7 +39,8 @@ struct EventCode {
   bool operator==(const EventCode&) const = default;
 };
 
-struct TracedRay {
+// State of the tracer of one ray.
+struct RayTrace {
   double theta = 0;                // launch angle, rad, positive down
   bool arrived = false;            // false: too faint, turned back, or too many bounces
   double zeta = 0;                 // unfolded depth at the receiver's range, m
@@ -48,7 +49,7 @@ struct TracedRay {
   double q = 0, p = 0;             // the ray tube of acoustics/rays/arc_tracer.h
   double factor = 1;               // pressure factor of all bounces
   int surface_bounces = 0, bottom_bounces = 0, upper_turns = 0, lower_turns = 0, caustics = 0;
-  // the same for rays of the same events that turned in the same layers: arrivals.h
+  // the same for rays of the same events that turned in the same layers: eigenray.h
   std::uint64_t family = 0;
   std::vector<EventCode> events;
 
@@ -62,10 +63,9 @@ struct RayPoint {
   double range_m, depth_m;
 };
 
-// Sums along a ray that only an eigenray needs.
-struct TracedDetails {
-  double delay_s = 0, length_m = 0, absorption_db = 0, bottom_phase_rad = 0, bottom_loss_db = 0,
-         surface_loss_db = 0, surface_sine_squares = 0, bottom_sine_squares = 0;
+// The eigenray of a ray as far as it is traced: delay, length, absorption, the phase of the bottom, and the
+// losses and squared sines of the bounces.
+struct TraceDetails : Eigenray {
   double slowness_over_range = 0;  // sum of xi dr, s
   // When not null, receives the course of the ray from just after the source to the receiver's range: the
   // ends of all arcs, and points on them that keep the straight line between points within kTrackErrorM of
@@ -81,7 +81,7 @@ class SharedRays {
   virtual ~SharedRays() = default;
   // The paths of a link, as profile_rays(). From call to call only the receiver and the options change; what
   // the sea of the first call refers to has to outlive this object.
-  virtual std::vector<Arrival> at(const ProfiledSea& sea, const RayLink& link) = 0;
+  virtual std::vector<Eigenray> at(const ProfiledSea& sea, const RayLink& link) = 0;
 };
 
 // Events, counts, losses and phases of bounces.
@@ -93,9 +93,9 @@ class BounceLosses {
   // Records a bounce with the given sine of the grazing angle. Returns false when the ray stops there: it has
   // bounced too often, or its bounces leave less than a quarter of the least boundary factor. With `details`,
   // losses are exact.
-  [[nodiscard]] bool at_surface(double sine, TracedRay& ray, TracedDetails* details) const;
-  [[nodiscard]] bool at_bottom(const Facet& facet, double sine, double speed_mps, TracedRay& ray,
-                               TracedDetails* details) const;
+  [[nodiscard]] bool at_surface(double sine, RayTrace& ray, TraceDetails* details) const;
+  [[nodiscard]] bool at_bottom(const Facet& facet, double sine, double speed_mps, RayTrace& ray,
+                               TraceDetails* details) const;
 
   // True when the options exclude a ray launched at `theta` after `bounces`.
   bool is_excluded(double theta, int bounces) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/layered_path.h"
+#include "acoustics/rays/layered_eigenray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +59,7 @@ double angle(bool down, double sine, double speed, double xi) {
 }
 
 void set_directions(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray, double xi,
-                    Arrival& path) {
+                    Eigenray& path) {
   // A ray from the upper end leaves downwards unless it begins with U; a ray from the lower end leaves
   // downwards only when it begins with D.
   const bool leaves_down = link.source_is_upper ? !ray.family.up : ray.family.down;
@@ -89,7 +89,7 @@ double surface_loss_of(const LayeredLink& link, const LegSums& sums, const Bound
 // Sets losses, phase and the boundary part of the amplitude. Returns false when the bounces leave less than
 // RayOptions::min_boundary_factor.
 bool set_boundaries(const LayeredLink& link, const LegSums& sums, const Bounces& bounces,
-                    const Touches& touches, Arrival& path) {
+                    const Touches& touches, Eigenray& path) {
   const RayOptions& options = link.sea.options;
   double factor = 1, phase = pi * (bounces.surface % 2);
   if (bounces.bottom > 0) {
@@ -111,7 +111,7 @@ bool set_boundaries(const LayeredLink& link, const LegSums& sums, const Bounces&
 }
 
 void set_spreading(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
-                   const LegSums& sums, const Bounces& bounces, Arrival& path) {
+                   const LegSums& sums, const Bounces& bounces, Eigenray& path) {
   // Conservation of energy in the ray tube (Jensen and others 2011, section 3.3):
   //   A^2 = c_s c_r / ((r / xi) |dr/dxi| sin_s sin_r),  with dr/dtheta = dr/dxi dxi/dtheta
   // Each caustic shifts the phase by pi / 2.
@@ -129,7 +129,7 @@ void set_spreading(const LayeredLink& link, const LayeredLegs& legs, const Layer
 }
 
 void set_lengths(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray, double xi,
-                 Arrival& path) {
+                 Eigenray& path) {
   const LegDetails one_way = legs.details(ray.sine, ray.cosine);
   const std::array<double, 3> times = {2.0 * (ray.cycles + (ray.family.up ? 1 : 0)), 2.0 * ray.cycles + 1,
                                        2.0 * (ray.cycles + (ray.family.down ? 1 : 0))};
@@ -220,12 +220,12 @@ bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldB
   return true;
 }
 
-Passed append_arrival(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
-                      const LegSums& sums, std::vector<Arrival>& paths) {
+Passed append_eigenray(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
+                       const LegSums& sums, std::vector<Eigenray>& paths) {
   const Bounces bounces = bounces_of(legs, ray);
   if (bounces.surface + bounces.bottom > link.sea.options.max_bounces) return {};
   const Touches touches{legs.touch(Leg::kUp, ray.sine), legs.touch(Leg::kDown, ray.sine)};
-  Arrival path;
+  Eigenray path;
   if (!set_boundaries(link, sums, bounces, touches, path)) return {};
   set_spreading(link, legs, ray, sums, bounces, path);
   set_directions(link, legs, ray, sums.xi, path);

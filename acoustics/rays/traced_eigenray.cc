@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/profile_path.h"
+#include "acoustics/rays/traced_eigenray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ Detour greatest_detour(const std::vector<RayPoint>& points, std::size_t first, s
 
 // A course of straight lines from bounce to bounce, all at the same angle: the image sources of a flat sea
 // (acoustics/rays/image_rays.h).
-std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const Arrival& path) {
+std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const Eigenray& path) {
   std::vector<double> depths{link.source_depth_m};
   bool up = path.surface_bounces != path.bottom_bounces ? path.surface_bounces > path.bottom_bounces
                                                         : path.launch_angle_rad < 0;
@@ -77,14 +77,14 @@ std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const A
 // Needed because the wave field of rays that graze a boundary or turn beside a knot changes their range
 // (acoustics/math/turning_field.h). Empty over a bottom that is not level.
 std::optional<std::vector<RayPoint>> scaled_way(const ProfiledSea& sea, const RayLink& link,
-                                                const Arrival& path) {
+                                                const Eigenray& path) {
   constexpr double kLonger = 1.5;
   RayLink far = link;
   far.range_m *= kLonger;
   if (!sea.profile.is_flat_until(far.range_m)) return std::nullopt;
   std::vector<RayPoint> way{{0, link.source_depth_m}};
-  TracedRay ray;
-  TracedDetails details;
+  RayTrace ray;
+  TraceDetails details;
   details.track = &way;
   ArcTracer(sea, far).trace(path.launch_angle_rad, ray, &details);
   const bool comes_down = path.arrival_angle_rad > 0;
@@ -111,40 +111,33 @@ std::optional<std::vector<RayPoint>> scaled_way(const ProfiledSea& sea, const Ra
   return way;
 }
 
-bool is_kept(const ArcTracer& tracer, const TracedRay& ray) {
+bool is_kept(const ArcTracer& tracer, const RayTrace& ray) {
   const RayOptions& options = tracer.sea().options;
   return ray.arrived && ray.factor >= options.min_boundary_factor &&
          ray.surface_bounces + ray.bottom_bounces <= options.max_bounces;
 }
 
-double cosine_of(const TracedRay& ray) { return std::sqrt(1 - ray.sine * ray.sine); }
+double cosine_of(const RayTrace& ray) { return std::sqrt(1 - ray.sine * ray.sine); }
 
 }  // namespace
 
-Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDetails& details,
-                   const ArrivalPlace& place) {
+Eigenray eigenray_of(const ArcTracer& tracer, const RayTrace& ray, const TraceDetails& details,
+                     const TubeEnd& end) {
   // A^2 = c_r cos_s / (c_s r |q|) (Jensen and others 2011, section 3.3).
   const double speed = cosine_of(ray) / ray.xi;
-  Arrival path;
+  Eigenray path = details;
   // The ray passes close to the receiver but not through it. A wavefront of vertical slowness sin / c covers
   // the difference:
   //   tau = tau_ray + sin / c (target - zeta), with its sign reversed on an odd number of bounces
   const double down = (ray.surface_bounces + ray.bottom_bounces) % 2 == 0 ? 1 : -1;
-  path.delay_s = details.delay_s + ray.sine / speed * down * (place.target_m - ray.zeta);
+  path.delay_s += ray.sine / speed * down * (end.target_m - ray.zeta);
   path.amplitude = ray.factor * std::sqrt(speed * elementary::cos(ray.theta) /
-                                          (tracer.source_speed_mps() * place.range_m * place.tube_m));
-  path.phase_rad =
-      positive_angle(pi * (ray.surface_bounces % 2) + details.bottom_phase_rad + ray.caustics * pi / 2);
+                                          (tracer.source_speed_mps() * end.range_m * end.tube_m));
+  path.phase_rad = positive_angle(pi * (ray.surface_bounces % 2) + details.phase_rad + ray.caustics * pi / 2);
   path.launch_angle_rad = ray.theta;
   path.launch_slowness_spm = elementary::cos(ray.theta) / tracer.source_speed_mps();
-  path.range_slowness_spm = details.slowness_over_range / place.range_m;
+  path.range_slowness_spm = details.slowness_over_range / end.range_m;
   path.arrival_angle_rad = elementary::asin(ray.sine);
-  path.path_length_m = details.length_m;
-  path.absorption_db = details.absorption_db;
-  path.surface_loss_db = details.surface_loss_db;
-  path.bottom_loss_db = details.bottom_loss_db;
-  path.surface_sine_squares = details.surface_sine_squares;
-  path.bottom_sine_squares = details.bottom_sine_squares;
   path.surface_bounces = ray.surface_bounces;
   path.bottom_bounces = ray.bottom_bounces;
   path.caustics = ray.caustics;
@@ -153,13 +146,13 @@ Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDe
   return path;
 }
 
-std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, double target) {
-  TracedRay ray;
-  TracedDetails details;
+std::optional<ImageHit> image_hit(const ArcTracer& tracer, double theta, double target) {
+  RayTrace ray;
+  TraceDetails details;
   tracer.trace(theta, ray, &details);
   if (!is_kept(tracer, ray) || std::abs(ray.zeta - target) > kFarOff) return std::nullopt;
-  return ProfilePath{
-      arrival_of(tracer, ray, details, {tracer.range_m(), target, std::max(std::abs(ray.q), kMinTube)}),
+  return ImageHit{
+      eigenray_of(tracer, ray, details, {tracer.range_m(), target, std::max(std::abs(ray.q), kMinTube)}),
       target, ray.zeta_slope, ray.family};
 }
 
@@ -169,11 +162,11 @@ PathIdentity diffuse_identity(double theta, std::size_t window) {
 }
 
 std::optional<DiffuseRay> diffuse_ray(const ArcTracer& tracer, double theta, std::size_t window) {
-  TracedRay ray;
-  TracedDetails details;
+  RayTrace ray;
+  TraceDetails details;
   tracer.trace(theta, ray, &details);
   if (!ray.arrived) return std::nullopt;
-  Arrival path = arrival_of(tracer, ray, details, {tracer.range_m(), ray.zeta, 1});
+  Eigenray path = eigenray_of(tracer, ray, details, {tracer.range_m(), ray.zeta, 1});
   path.phase_rad = 0;
   path.diffuse = true;
   path.identity = diffuse_identity(ray.theta, window);
@@ -192,7 +185,7 @@ void ProfileFolds::note(double theta) {
   if (!before_.arrived) return;
   tracer_.trace(theta + kFoldStep, after_);
   if (!after_.arrived || before_.family != after_.family) return;
-  const auto slowness = [](const TracedRay& one) { return one.sine * one.xi / cosine_of(one); };
+  const auto slowness = [](const RayTrace& one) { return one.sine * one.xi / cosine_of(one); };
   // The fold in the coordinate u = unfolded depth, with the slowness p = sin / c.
   const Fold fold{(after_.zeta_slope - before_.zeta_slope) / (2 * kFoldStep),
                   (slowness(after_) - slowness(before_)) / (2 * kFoldStep)};
@@ -206,13 +199,13 @@ void ProfileFolds::note(double theta) {
     const double target = image + std::round((turn - image) / period) * period, off = target - turn;
     const double x = off / std::copysign(fold.length_m(frequency), fold.curvature);
     if (x < kDarkFold || x > kLitFold) continue;
-    TracedRay ray;
-    TracedDetails details;
+    RayTrace ray;
+    TraceDetails details;
     tracer_.trace(theta, ray, &details);
     if (!is_kept(tracer_, ray) || ray.family != before_.family) continue;
     ray.caustics = std::min(before_.caustics, after_.caustics);
-    Arrival path = arrival_of(tracer_, ray, details,
-                              {tracer_.range_m(), target, cosine_of(ray) * fold.tube_slope(x, frequency)});
+    Eigenray path = eigenray_of(tracer_, ray, details,
+                                {tracer_.range_m(), target, cosine_of(ray) * fold.tube_slope(x, frequency)});
     path.phase_rad = std::fmod(path.phase_rad + pi / 4, 2 * pi);  // half of the caustic's pi / 2
     found_.push_back({path, target, x, std::sqrt(2 * std::abs(off / fold.curvature))});
   }
@@ -220,41 +213,41 @@ void ProfileFolds::note(double theta) {
 
 // Pairs the rays of each fold with it. Delays and tubes of rays over a bent bottom do not agree closely
 // enough to derive the place of a fold from them.
-std::vector<Arrival> ProfileFolds::finished(const std::vector<ProfilePath>& paths) const {
-  std::vector<Arrival> arrivals;
-  arrivals.reserve(paths.size() + found_.size());
-  for (const ProfilePath& path : paths) arrivals.push_back(path.arrival);
+std::vector<Eigenray> ProfileFolds::finished(const std::vector<ImageHit>& paths) const {
+  std::vector<Eigenray> eigenrays;
+  eigenrays.reserve(paths.size() + found_.size());
+  for (const ImageHit& path : paths) eigenrays.push_back(path.eigenray);
   std::vector<FoldMember> members(paths.size());
   std::uint64_t family = kNoFamily;
   for (const Found& found : found_) {
     if (found.x <= 0) {
-      arrivals.push_back(found.path);
+      eigenrays.push_back(found.path);
       continue;
     }
     // The two rays of the same image on both sides of the fold, roughly as far from it as predicted.
     std::optional<std::size_t> below, above;
     for (std::size_t i = 0; i < paths.size(); ++i) {
       if (paths[i].target != found.target || members[i].family != kNoFamily) continue;
-      const double off = arrivals[i].launch_angle_rad - found.path.launch_angle_rad;
+      const double off = eigenrays[i].launch_angle_rad - found.path.launch_angle_rad;
       const double share = std::abs(off) / found.to_rays_rad;
       if (share > kMinFoldShare && share < 1 / kMinFoldShare) (off < 0 ? below : above) = i;
     }
     if (!below || !above) continue;
     const bool is_one = found.x < kMergedFold;
     const auto member = [&](std::size_t i) {
-      return FoldMember{family, arrivals[i].launch_angle_rad, arrivals[i].caustics, 0, found.x};
+      return FoldMember{family, eigenrays[i].launch_angle_rad, eigenrays[i].caustics, 0, found.x};
     };
     ++family;
     members[*below] = member(*below);
     if (is_one) ++family;
     members[*above] = member(*above);
     if (!is_one) continue;
-    arrivals[*below] = found.path;
-    arrivals[*above].amplitude = 0;
+    eigenrays[*below] = found.path;
+    eigenrays[*above].amplitude = 0;
   }
-  members.resize(arrivals.size());
-  finish(arrivals, members, tracer_.sea().options);
-  return arrivals;
+  members.resize(eigenrays.size());
+  finish(eigenrays, members, tracer_.sea().options);
+  return eigenrays;
 }
 
 // The steps grow with the angle: 0.6 degrees near the horizontal, 4 degrees at 60.
@@ -305,7 +298,7 @@ double leave_out_core(const ArcTracer& tracer, std::vector<double>& angles) {
   return edge;
 }
 
-std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, const Arrival& path,
+std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, const Eigenray& path,
                                std::size_t max_points) {
   // The path is traced whatever it loses.
   ProfiledSea open = sea;
@@ -315,8 +308,8 @@ std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, cons
   const RayLink held = held_apart(link);
   const ArcTracer tracer(open, held);
   std::vector<RayPoint> way{{0, tracer.source_depth_m()}};
-  TracedRay ray;
-  TracedDetails details;
+  RayTrace ray;
+  TraceDetails details;
   details.track = &way;
   tracer.trace(path.launch_angle_rad, ray, &details);
   // On the shadow side of a fold the path is that of the fold, which does not pass through the receiver.

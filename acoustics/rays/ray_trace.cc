@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +16,7 @@ constexpr std::size_t kReservedEvents = 48;  // per ray, so that its list of eve
 
 }  // namespace
 
-void TracedRay::begin(double launch_theta) {
+void RayTrace::begin(double launch_theta) {
   theta = launch_theta;
   arrived = false;
   factor = 1;
@@ -45,7 +45,7 @@ double BounceLosses::rough_bottom_factor(double sine) const {
 }
 
 // A pressure release surface, V = -1, with the loss by wind and bubbles.
-bool BounceLosses::at_surface(double sine, TracedRay& ray, TracedDetails* details) const {
+bool BounceLosses::at_surface(double sine, RayTrace& ray, TraceDetails* details) const {
   ray.events.push_back({RayEvent::kSurface, 0});
   ray.family = continued_family(ray.family, 0);
   ++ray.surface_bounces;
@@ -60,8 +60,8 @@ bool BounceLosses::at_surface(double sine, TracedRay& ray, TracedDetails* detail
 }
 
 // Rayleigh's reflection coefficient V (acoustics/sea/boundary_reflection.h).
-bool BounceLosses::at_bottom(const Facet& facet, double sine, double speed_mps, TracedRay& ray,
-                             TracedDetails* details) const {
+bool BounceLosses::at_bottom(const Facet& facet, double sine, double speed_mps, RayTrace& ray,
+                             TraceDetails* details) const {
   ray.events.push_back({RayEvent::kBottom, facet.smooth_group});
   ray.family = continued_family(ray.family, 1 + facet.smooth_group);
   ++ray.bottom_bounces;
@@ -71,7 +71,7 @@ bool BounceLosses::at_bottom(const Facet& facet, double sine, double speed_mps, 
   } else {
     const Reflection one = bottom_reflection_at_sine(bottom_, std::min(sine, 1.0), speed_mps);
     ray.factor *= one.magnitude;
-    details->bottom_phase_rad += one.phase_rad;
+    details->phase_rad += one.phase_rad;
     details->bottom_loss_db += one.loss_db();
     details->bottom_sine_squares += sine * sine;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns one traced ray over a bottom profile into an arrival, gives the launch angles of a search's first
+// Turns one traced ray over a bottom profile into an eigenray, gives the launch angles of a search's first
 // fan, and lays out the course of an eigenray as a polyline for drawings.
 //
 // Equations: acoustics/rays/profile_rays.h.
@@ -15,8 +15,8 @@
 
 #include "acoustics/math/fold_field.h"
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/ray_trace.h"
 
 namespace halocline::acoustics {
 
@@ -54,32 +54,32 @@ class ImageSources {
   double z_, period_;
 };
 
-// An arrival, with what identifies it when it is searched again.
-struct ProfilePath {
-  Arrival arrival;
+// A traced ray that passes an image of the receiver: its eigenray, and how the search finds it again.
+struct ImageHit {
+  Eigenray eigenray;
   double target;             // image of the receiver, m of unfolded depth
   double zeta_slope = 0;     // d zeta / d theta of the ray, m/rad
   std::uint64_t family = 0;  // eigenray family of the ray
 };
-// The place at which a ray arrives: the horizontal range, the image of the receiver in unfolded depth, and
-// the width |q| of the ray tube there per radian of launch angle, all in metres.
-struct ArrivalPlace {
+// The end of a ray tube: the horizontal range, the image of the receiver in unfolded depth, and the width |q|
+// of the tube there per radian of launch angle, all in metres.
+struct TubeEnd {
   double range_m, target_m, tube_m;
 };
-// The arrival of a traced ray, with the amplitude A of the ray tube: A^2 = c_r cos_s / (c_s r |q|).
-Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDetails& details,
-                   const ArrivalPlace& place);
+// The eigenray of a traced ray, with the amplitude A of the ray tube: A^2 = c_r cos_s / (c_s r |q|).
+Eigenray eigenray_of(const ArcTracer& tracer, const RayTrace& ray, const TraceDetails& details,
+                     const TubeEnd& end);
 // The path of the ray launched at `theta`, which passes the image `target` of the receiver within a few
 // millimetres of unfolded depth; empty when the options exclude it.
-std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, double target);
+std::optional<ImageHit> image_hit(const ArcTracer& tracer, double theta, double target);
 
-// Identity of the diffuse arrival of a window of launch angles around `theta`, the one numbered `window` in
+// Identity of the diffuse path of a window of launch angles around `theta`, the one numbered `window` in
 // its link. No eigenray has such an identity.
 PathIdentity diffuse_identity(double theta, std::size_t window);
 // The ray that represents such a window: the ray launched at `theta`, which arrives at any depth at the
-// receiver's range, as an arrival without an amplitude.
+// receiver's range, as an eigenray without an amplitude.
 struct DiffuseRay {
-  Arrival arrival;
+  Eigenray eigenray;
   double xi;  // Snell's invariant at the receiver's range, s/m
 };
 // The ray launched at `theta` that represents a window; empty when it does not arrive.
@@ -96,19 +96,19 @@ class ProfileFolds {
   double length_m(const Fold& fold) const;
   // Notes a fold: unfolded depth turns at the ray launched at `theta`, near an image of the receiver.
   void note(double theta);
-  // Returns all arrivals, after finish() of arrivals.h. A receiver on the shadow side of a fold or close to
+  // Returns all eigenrays, after finish() of eigenray.h. A receiver on the shadow side of a fold or close to
   // it gets a single path; one further on the illuminated side gets two, with the fold's field.
-  std::vector<Arrival> finished(const std::vector<ProfilePath>& paths) const;
+  std::vector<Eigenray> finished(const std::vector<ImageHit>& paths) const;
 
  private:
   struct Found {
-    Arrival path;        // the path of the fold itself
+    Eigenray path;       // the path of the fold itself
     double target, x;    // x of acoustics/math/fold_field.h
     double to_rays_rad;  // launch angle between the fold and either of its two rays, to first order
   };
 
   const ArcTracer& tracer_;
-  TracedRay before_, after_;  // scratch buffers
+  RayTrace before_, after_;  // scratch buffers
   std::vector<Found> found_;
 };
 
@@ -130,7 +130,7 @@ double leave_out_core(const ArcTracer& tracer, std::vector<double>& angles);
 // its launch angle and ends at the receiver. A ray that cannot be traced again (steeper than 89.9 degrees, or
 // along the core of a channel) is drawn by straight lines from bounce to bounce. Points are left out as by
 // simplified().
-std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, const Arrival& path,
+std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, const Eigenray& path,
                                std::size_t max_points);
 
 // Reduces a polyline of rising ranges to at most `max_points` points (2 or more). It keeps the ends, then

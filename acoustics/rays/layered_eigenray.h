@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns one Snell ray of a flat sea, named by its family and its number of cycles, into an arrival.
+// Turns one Snell ray of a flat sea, named by its family and its number of cycles, into an eigenray.
 //
 // Equations: acoustics/rays/layered_rays.h.
 #pragma once
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "acoustics/rays/arcs/layered_legs.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/layered_rays.h"
 
 namespace halocline::acoustics {
@@ -86,8 +86,8 @@ struct Passed {
   int touched = 0;
   double phase_rad = 0;
 };
-// Appends the arrival unless the options exclude it. `sums` are the sums of `ray`.
-Passed append_arrival(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
-                      const LegSums& sums, std::vector<Arrival>& paths);
+// Appends the eigenray unless the options exclude it. `sums` are the sums of `ray`.
+Passed append_eigenray(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
+                       const LegSums& sums, std::vector<Eigenray>& paths);
 
 }  // namespace halocline::acoustics

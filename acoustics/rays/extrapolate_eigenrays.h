@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Extrapolates the arrivals of one link to another whose ends are slightly displaced, to first order; it
+// Extrapolates the eigenrays of one link to another whose ends are slightly displaced, to first order; it
 // takes microseconds per link.
 //
 // Model. The gradient of the travel time is exact (Fermat's principle). The travel time grows by sin / c of
@@ -22,7 +22,7 @@
 
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 
 namespace halocline::acoustics {
 
@@ -31,8 +31,8 @@ struct EndSpeeds {
   double source_mps = 0, receiver_mps = 0;
 };
 
-// Returns the arrivals of `to` in the order of their delays, given the arrivals `found` of the link `from`.
-std::vector<Arrival> extrapolate_arrivals(const std::vector<Arrival>& found, const RayLink& from,
-                                          const EndSpeeds& speeds, const RayLink& to);
+// Returns the eigenrays of `to` in the order of their delays, given the eigenrays `found` of the link `from`.
+std::vector<Eigenray> extrapolate_eigenrays(const std::vector<Eigenray>& found, const RayLink& from,
+                                            const EndSpeeds& speeds, const RayLink& to);
 
 }  // namespace halocline::acoustics

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One path found by rays as the receiver gets it: with both beams, the scattering loss and the fading due to
+// One eigenray as the receiver gets it: with both beams, the scattering loss and the fading due to
 // rough boundaries, and the Doppler shift due to both ends.
 #pragma once
 
 #include <optional>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/path_fading.h"
-#include "acoustics/fading/sound_path.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/propagation.h"
 #include "core/units.h"
@@ -21,16 +21,16 @@ struct RoughBoundaries {
 };
 
 // Returns the same path followed from its other end.
-acoustics::Arrival backwards(acoustics::Arrival path);
+acoustics::Eigenray backwards(acoustics::Eigenray path);
 
-// Returns the path as received; empty when no energy is left. `reversed`: the arrival was found from the
+// Returns the path as received; empty when no energy is left. `reversed`: the eigenray was found from the
 // receiver to the transmitter.
-std::optional<SoundPath> received_path(const RoughBoundaries& boundaries,
-                                       const acoustics::Environment& environment, const EndPair& ends,
-                                       const acoustics::Arrival& arrival, bool reversed);
+std::optional<Arrival> arrival_of(const RoughBoundaries& boundaries,
+                                  const acoustics::Environment& environment, const EndPair& ends,
+                                  const acoustics::Eigenray& eigenray, bool reversed);
 
 // Returns the share of the path's power that scattering at the surface leaves in it, dB, 0 or less.
 Decibels kept_at_surface(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
-                         double frequency_hz, const acoustics::Arrival& arrival);
+                         double frequency_hz, const acoustics::Eigenray& eigenray);
 
 }  // namespace halocline::channel_server

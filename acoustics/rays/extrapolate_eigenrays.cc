@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/extrapolate_arrivals.h"
+#include "acoustics/rays/extrapolate_eigenrays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ double turned(double angle_rad, double length_m, double apart_m, double down_m) 
 
 // The path with another length, when the old or the new length lies within the metre in which sound does not
 // spread.
-Arrival grown_near_source(Arrival path, double length_m) {
+Eigenray grown_near_source(Eigenray path, double length_m) {
   const double before_m = path.path_length_m;
   path.amplitude *= std::max(before_m, kMinDistance) / std::max(length_m, kMinDistance);
   path.absorption_db = before_m > 0 ? path.absorption_db * length_m / before_m : 0;
@@ -31,7 +31,7 @@ Arrival grown_near_source(Arrival path, double length_m) {
   return path;
 }
 
-Arrival extrapolated(Arrival path, const EndSpeeds& speeds, const Displacement& moved) {
+Eigenray extrapolated(Eigenray path, const EndSpeeds& speeds, const Displacement& moved) {
   // Fermat's principle:
   //   d tau = <cos / c> dr + sin(arrival) / c_r dz_r - sin(launch) / c_s dz_s
   const double delay_s = path.delay_s, length_m = path.path_length_m;
@@ -63,15 +63,15 @@ Arrival extrapolated(Arrival path, const EndSpeeds& speeds, const Displacement& 
 
 }  // namespace
 
-std::vector<Arrival> extrapolate_arrivals(const std::vector<Arrival>& found, const RayLink& from,
-                                          const EndSpeeds& speeds, const RayLink& to) {
+std::vector<Eigenray> extrapolate_eigenrays(const std::vector<Eigenray>& found, const RayLink& from,
+                                            const EndSpeeds& speeds, const RayLink& to) {
   const Displacement moved{to.range_m - from.range_m, to.source_depth_m - from.source_depth_m,
                            to.receiver_depth_m - from.receiver_depth_m};
-  std::vector<Arrival> paths;
+  std::vector<Eigenray> paths;
   paths.reserve(found.size());
-  for (const Arrival& path : found) paths.push_back(extrapolated(path, speeds, moved));
+  for (const Eigenray& path : found) paths.push_back(extrapolated(path, speeds, moved));
   std::stable_sort(paths.begin(), paths.end(),
-                   [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
+                   [](const Eigenray& a, const Eigenray& b) { return a.delay_s < b.delay_s; });
   return paths;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrivals extrapolated from one link to another near by, against those that are searched for there.
-#include "acoustics/rays/extrapolate_arrivals.h"
+// Eigenrays extrapolated from one link to another near by, against those that are searched for there.
+#include "acoustics/rays/extrapolate_eigenrays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"
@@ -31,25 +31,25 @@ RaySea sea_of(const std::vector<SpeedRow>& knots, BottomProfile bottom) {
 RaySea even_sea() { return sea_of({{0, 1500}}, BottomProfile::flat(100)); }
 RaySea layered_sea() { return sea_of({{0, 1520}, {50, 1490}, {100, 1492}}, BottomProfile::flat(100)); }
 
-std::vector<Arrival> extrapolate(const RaySea& sea, const RayLink& from, const RayLink& to) {
+std::vector<Eigenray> extrapolate(const RaySea& sea, const RayLink& from, const RayLink& to) {
   const EndSpeeds speeds{sea.water.speed_at(from.source_depth_m), sea.water.speed_at(from.receiver_depth_m)};
-  return extrapolate_arrivals(arrivals(sea, from).paths, from, speeds, to);
+  return extrapolate_eigenrays(eigenrays(sea, from).paths, from, speeds, to);
 }
 
 // The path of `all` that is `path`; null where there is none.
-const Arrival* same_in(const std::vector<Arrival>& all, const Arrival& path) {
+const Eigenray* same_in(const std::vector<Eigenray>& all, const Eigenray& path) {
   const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const Arrival& other) { return other.identity == path.identity; });
+                                  [&](const Eigenray& other) { return other.identity == path.identity; });
   return found == all.end() ? nullptr : &*found;
 }
 
-TEST(ExtrapolateArrivals, IsExactInWaterOfOneSpeedOverALevelBottom) {
+TEST(ExtrapolateEigenrays, IsExactInWaterOfOneSpeedOverALevelBottom) {
   const RaySea sea = even_sea();
   const RayLink from{30, 55, 800}, to{37, 49, 861};
-  const auto searched = arrivals(sea, to).paths, extrapolated = extrapolate(sea, from, to);
+  const auto searched = eigenrays(sea, to).paths, extrapolated = extrapolate(sea, from, to);
   int compared = 0;
-  for (const Arrival& path : extrapolated) {
-    const Arrival* exact = same_in(searched, path);
+  for (const Eigenray& path : extrapolated) {
+    const Eigenray* exact = same_in(searched, path);
     if (exact == nullptr) continue;  // its bounces take a little more or less than the limit
     ++compared;
     EXPECT_NEAR(path.delay_s, exact->delay_s, tolerance(1e-12));
@@ -63,7 +63,7 @@ TEST(ExtrapolateArrivals, IsExactInWaterOfOneSpeedOverALevelBottom) {
   EXPECT_GT(compared, 15);
 }
 
-TEST(ExtrapolateArrivals, TheReverseLinkIsExtrapolatedAlike) {
+TEST(ExtrapolateEigenrays, TheReverseLinkIsExtrapolatedAlike) {
   const RaySea sea = layered_sea();
   const RayLink from{30, 55, 800}, to{33, 52, 830};
   const auto there = extrapolate(sea, from, to),
@@ -87,10 +87,10 @@ double worst_delay_s(const RaySea& sea, double size_m) {
     const RayLink to{from.source_depth_m + 0.1 * size_m * (2 * draw(i, 3) - 1),
                      from.receiver_depth_m + 0.1 * size_m * (2 * draw(i, 4) - 1),
                      from.range_m + size_m * (2 * draw(i, 5) - 1)};
-    const auto searched = arrivals(sea, to).paths;
-    for (const Arrival& path : extrapolate(sea, from, to)) {
+    const auto searched = eigenrays(sea, to).paths;
+    for (const Eigenray& path : extrapolate(sea, from, to)) {
       if (path.caustics > 0 || path.surface_bounces + path.bottom_bounces > 3) continue;
-      if (const Arrival* exact = same_in(searched, path)) {
+      if (const Eigenray* exact = same_in(searched, path)) {
         worst = std::max(worst, std::abs(path.delay_s - exact->delay_s));
       }
     }
@@ -106,23 +106,23 @@ void expect_second_order(const RaySea& sea) {
   EXPECT_GT(std::log2(half / quarter), 1.6);
 }
 
-TEST(ExtrapolateArrivals, DelaysErrByTheSquareOfTheDisplacementInLayeredWater) {
+TEST(ExtrapolateEigenrays, DelaysErrByTheSquareOfTheDisplacementInLayeredWater) {
   expect_second_order(layered_sea());
 }
 
 // The bottom stretches with the range, as the channel server's profiles do: a straight slope of 20 m.
-TEST(ExtrapolateArrivals, DelaysErrByTheSquareOfTheDisplacementOverASlopeThatStretchesAlong) {
+TEST(ExtrapolateEigenrays, DelaysErrByTheSquareOfTheDisplacementOverASlopeThatStretchesAlong) {
   const auto sloping = [](double range_m) {
     return sea_of({{0, 1520}, {50, 1490}, {200, 1492}}, BottomProfile({{0, 120}, {range_m, 100}}, 0));
   };
   const auto worst = [&](double size_m) {
     const RayLink from{30, 60, 900}, to{30 + 0.05 * size_m, 60 - 0.04 * size_m, 900 + size_m};
     const RaySea sea = sloping(from.range_m);
-    const auto searched = arrivals(sloping(to.range_m), to).paths;
+    const auto searched = eigenrays(sloping(to.range_m), to).paths;
     double error = 0;
     int compared = 0;
-    for (const Arrival& path : extrapolate(sea, from, to)) {
-      const Arrival* exact = same_in(searched, path);
+    for (const Eigenray& path : extrapolate(sea, from, to)) {
+      const Eigenray* exact = same_in(searched, path);
       if (exact == nullptr || path.caustics > 0) continue;
       ++compared;
       error = std::max(error, std::abs(path.delay_s - exact->delay_s));
@@ -136,11 +136,11 @@ TEST(ExtrapolateArrivals, DelaysErrByTheSquareOfTheDisplacementOverASlopeThatStr
   EXPECT_GT(std::log2(half / quarter), 1.6);
 }
 
-TEST(ExtrapolateArrivals, PathsAreInTheOrderOfTheirDelays) {
+TEST(ExtrapolateEigenrays, PathsAreInTheOrderOfTheirDelays) {
   const auto paths = extrapolate(layered_sea(), {30, 55, 800}, {31, 58, 700});
   ASSERT_GT(paths.size(), 5u);
   EXPECT_TRUE(std::is_sorted(paths.begin(), paths.end(),
-                             [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; }));
+                             [](const Eigenray& a, const Eigenray& b) { return a.delay_s < b.delay_s; }));
 }
 
 }  // namespace
