@@ -21,7 +21,7 @@ Modem modem() { return {}; }
 Arrival path_at(double delay_s, double level_db) { return {{.delay_s = delay_s}, {level_db}}; }
 
 // Mean power that the window leaves to interfere: the sum of interference shares times P.
-double mean_interference(const std::vector<SoundPath>& paths, const GuardWindow& window) {
+double mean_interference(const std::vector<Arrival>& paths, const GuardWindow& window) {
   double sum = 0;
   for (std::size_t i = 0; i < paths.size(); ++i)
     sum += window.shares[i].interference * to_power_ratio(paths[i].level).value;
