@@ -32,7 +32,6 @@
 #include "channel_server/links/link_query_service.h"
 #include "channel_server/links/link_row_cache.h"
 #include "channel_server/links/link_table.h"
-#include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/packet_publisher.h"
 #include "channel_server/packets/packet_medium.h"
@@ -114,8 +113,6 @@ class ChannelServerNode : public bus::Node {
   PlatformReceiverNoise noise_;  // noise in link tables and in answers to queries
   LinkPredictor predictor_;
   LinkRowCache link_row_cache_;
-  MultipathCache echoes_;
-  RayQueryClient rays_;
   LinkQueryService queries_;
   BestPlaceService places_;
 
