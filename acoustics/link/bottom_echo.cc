@@ -37,9 +37,9 @@ Decibels echo_level(const LinkKernel& model, const Vec3& from_ned_m, const Vec3&
                          model.receiver().beam.loss(angle_down_rad(to_ned_m, bottom_ned_m));
   if (length <= 0) return level;
   // One bounce without loss: TL over the length of both legs, alpha their mean weighted by length.
-  const double mean_absorption = (model.path_loss(from, bottom, down).absorption_db_per_km * down +
-                                  model.path_loss(bottom, to, up).absorption_db_per_km * up) /
-                                 length;
+  const double mean_absorption =
+      (model.absorption_db_per_km(from, bottom) * down + model.absorption_db_per_km(bottom, to) * up) /
+      length;
   return level - transmission_loss(length, model.environment().spreading_exponent, mean_absorption).total;
 }
 

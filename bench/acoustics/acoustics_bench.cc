@@ -60,14 +60,6 @@ void link_model(benchmark::State& state) {
 }
 BENCHMARK(link_model);
 
-void travel_time(benchmark::State& state) {
-  const LinkKernel kernel = default_kernel();
-  int i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(kernel.delay_s({0, 0, 100}, moving_node(++i, 1000)));
-  state.SetItemsProcessed(state.iterations());
-}
-BENCHMARK(travel_time);
-
 // All echoes of a link whose receiver is deaf to them.
 void nine_echoes(benchmark::State& state) {
   Modem deaf;

@@ -138,11 +138,17 @@ void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, No
   answer.row.receiver_age = to.placement.age;
   set_reception(from, to, waiting.reply.at, noise, answer);
   waiting.reply.answers.push_back(answer);
-  if (waiting.wants_paths) waiting.ends.emplace(waiting.reply.answers.size() - 1, std::pair(from, to));
   const bool refused = answer.status != LinkAnswer::Status::kAnswered;
-  if (refused) return;
-  const bool is_noise_ready = noise.are_ready({link_of(from, to)});
-  if (!is_noise_ready || answer.row.multipath == Multipath::kUnknown) wait_for_terrain(from, to, waiting);
+  const bool waits = !refused && !is_ready(waiting.reply.at, link_of(from, to), noise);
+  const std::size_t index = waiting.reply.answers.size() - 1;
+  if (waits) waiting.bottoms.insert(index);
+  if (waits || waiting.wants_paths) waiting.ends.emplace(index, std::pair(from, to));
+}
+
+// Both are asked, so that all missing data are requested together.
+bool LinkQueryService::is_ready(SimTime at, const EndPair& link, NoiseOfLinks& noise) {
+  const bool is_noise_ready = noise.are_ready({link});
+  return propagation_.is_ready(at, link.from, link.to) && is_noise_ready;
 }
 
 // Vehicles are not checked: they rest on the terrain's seabed, which may lie below the smooth one of rays.
@@ -175,21 +181,11 @@ void LinkQueryService::set_reception(const ResolvedEnd& from, const ResolvedEnd&
   row.multipath = multipath_of(reception, receiver.min_receivable_level);
 }
 
-void LinkQueryService::wait_for_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting) {
-  const std::size_t index = waiting.reply.answers.size() - 1;
-  waiting.ends.emplace(index, std::pair(from, to));
-  waiting.bottoms.insert(index);
-  take_bottoms(waiting);
-}
-
 void LinkQueryService::take_bottoms(Waiting& waiting) {
   NoiseOfLinks noise(noise_, waiting.reply.at);
   std::erase_if(waiting.bottoms, [&](std::size_t index) {
     const auto& [from, to] = waiting.ends.at(index);
-    const EndPair link = link_of(from, to);
-    // Asked first, so that all missing data are requested at once.
-    const bool is_noise_ready = noise.are_ready({link});
-    if (!propagation_.is_ready(waiting.reply.at, link.from, link.to) || !is_noise_ready) return false;
+    if (!is_ready(waiting.reply.at, link_of(from, to), noise)) return false;
     set_reception(from, to, waiting.reply.at, noise, waiting.reply.answers[index]);
     return true;
   });

@@ -131,7 +131,7 @@ class LinkQueryService {
   void set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at, NoiseOfLinks& noise,
                      LinkAnswer& answer);
   [[nodiscard]] std::string problem_with_seabed(const ResolvedEnd& end) const;
-  void wait_for_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
+  bool is_ready(SimTime at, const EndPair& link, NoiseOfLinks& noise);
   void take_bottoms(Waiting& waiting);
   void add_details(Waiting& waiting);
 

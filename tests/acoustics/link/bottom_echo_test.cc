@@ -37,7 +37,7 @@ TEST(BottomEcho, LevelMatchesTheImageMethodInUniformWater) {
   sea.profile = SoundSpeedProfile::isovelocity(1500, {10, 35});
   const LinkKernel model = model_with_cut_off(0, sea);
   const double image_m = std::hypot(400, 200);  // the receiver's image lies 100 m under the bottom
-  const double alpha = model.path_loss(20, 120, 100).absorption_db_per_km;
+  const double alpha = model.absorption_db_per_km(20, 120);
   EXPECT_NEAR(echo_level(model, kFrom, kTo, {200, 0, 120}).value,
               160 - transmission_loss(image_m, sea.spreading_exponent, alpha).total.value, tolerance(1e-9));
 }
