@@ -218,6 +218,8 @@ ChannelServerNode::Tables ChannelServerNode::begin_tables(SimTime tick) {
 bool ChannelServerNode::prepare(Tables& tables, SimTime steady) {
   Propagation& propagation = *water_.propagation;
   const SimTime tick = tables.tick;
+  // The seabed under a large fleet comes in hundreds of answers; the links are examined again after the last.
+  if (std::exchange(tables.is_examined, true) && water_.seabed->awaits_tiles()) return false;
   const std::vector<EndPair> links = tables.rows.to_compute();
   // Asked first, so that all missing data are requested at once.
   const bool is_noise_ready = tables_.is_noise_ready(tick, links);

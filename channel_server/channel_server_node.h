@@ -88,6 +88,7 @@ class ChannelServerNode : public bus::Node {
     TableRows rows;
     std::vector<EndPair> links_of_all;  // links of all servers; empty when this server is alone
     const std::vector<EndPair>& all_links() const { return links_of_all.empty() ? rows.links : links_of_all; }
+    bool is_examined = false;  // the missing tiles of the seabed are requested
     bool is_prepared = false;  // this server's eigenray searches are done
   };
   Tables begin_tables(SimTime tick);

@@ -120,6 +120,8 @@ class SeabedMap {
 
   // Returns the tiles requested since the last call, by rising index.
   std::vector<TileSurvey> take_requests();
+  // True while a requested tile has neither been answered nor failed.
+  bool awaits_tiles() const { return !requested_.empty() || !queried_.empty(); }
   void store(const TileSurvey& answered);
   void note_failed(const TileSurvey& survey);
   // Allows the tiles whose queries failed to be requested again when they are needed.
