@@ -21,9 +21,7 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/config/config.h"
 #include "bus/config/scenario.h"
-#include "channel_server/links/echo_plan.h"
 #include "channel_server/links/link_predictor.h"
-#include "channel_server/links/ray_query_client.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"
@@ -123,9 +121,6 @@ struct ServerRules {
   PositionRule position;
   MediumRule medium;
   ReachRule reach;
-  RayQueryRule ray_queries;
-  int bottom_points = 9;  // points on the bottom under each link, for its echoes
-  EchoRule echoes;
   SeabedRule seabed;
   // Size of the lattice of the ends of bottom profiles of link tables, m.
   double profile_reuse_distance_m = 25;

@@ -79,21 +79,16 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       noise_(sounds_),
       predictor_(make_predictor(rules)),
       link_row_cache_(sounds_.differ() ? 0 : rules.row_reuse_distance_m),
-      echoes_(rules.echoes.reuse_distance_m),
-      rays_(rules.ray_queries),
-      queries_(vehicles_, *water_.propagation, predictor_, noise_, echoes_, rays_,
-               {rules.bottom_points, rules.ray_queries.answer_deadline}),
-      places_(vehicles_, *water_.propagation, predictor_, noise_, rules.ray_queries.answer_deadline,
+      queries_(vehicles_, *water_.propagation, predictor_, noise_, RayQueryClient::kAnswerDeadline),
+      places_(vehicles_, *water_.propagation, predictor_, noise_, RayQueryClient::kAnswerDeadline,
               pool_.sharing_out()),
       publisher_(bus()),
       journal_(bus(), publisher_),
       inbox_(bus(), rules.medium.shard, vehicles_.equipment()),
-      seabed_(bus(), {rays_, queries_, echoes_, *water_.seabed, *water_.propagation}, rules.bottom_points,
-              rules.echoes, rules.medium.shard),
-      exchange_(bus(), publisher_, rules.medium.shard, rules.ray_queries.answer_deadline, hash_of(scenario)),
+      seabed_(bus(), *water_.seabed, *water_.propagation),
+      exchange_(bus(), publisher_, rules.medium.shard, RayQueryClient::kAnswerDeadline, hash_of(scenario)),
       packets_(bus(), journal_),
-      tables_(publisher_, bus().log(),
-              {vehicles_, *water_.propagation, predictor_, echoes_, link_row_cache_, noise_},
+      tables_(publisher_, bus().log(), {vehicles_, *water_.propagation, predictor_, link_row_cache_, noise_},
               pool_.sharing_out()),
       processor_(bus(), vehicles_, *water_.waters, *water_.propagation, medium_, packets_),
       scenario_(std::move(scenario)),
@@ -193,7 +188,7 @@ bool ChannelServerNode::run_tick(SimTime tick, SimTime steady) {
   if (!tables.is_prepared && !prepare(tables, steady)) return false;
   if (shares_searches_ && exchange_.must_wait(steady)) return false;
   tables_.publish(tick, tables.present, tables.rows);
-  seabed_.begin_tick(tables.present, tables.all_links());
+  water_.seabed->forget_unused();
   tables_in_work_.reset();
   return true;
 }
@@ -223,6 +218,8 @@ ChannelServerNode::Tables ChannelServerNode::begin_tables(SimTime tick) {
 bool ChannelServerNode::prepare(Tables& tables, SimTime steady) {
   Propagation& propagation = *water_.propagation;
   const SimTime tick = tables.tick;
+  // The seabed under a large fleet comes in hundreds of answers; the links are examined again after the last.
+  if (std::exchange(tables.is_examined, true) && water_.seabed->awaits_tiles()) return false;
   const std::vector<EndPair> links = tables.rows.to_compute();
   // Asked first, so that all missing data are requested at once.
   const bool is_noise_ready = tables_.is_noise_ready(tick, links);
@@ -241,7 +238,6 @@ void ChannelServerNode::advance_medium(SimTime time) {
 }
 
 void ChannelServerNode::publish_environment(SimTime instant) {
-  echoes_.forget_verdicts();
   if (rules_.medium.shard.index == 0 && !recovery_) {
     publisher_.publish(channels::kEnvironment,
                        to_message(water_.propagation->environment(instant), water_.description, instant,

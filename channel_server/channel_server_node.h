@@ -32,7 +32,6 @@
 #include "channel_server/links/link_query_service.h"
 #include "channel_server/links/link_row_cache.h"
 #include "channel_server/links/link_table.h"
-#include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/packet_publisher.h"
 #include "channel_server/packets/packet_medium.h"
@@ -89,6 +88,7 @@ class ChannelServerNode : public bus::Node {
     TableRows rows;
     std::vector<EndPair> links_of_all;  // links of all servers; empty when this server is alone
     const std::vector<EndPair>& all_links() const { return links_of_all.empty() ? rows.links : links_of_all; }
+    bool is_examined = false;  // the missing tiles of the seabed are requested
     bool is_prepared = false;  // this server's eigenray searches are done
   };
   Tables begin_tables(SimTime tick);
@@ -114,8 +114,6 @@ class ChannelServerNode : public bus::Node {
   PlatformReceiverNoise noise_;  // noise in link tables and in answers to queries
   LinkPredictor predictor_;
   LinkRowCache link_row_cache_;
-  MultipathCache echoes_;
-  RayQueryClient rays_;
   LinkQueryService queries_;
   BestPlaceService places_;
 

@@ -14,7 +14,6 @@
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_row_cache.h"
 #include "channel_server/links/link_table.h"
-#include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/receiver_noise.h"
 #include "channel_server/packets/platform_noise.h"
 #include "channel_server/propagation/propagation.h"
@@ -46,7 +45,6 @@ class LinkTablePublisher {
     const VehicleRegistry& vehicles;
     Propagation& propagation;
     LinkPredictor& predictor;
-    MultipathCache& echoes;
     LinkRowCache& kept;
     ReceiverNoise& noise;
   };

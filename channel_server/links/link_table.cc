@@ -11,7 +11,7 @@
 
 namespace halocline::channel_server {
 Multipath multipath_of(const Reception& reception, Decibels cutoff) {
-  if (!is_along_rays(reception.used)) return Multipath::kUnknown;
+  if (!is_along_rays(reception.used)) return reception.bottom_echo;
   const bool echoes = std::any_of(reception.paths.begin(), reception.paths.end(), [&](const Arrival& path) {
     return path.bottom_bounces > 0 && path.level > cutoff;
   });
@@ -73,8 +73,7 @@ std::vector<EndPair> TableRows::to_compute() const {
 
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
-                                   const MultipathFunction& multipath, const ForEach& for_each,
-                                   LinkRowCache* kept, NoiseOfLinks* noise) {
+                                   const ForEach& for_each, LinkRowCache* kept, NoiseOfLinks* noise) {
   std::vector<EndPair> missing = rows.to_compute();
   for (EndPair& link : missing) {
     if (noise != nullptr) noise->set(link);
@@ -116,7 +115,6 @@ std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehi
       }
       row.transmitter_age = from.placement.age;
       row.receiver_age = to.placement.age;
-      if (row.used == PropagationUsed::kStraight) row.multipath = multipath(from, to);
       table.rows.push_back(row);
       ++link;
     }

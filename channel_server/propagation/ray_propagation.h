@@ -49,7 +49,6 @@
 #include "acoustics/fading/reverberation.h"
 #include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_kernel.h"
-#include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/eigenray_search.h"
@@ -117,11 +116,6 @@ class RayPropagation : public Propagation {
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed, SharedLine* line);
   LinkChart chart(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
-  bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
-                          const Vec3& from_ned_m, const Vec3& to_ned_m,
-                          const std::vector<acoustics::BottomPoint>& points) override {
-    return straight_.echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
-  }
   std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
                                                  double deepest_end_m) const override;
   std::optional<FluxOnlyLinks> flux_only_links(SimTime at, double frequency_hz,

@@ -36,10 +36,6 @@ using testing::even_water;
 using testing::for_s;
 using testing::quick_modem;
 
-const MultipathFunction kUnknownMultipath = [](const PlacedVehicle&, const PlacedVehicle&) {
-  return Multipath::kUnknown;
-};
-
 struct Vehicle {
   Vec3 place_ned_m, velocity_ned_mps;
 };
@@ -61,8 +57,8 @@ class Ticks {
     rows_ = table_rows(placed_, {}, shard);
     kept_.reuse(at_s(time_s), sea, propagation_->environment(at_s(time_s)), placed_, rows_);
     std::vector<LinkRow> all;
-    for (const LinkTable& table : link_tables(at_s(time_s), placed_, rows_, *propagation_, predictor_,
-                                              kUnknownMultipath, one_after_the_other, &kept_))
+    for (const LinkTable& table :
+         link_tables(at_s(time_s), placed_, rows_, *propagation_, predictor_, one_after_the_other, &kept_))
       all.insert(all.end(), table.rows.begin(), table.rows.end());
     return all;
   }
