@@ -17,8 +17,8 @@
 #include "bus/runtime/node.h"
 #include "bus/transport/node_identity.h"
 #include "clients/modem_gateway/connections.h"
-#include "clients/modem_gateway/door.h"
 #include "clients/modem_gateway/gateway_config.h"
+#include "clients/modem_gateway/modem_interface.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
@@ -45,8 +45,8 @@ class GatewayNode : public bus::Node {
               const std::string& trace_path = {}, const SoundFieldMaker& make_sound = {});
 
   // Returns the place of the i-th modem interface, with the actual port where its configuration left it open.
-  std::string place_of(std::size_t door) const { return connections_.place_of(door); }
-  const Door& door(std::size_t i) const { return *doors_.at(i); }
+  std::string place_of(std::size_t interface) const { return connections_.place_of(interface); }
+  const ModemInterface& interface(std::size_t i) const { return *interfaces_.at(i); }
   const ConnectionCounters& connection_counters() const { return connections_.counters(); }
 
   int ready_file() const override { return connections_.ready_file(); }
@@ -61,14 +61,14 @@ class GatewayNode : public bus::Node {
   std::string status_text() const override;
 
  private:
-  void add_door(const DoorConfig& door, const SoundFieldMaker& make_sound);
+  void add_interface(const ModemInterfaceConfig& interface, const SoundFieldMaker& make_sound);
   void assign_all_addresses();
   void take_outcome(const packet_outcome_t& outcome);
   void serve_hosts(SimTime steady);
 
   // Bytes for a host, written once the state that they report is committed to disk.
   struct Written {
-    std::size_t door;
+    std::size_t interface;
     ClientId client;
     std::string bytes;
   };
@@ -83,7 +83,7 @@ class GatewayNode : public bus::Node {
   std::vector<Written> written_;
   std::map<std::string, AddressBook> addresses_;  // key: kind of modem
   std::unique_ptr<SoundField> sound_;             // null unless a kind needs waveforms
-  std::vector<std::unique_ptr<Door>> doors_;
+  std::vector<std::unique_ptr<ModemInterface>> interfaces_;
 };
 
 }  // namespace halocline::modem_gateway

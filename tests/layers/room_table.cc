@@ -218,7 +218,7 @@ const std::vector<Room>& rooms() {
        {"core", "bus", "bus/config", "bus/runtime", "clients/modem_gateway",
         "clients/modem_gateway/protocols", "simulation", "simulation/waveform"},
        {},
-       "the program joins doors and, for those that play sound, the water"},
+       "the program joins modem interfaces and, for those that play sound, the water"},
       {"runs/timeline",
        {"core", "bus", "bus/logs/channel_types.h", "bus/logs/foreign_message.h"},
        {"fmt/"},
