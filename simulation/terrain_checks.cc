@@ -34,10 +34,10 @@ std::string rounded(double value) { return format_number(std::round(10 * value) 
 
 // Counts of the examined points of a mission by where they are.
 struct Looks {
-  int in_water = 0, under_ground = 0, in_air = 0, unknown = 0;
-  double shallowest_ground_m = HUGE_VAL;
+  int in_water = 0, below_seabed = 0, in_air = 0, unknown = 0;
+  double shallowest_seabed_m = HUGE_VAL;
 
-  int all() const { return in_water + under_ground + in_air + unknown; }
+  int all() const { return in_water + below_seabed + in_air + unknown; }
 };
 
 class MissionChecks {
@@ -71,15 +71,15 @@ class MissionChecks {
   }
 
   void look(const Vec3& point, bool by_altitude, Looks& looks) const {
-    const DepthSample ground = terrain_.depth_at(point.x(), point.y());
-    if (ground.status != DepthStatus::kOk) {
+    const DepthSample seabed = terrain_.depth_at(point.x(), point.y());
+    if (seabed.status != DepthStatus::kOk) {
       ++looks.unknown;
       return;
     }
-    looks.shallowest_ground_m = std::min(looks.shallowest_ground_m, ground.z_m);
+    looks.shallowest_seabed_m = std::min(looks.shallowest_seabed_m, seabed.z_m);
     const bool in_air = !by_altitude && point.z() < surface_z_m_ - kToSurface_m;
-    const bool under_ground = by_altitude ? ground.z_m < surface_z_m_ : point.z() > ground.z_m;
-    ++(in_air ? looks.in_air : under_ground ? looks.under_ground : looks.in_water);
+    const bool below_seabed = by_altitude ? seabed.z_m < surface_z_m_ : point.z() > seabed.z_m;
+    ++(in_air ? looks.in_air : below_seabed ? looks.below_seabed : looks.in_water);
   }
 
   void check_waypoints(const std::string& key, const std::vector<Vec3>& waypoints, bool by_altitude) {
@@ -91,9 +91,9 @@ class MissionChecks {
         file_.refuse(point_key, "",
                      "that is above the sea surface; allowed is a z, positive down, of " +
                          format_number(surface_z_m_) + " m and more");
-      if (looks.under_ground > 0)
+      if (looks.below_seabed > 0)
         file_.refuse(point_key, "",
-                     "that is under ground, whose z there is " + rounded(looks.shallowest_ground_m) +
+                     "that is below the seabed, whose z there is " + rounded(looks.shallowest_seabed_m) +
                          " m; allowed is a lesser z, or altitude_m of a behaviour");
       if (looks.unknown > 0)
         file_.warn(point_key, "", "the terrain is not known there: it lies " + extent_text(terrain_));
@@ -112,14 +112,14 @@ class MissionChecks {
       file_.refuse(depth_key, depth,
                    "the " + what + " lies above the sea surface; allowed is a z, positive down, of " +
                        format_number(surface_z_m_) + " m and more");
-    if (looks.under_ground > 0 && looks.in_water == 0)
+    if (looks.below_seabed > 0 && looks.in_water == 0)
       file_.refuse(depth_key, depth,
-                   "the whole " + what + " lies under ground, whose least z there is " +
-                       rounded(looks.shallowest_ground_m) + " m; allowed is less, or altitude_m");
-    else if (looks.under_ground > 0)
+                   "the whole " + what + " lies below the seabed, whose least z there is " +
+                       rounded(looks.shallowest_seabed_m) + " m; allowed is less, or altitude_m");
+    else if (looks.below_seabed > 0)
       file_.warn(depth_key, depth,
-                 share(looks.under_ground) + " lies under ground, whose least z there is " +
-                     rounded(looks.shallowest_ground_m) + " m: the vehicle rises over it");
+                 share(looks.below_seabed) + " lies below the seabed, whose least z there is " +
+                     rounded(looks.shallowest_seabed_m) + " m: the vehicle rises over it");
     if (looks.unknown > 0)
       file_.warn(depth_key, depth,
                  share(looks.unknown) + " lies where the terrain is not known: it is known " +

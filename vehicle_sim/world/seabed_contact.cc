@@ -34,8 +34,8 @@ double gap_to(const Sphere& sphere, const SeabedPlane& plane, const Vec3& on_pla
 
 // True when the plane's point nearest to the sphere lies in the water, not on the seabed.
 bool hangs(const Seabed& seabed, const Vec3& nearest) {
-  const auto ground = seabed.plane_at(nearest.x(), nearest.y());
-  return ground && nearest.z() < ground->z_m - kHangingTolerance;
+  const auto plane = seabed.plane_at(nearest.x(), nearest.y());
+  return plane && nearest.z() < plane->z_m - kHangingTolerance;
 }
 
 void keep_least(Candidate& best, const Sphere& sphere, const SeabedPlane& plane, double gap) {
@@ -45,14 +45,14 @@ void keep_least(Candidate& best, const Sphere& sphere, const SeabedPlane& plane,
 
 // True when the seabed below bow, centre and stern is so deep that no slope up to the steepest reaches the
 // hull.
-bool far_from_ground(const HullShape& hull, const Vec3& center, const Vec3& axis, const Seabed& seabed,
-                     double margin) {
+bool is_far_from_seabed(const HullShape& hull, const Vec3& center, const Vec3& axis, const Seabed& seabed,
+                        double margin) {
   const double half = hull.length_m / 2;
   const double clear = hull.diameter_m / 2 + margin + kSteepestSeen * (half / 2 + hull.diameter_m / 2);
   for (const double along : {0.0, half, -half}) {
     const Vec3 point = center + along * axis;
-    const auto ground = seabed.plane_at(point.x(), point.y());
-    if (ground && ground->z_m - point.z() < clear) return false;
+    const auto plane = seabed.plane_at(point.x(), point.y());
+    if (plane && plane->z_m - point.z() < clear) return false;
   }
   return true;
 }
@@ -90,7 +90,7 @@ void find_contacts(const HullShape& hull, const Vec3& position_ned_m, const Quat
                    const Seabed& seabed, double margin_m, std::vector<HullContact>& contacts) {
   contacts.clear();
   const Vec3 axis = orientation * Vec3::UnitX();
-  if (far_from_ground(hull, position_ned_m, axis, seabed, margin_m)) return;
+  if (is_far_from_seabed(hull, position_ned_m, axis, seabed, margin_m)) return;
   const Vec3 sideways = level_and_across(axis);
   std::array<BestOfThirds, 3> best;
   for (int i = 0; i < kSpheres; ++i) {

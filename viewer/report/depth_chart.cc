@@ -101,8 +101,8 @@ class DepthStrip {
     std::string plots;
     if (!seabed.empty() && !range_.is_seabed_cut) {
       track += "$seabed << EOD\n" + seabed + "EOD\n";
-      plots += "$seabed using 1:2 with filledcurves y1=" + format_number(range_.greatest_m) + ink("ground") +
-               " notitle, $seabed using 1:2 with lines lw 1.2" + ink("ground-edge") + " notitle, ";
+      plots += "$seabed using 1:2 with filledcurves y1=" + format_number(range_.greatest_m) + ink("seabed") +
+               " notitle, $seabed using 1:2 with lines lw 1.2" + ink("seabed-edge") + " notitle, ";
     }
     plots += "$track using 1:2 with lines lw 3" + ink(colour_of(vehicle_)) + " notitle";
     if (!commanded.empty()) {

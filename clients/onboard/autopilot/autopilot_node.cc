@@ -37,7 +37,7 @@ AutopilotNode::AutopilotNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Au
 }
 
 void AutopilotNode::add_pilot(const AutopilotConfig& all, const PilotConfig& config) {
-  const SeabedRules rules{config.mission.min_altitude_m, config.ground_ahead_m};
+  const SeabedRules rules{config.mission.min_altitude_m, config.seabed_ahead_m};
   const VehiclePilot vehicle_pilot(make_plan(config.mission, config.behaviours), rules);
   pilots_.push_back(std::make_unique<Pilot>(Pilot{config, {}, {}, false, vehicle_pilot}));
   pilots_.back()->beacons = beacons_of(all, config);
@@ -164,15 +164,15 @@ std::optional<Situation> AutopilotNode::situation_of(Pilot& pilot, SimTime insta
                                         : to_situation(*pilot.state, instant);
   if (has_sensors) {
     situation.water_speed_mps = pilot.sensors->water_speed_mps;
-    look_at_ground(pilot, situation);
+    take_altimeter_look(pilot, situation);
   }
   return situation;
 }
 
 // Adds an altitude measurement to the pilot once, though each is seen at several command instants.
-void AutopilotNode::look_at_ground(Pilot& pilot, const Situation& situation) {
+void AutopilotNode::take_altimeter_look(Pilot& pilot, const Situation& situation) {
   const bool known = pilot.sensors->altitude_status != vehicle_sensors_t::ALTITUDE_UNAVAILABLE;
-  if (known && !pilot.looked) pilot.pilot.look_at_ground(to_look(*pilot.sensors, situation));
+  if (known && !pilot.looked) pilot.pilot.add_altimeter_look(to_look(*pilot.sensors, situation));
   pilot.looked = true;
 }
 

@@ -96,7 +96,7 @@ class AutopilotNode : public bus::Node {
   vehicle_command_t command_for(Pilot& pilot, const SetPoints& points, const Situation& situation) const;
   SetPoints steer(Pilot& pilot, const Situation& situation, SimTime instant);
   void report(Pilot& pilot, const std::optional<SetPoints>& points, SimTime instant);
-  static void look_at_ground(Pilot& pilot, const Situation& situation);
+  static void take_altimeter_look(Pilot& pilot, const Situation& situation);
   void report_progress(const Pilot& pilot, const std::optional<PlanProgress>& before);
 
   SimDuration period_, state_timeout_;

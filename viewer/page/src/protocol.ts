@@ -326,7 +326,7 @@ export interface TerrainTile {
   spacing_m: number;
   rows: number;
   columns: number;
-  /** Row by row from the south, each from the west; NaN is no ground known. */
+  /** Row by row from the south, each from the west; NaN where the seabed is unknown. */
   depth_m: Float32Array;
 }
 
