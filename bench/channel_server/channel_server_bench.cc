@@ -281,7 +281,7 @@ void packets_that_overlap(benchmark::State& state) {
 }
 BENCHMARK(packets_that_overlap)->Arg(3)->Arg(20);
 
-// What a link table costs more when every pair's echoes are judged anew (a modem changed, or a survey came).
+// What a link table costs more when every pair's echoes are judged again (a modem changed, or a survey came).
 void judge_echoes(benchmark::State& state) {
   StraightPropagation propagation(acoustics::Environment{});
   EchoSurvey survey({0, 0, 50}, {900, 0, 60}, 9);

@@ -144,9 +144,9 @@ void Node::write_journal(SimTime now) {
   if (written) {
     bus_.log().info("journal-resumed");
   } else {
-    bus_.log().error(
-        "journal-refused",
-        "reason=\"the disk refused it, or it was deleted or truncated; after a kill the node begins anew\"");
+    bus_.log().error("journal-refused",
+                     "reason=\"the disk refused it, or it was deleted or truncated; after a kill the node "
+                     "starts from the beginning\"");
   }
 }
 

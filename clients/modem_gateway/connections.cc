@@ -60,7 +60,7 @@ std::size_t Connections::add(const Endpoint& place) {
     listener.listening = std::move(line.terminal);
     listener.link = std::move(line.link);
     listener.is_waiting_pty = true;
-    next_look_ = SimTime();
+    next_poll_ = SimTime();
   }
   listeners_.push_back(std::move(listener));
   return listeners_.size() - 1;
@@ -82,7 +82,7 @@ bool Connections::is_ready() const {
 
 std::vector<Connections::Input> Connections::take(SimTime steady) {
   std::vector<Input> inputs;
-  if (steady >= next_look_) look_at_ptys(steady, inputs);
+  if (steady >= next_poll_) poll_ptys(steady, inputs);
   std::array<epoll_event, kMaxEvents> events{};
   const int count = epoll_wait(epoll_.get(), events.data(), kMaxEvents, 0);
   for (int i = 0; i < count; ++i) {
@@ -116,8 +116,8 @@ ClientId Connections::open(std::size_t interface, FileDescriptor connection, std
   return id;
 }
 
-void Connections::look_at_ptys(SimTime steady, std::vector<Input>& inputs) {
-  next_look_ = SimTime::never();
+void Connections::poll_ptys(SimTime steady, std::vector<Input>& inputs) {
+  next_poll_ = SimTime::never();
   for (std::size_t i = 0; i < listeners_.size(); ++i) {
     Listener& listener = listeners_[i];
     if (!listener.is_waiting_pty) continue;
@@ -125,7 +125,7 @@ void Connections::look_at_ptys(SimTime steady, std::vector<Input>& inputs) {
       listener.is_waiting_pty = false;
       open(i, FileDescriptor(), inputs);
     } else {
-      next_look_ = steady + kPtyPeriod;
+      next_poll_ = steady + kPtyPeriod;
     }
   }
 }
@@ -156,7 +156,7 @@ void Connections::close(ClientId id, std::vector<Input>& inputs) {
   watch(EPOLL_CTL_DEL, file_of(found->second), 0, 0);
   if (!listener.place.is_tcp) {
     listener.is_waiting_pty = true;
-    next_look_ = SimTime();
+    next_poll_ = SimTime();
   }
   clients_.erase(found);
   --listener.num_clients;

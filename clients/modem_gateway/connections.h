@@ -72,7 +72,7 @@ class Connections {
   int ready_file() const { return epoll_.get(); }
   bool is_ready() const;
   // Returns the time (steady clock) of the next poll of pseudo-terminals; never() when none waits for a host.
-  SimTime next_look() const { return next_look_; }
+  SimTime next_poll() const { return next_poll_; }
 
   const ConnectionCounters& counters() const { return counters_; }
   std::size_t clients() const { return clients_.size(); }
@@ -96,7 +96,7 @@ class Connections {
   void watch(int operation, int fd, std::uint64_t mark, std::uint32_t events) const;
   void accept_all(std::size_t interface, std::vector<Input>& inputs);
   ClientId open(std::size_t interface, FileDescriptor connection, std::vector<Input>& inputs);
-  void look_at_ptys(SimTime steady, std::vector<Input>& inputs);
+  void poll_ptys(SimTime steady, std::vector<Input>& inputs);
   void serve(ClientId id, std::uint32_t events, std::vector<Input>& inputs);
   void close(ClientId id, std::vector<Input>& inputs);
   bool send_unsent(Client& client);
@@ -108,7 +108,7 @@ class Connections {
   std::vector<Listener> listeners_;
   std::map<ClientId, Client> clients_;
   ClientId last_ = 0;
-  SimTime next_look_ = SimTime::never();
+  SimTime next_poll_ = SimTime::never();
   ConnectionCounters counters_;
 };
 

@@ -14,13 +14,13 @@
 
 namespace halocline::modem_gateway {
 GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const GatewayConfig& config,
-                         SimDuration look_period, const std::string& trace_path,
+                         SimDuration poll_period, const std::string& trace_path,
                          const SoundFieldMaker& make_sound)
     : Node(lcm, std::move(identity)),
       config_(config),
       clocks_(bus(), config.clocks),
-      look_period_(look_period),
-      next_look_(look_period == SimDuration() ? SimTime::never() : SimTime()) {
+      poll_period_(poll_period),
+      next_poll_(poll_period == SimDuration() ? SimTime::never() : SimTime()) {
   if (!trace_path.empty()) trace_ = std::make_unique<TraceLog>(trace_path);
   if (config.rate != 1)
     bus().log().warning("rate", "rate=" + std::to_string(config.rate) + ": hosts keep wall time");
@@ -74,10 +74,10 @@ void GatewayNode::take_outcome(const packet_outcome_t& outcome) {
 }
 
 bus::Due GatewayNode::on_due() const {
-  bus::Due due{.sim = next_look_};
-  const bool watches_files = look_period_ == SimDuration();
+  bus::Due due{.sim = next_poll_};
+  const bool watches_files = poll_period_ == SimDuration();
   if (watches_files) {
-    due.steady = connections_.next_look();
+    due.steady = connections_.next_poll();
     if (connections_.is_ready()) due.sim = SimTime::at_once();
   }
   for (const auto& interface : interfaces_) {
@@ -93,7 +93,7 @@ void GatewayNode::on_step(const bus::Now& now) {
   for (const auto& interface : interfaces_) interface->begin_step(now);
   serve_hosts(now.steady);
   for (const auto& interface : interfaces_) interface->end_step();
-  if (look_period_ > SimDuration() && now.sim >= next_look_) next_look_ = next_on_grid(now.sim, look_period_);
+  if (poll_period_ > SimDuration() && now.sim >= next_poll_) next_poll_ = next_on_grid(now.sim, poll_period_);
 }
 
 void GatewayNode::serve_hosts(SimTime steady) {
@@ -117,7 +117,7 @@ void GatewayNode::on_restart(const bus::Now& now) {
   assign_all_addresses();
   for (const auto& interface : interfaces_) interface->restart();
   clocks_.restart(now.sim);
-  if (look_period_ > SimDuration()) next_look_ = now.sim;
+  if (poll_period_ > SimDuration()) next_poll_ = now.sim;
 }
 
 void GatewayNode::on_archive(Archive& a) {

@@ -3,7 +3,7 @@
 //
 // Each modem interface has a modem of the scenario, a place where hosts connect, and the protocol of its kind
 // (protocols/). One thread serves all of them. In a process of its own the node is stepped when a host has
-// written or the bus has a message. In lockstep it polls its hosts every `look_period` of simulation time,
+// written or the bus has a message. In lockstep it polls its hosts every `poll_period` of simulation time,
 // because there time advances only by steps. Hosts have time-outs in wall time, so runs with modem interfaces
 // are meant for rate 1.
 #pragma once
@@ -35,13 +35,13 @@ class GatewayNode : public bus::Node {
   static constexpr SimDuration kLockstepPeriod = SimDuration::from_milliseconds(5);
 
   // Opens all modem interfaces of `config`.
-  // - `look_period`: kLockstepPeriod in lockstep; 0 when the runner watches ready_file().
+  // - `poll_period`: kLockstepPeriod in lockstep; 0 when the runner watches ready_file().
   // - `trace_path`: file of the trace (trace_log.h); empty for none.
   // - `make_sound`: makes the field of waveforms for the kinds that need one; when it is empty, these are
   //   refused.
   //
   // Throws InvalidArgument for a place that cannot be opened and for an unknown vehicle.
-  GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const GatewayConfig& config, SimDuration look_period,
+  GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const GatewayConfig& config, SimDuration poll_period,
               const std::string& trace_path = {}, const SoundFieldMaker& make_sound = {});
 
   // Returns the place of the i-th modem interface, with the actual port where its configuration left it open.
@@ -75,8 +75,8 @@ class GatewayNode : public bus::Node {
 
   GatewayConfig config_;
   clients::VehicleTime clocks_;
-  SimDuration look_period_;
-  SimTime next_look_;  // next poll of hosts in lockstep, simulation time; never() without a look_period
+  SimDuration poll_period_;
+  SimTime next_poll_;  // next poll of hosts in lockstep, simulation time; never() without a poll_period
   Connections connections_;
   std::unique_ptr<TraceLog> trace_;
   SimTime now_;

@@ -40,7 +40,7 @@ const std::vector<Exemption>& exemptions() {
       {"core/huge_page_vector", "sys/mman.h", "the one place that asks for large pages"},
       {"core/atomic_file", "", "files are replaced as a whole in one place"},
       {"core/files/guarded_reading", "", "the one place that reads in a child process first"},
-      {"core/files/input_file", "", "what a user names is looked at in one place before it is opened"},
+      {"core/files/input_file", "", "what a user names is examined in one place before it is opened"},
       {"core/memory/memory_budget", "", "the one place that asks how much memory there is"},
   };
   return table;

@@ -59,8 +59,8 @@ bool is_far_from_seabed(const HullShape& hull, const Vec3& center, const Vec3& a
 
 // Finds the candidates of one sphere: for the plane below in best[0], for those on the sides, where they
 // differ from it, in best[1] and best[2].
-void look_round(const Sphere& sphere, const Vec3& sideways, int third, const Seabed& seabed, double margin,
-                std::array<BestOfThirds, 3>& best) {
+void find_candidates(const Sphere& sphere, const Vec3& sideways, int third, const Seabed& seabed,
+                     double margin, std::array<BestOfThirds, 3>& best) {
   const auto below = seabed.plane_at(sphere.center.x(), sphere.center.y());
   if (!below) return;
   const Vec3 under(sphere.center.x(), sphere.center.y(), below->z_m);
@@ -97,7 +97,7 @@ void find_contacts(const HullShape& hull, const Vec3& position_ned_m, const Quat
     const double along = 2.0 * i / (kSpheres - 1) - 1;  // -1 at the stern, 1 at the bow
     const Sphere sphere{position_ned_m + along * hull.length_m / 2 * axis,
                         hull.diameter_m / 2 * std::sqrt(std::max(0.0, 1 - along * along))};
-    look_round(sphere, sideways, i * kThirds / kSpheres, seabed, margin_m, best);
+    find_candidates(sphere, sideways, i * kThirds / kSpheres, seabed, margin_m, best);
   }
   for (const BestOfThirds& thirds : best) {
     for (const Candidate& c : thirds) {

@@ -19,17 +19,17 @@ constexpr double kPullUpRadPerM = 0.3;  // a metre below the minimum height dema
 //
 //   path = path of the vehicle + a sin(pitch) cos(roll)
 //   z    = z of the vehicle + a cos(pitch) cos(roll)
-void SeabedAhead::add(const AltimeterLook& look) {
-  if (last_) way_m_ += (look.position_ned_m - last_->position_ned_m).head<2>().norm();
-  last_ = look;
-  if (look.has_echo) {
-    const double upright = elementary::cos(look.attitude.pitch) * elementary::cos(look.attitude.roll);
-    const double forward = elementary::sin(look.attitude.pitch) * elementary::cos(look.attitude.roll);
-    points_.push_back({way_m_ + look.altitude_m * forward,
-                       look.position_ned_m.z() + look.altitude_m * upright, look.time_s});
+void SeabedAhead::add(const AltimeterSample& sample) {
+  if (last_) way_m_ += (sample.position_ned_m - last_->position_ned_m).head<2>().norm();
+  last_ = sample;
+  if (sample.has_echo) {
+    const double upright = elementary::cos(sample.attitude.pitch) * elementary::cos(sample.attitude.roll);
+    const double forward = elementary::sin(sample.attitude.pitch) * elementary::cos(sample.attitude.roll);
+    points_.push_back({way_m_ + sample.altitude_m * forward,
+                       sample.position_ned_m.z() + sample.altitude_m * upright, sample.time_s});
   }
   const auto is_old = [&](const Point& p) {
-    return p.way_m < way_m_ - kWindowM || p.time_s < look.time_s - 60;
+    return p.way_m < way_m_ - kWindowM || p.time_s < sample.time_s - 60;
   };
   while (points_.size() > 1 && is_old(points_.front())) points_.pop_front();
 }

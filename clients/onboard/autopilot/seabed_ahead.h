@@ -28,7 +28,7 @@
 namespace halocline::clients {
 
 // One measurement of the altimeter, and the vehicle's position and attitude at it.
-struct AltimeterLook {
+struct AltimeterSample {
   double time_s = 0;
   Vec3 position_ned_m = Vec3::Zero();
   EulerAngles attitude;
@@ -49,7 +49,7 @@ class SeabedAhead {
  public:
   static constexpr double kWindowM = 10, kOldestS = 5;
 
-  void add(const AltimeterLook& look);
+  void add(const AltimeterSample& sample);
   // Returns the line at the latest measurement; empty when no echo is younger than kOldestS at `time_s`.
   std::optional<SeabedLine> line(double time_s) const;
   // True when the latest measurement is not older than kOldestS and saw no bottom, and there is no line to go
@@ -63,7 +63,7 @@ class SeabedAhead {
     double way_m, z_ned_m, time_s;
   };
   std::deque<Point> points_;
-  std::optional<AltimeterLook> last_;
+  std::optional<AltimeterSample> last_;
   double way_m_ = 0;
 };
 

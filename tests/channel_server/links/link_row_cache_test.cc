@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rows that hold on from tick to tick: for how long, what follows the ends meanwhile, and how far it is from
-// a row computed anew.
+// a row computed again.
 #include "channel_server/links/link_row_cache.h"
 
 #include <cmath>
@@ -188,7 +188,7 @@ TEST(LinkRowCache, DelayAndDopplerFollowTheEnds) {
   }
 }
 
-// Rows from those they stand for, root of the mean square.
+// Deviation of rows from those they replace, root of the mean square.
 class Deviation {
  public:
   void add(const std::vector<LinkRow>& rows, const std::vector<LinkRow>& truth) {

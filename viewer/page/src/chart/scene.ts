@@ -19,7 +19,7 @@ import { MapControls } from "three/examples/jsm/controls/MapControls.js";
 import type { TerrainTile } from "../protocol";
 import { type Contours, type DepthRange, contourLines, depthRange, exaggeration, seabedGeometry, seabedPicture } from "./seabed";
 
-/** Camera and what it looks at. */
+/** Camera and its target. */
 export interface View3d {
   position: Vector3;
   target: Vector3;

@@ -67,7 +67,7 @@ export class Monitor {
   readonly instant = new Instant();
   shown_s = 0;
 
-  // --- what is looked at
+  // --- what is shown
   view = $state<View>("chart");
   vehicle = $state<number | null>(null);
   packet = $state<string | null>(null);
