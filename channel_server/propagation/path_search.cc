@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "acoustics/link/energy_flux.h"
-#include "acoustics/rays/bearings/range_fan.h"
+#include "acoustics/rays/range_fan.h"
 #include "acoustics/rays/depth_fan.h"
 #include "acoustics/rays/eigenray.h"
 #include "core/check.h"

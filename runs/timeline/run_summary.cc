@@ -90,7 +90,7 @@ void add_pairs(const RunTimeline& timeline, std::vector<SummaryRow>& rows) {
   const char* key = "received";
   if (pairs.size() <= kRowsEach) {
     for (const auto& [ids, both] : pairs) {
-      rows.push_back({key, both.names + " of each other: " + share(both.received, both.packets)});
+      rows.push_back({key, "between " + both.names + ": " + share(both.received, both.packets)});
       key = "";
     }
     return;

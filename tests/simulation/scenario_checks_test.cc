@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each check of sense: a scenario that breaks it, and one beside it that does not.
+// Each sanity check: a scenario that fails it, and one beside it that does not.
 #include <fstream>
 #include <string>
 #include <utility>
