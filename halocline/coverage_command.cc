@@ -65,7 +65,7 @@ constexpr std::size_t kMany = 100'000;  // number of links, each of which takes 
 // Notes the part of a run's prediction that exists between vehicles only.
 void note_what_is_left_out(const ScenarioConfig& config) {
   if (config.channel_server.propagation.replay.is_wanted())
-    fmt::print(std::cerr, "note: measured channels hold between vehicles: the map is modelled\n");
+    fmt::print(std::cerr, "note: measured channels apply between vehicles alone: the map is modelled\n");
 }
 
 int map(const CoverageOptions& options, const ScenarioConfig& config, const LinkSurveyEnd& from) {

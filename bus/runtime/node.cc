@@ -160,7 +160,7 @@ void Node::restart(const Now& now) {
 
 void Node::count_refused_clocks(std::int64_t count) {
   bus_.counters().refused += count;
-  bus_.counters().rivals += count;
+  bus_.counters().duplicate_publishers += count;
 }
 
 void Node::stop(const Now& now) {
@@ -192,7 +192,7 @@ void Node::publish_status(const Now& now, const std::string& text) {
   status.messages_sent = counters.sent;
   status.messages_refused = counters.refused;
   status.messages_unsent = counters.unsent;
-  status.rivals = counters.rivals;
+  status.rivals = counters.duplicate_publishers;
   status.gaps = counters.gaps;
   status.repaired = counters.repaired;
   status.lost = counters.lost;

@@ -164,7 +164,7 @@ const std::vector<Room>& rooms() {
       {"clients/onboard/autopilot/navigation",
        {"core"},
        {},
-       "where a vehicle believes it is, from what its sensors say: pure"},
+       "estimated position of a vehicle, from what its sensors say: pure"},
       {"clients/onboard/autopilot",
        {"core", "bus", "bus/config", "bus/runtime", "clients/modem", "clients/onboard/clocks",
         "clients/onboard/autopilot/navigation"},

@@ -80,7 +80,7 @@ TEST_F(AttackedProcesses, OldHeartbeatsOfAKilledServerDoNotKeepItsName) {
     publish(status);
     const std::int64_t before = rivals();
     monitor_.dispatch_for(2);
-    return rivals() == before;  // traffic believes the new one
+    return rivals() == before;  // traffic accepts the new one
   }));
 }
 
