@@ -247,7 +247,7 @@ class RowsAlongRays : public ::testing::Test {
 };
 
 // Beside rows whose links are searched for themselves at every tick: with cells of 25 m that serve several
-// links, and carried on over 10 and 25 m as well.
+// links, and extrapolated over 10 and 25 m as well.
 TEST_F(RowsAlongRays, AreHardlyFurtherFromTheExactOnesThanThoseOfSharedSearches) {
   constexpr double kCellM = 25;
   Ticks exact(0, rays(0)), shared(0, rays(kCellM)), near(10, rays(kCellM)), far(25, rays(kCellM));

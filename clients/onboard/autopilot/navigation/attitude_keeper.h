@@ -47,7 +47,7 @@ class AttitudeKeeper {
   }
 
  private:
-  void carry_on(const AttitudeReading& reading);
+  void integrate_gyro(const AttitudeReading& reading);
 
   double gyro_bias_radps_;
   EulerAngles attitude_;
