@@ -31,7 +31,7 @@ using testing::receipt;
 using testing::send;
 using testing::state;
 
-constexpr std::size_t kLargestPage = 3'000'000;  // bytes, of any mission
+constexpr std::size_t kLargestPage = 3'000'000;  // bytes, of any run
 
 // For the test's time there is no gnuplot.
 class WithoutGnuplot {
