@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Long missions need no more memory than short ones: hours of simulated time, as fast as they compute, with
+// Long runs need no more memory than short ones: hours of simulated time, as fast as they compute, with
 // the bytes in use compared between the first half and the second. Not a test of time.
 #include <algorithm>
 #include <cstdint>
