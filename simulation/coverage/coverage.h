@@ -10,9 +10,9 @@
 //
 // Error relative to `halocline link`. Over level terrain it is the tolerance of the interpolation, for the
 // quantities asked for: delivery 0.002, level 0.03 dB, delay 0.3 us. Over terrain it is zero without shared
-// rays. When depths share rays it is that of their paths (acoustics/rays/depth_fan.h), except in one cell of a
-// few hundred, where one of two searches misses a path at a fold or at the edge of a shadow. When ranges share
-// rays it is that of acoustics/rays/range_fan.h and of the terrain within half a cell.
+// rays. When depths share rays it is that of their paths (acoustics/rays/depth_fan.h), except in one cell of
+// a few hundred, where one of two searches misses a path at a fold or at the edge of a shadow. When ranges
+// share rays it is that of acoustics/rays/range_fan.h and of the terrain within half a cell.
 // tests/simulation/coverage measures the differences over 1000 random cells.
 #pragma once
 

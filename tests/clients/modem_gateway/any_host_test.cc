@@ -18,7 +18,7 @@ using testing::has_in_turn;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// A command that each kind of modem interface answers at once, without its end.
+// A command that each kind of modem answers at once, without its end.
 struct Manner {
   const char* kind;
   const char* profile;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DUNE's Micromodem tasks at a modem interface: lines without checksums, data before its cycle, times as the
-// first fields of SNTTA.
+// DUNE's Micromodem tasks at an emulated Micromodem: lines without checksums, data before its cycle, times as
+// the first fields of SNTTA.
 //
 // Formats and order: LSTS/dune, src/Sensors/MLBLTracker/Task.cpp of 2025 and the LBL navigation task.
 #include <string>

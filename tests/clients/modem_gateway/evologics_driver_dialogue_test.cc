@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DUNE's EvoLogics driver and EvoLogics' own driver for ROS, dmac, at modem interfaces half a second apart.
+// DUNE's EvoLogics driver and EvoLogics' own driver for ROS, dmac, at emulated modems half a second apart.
 //
 // Formats and order: LSTS/dune, src/Transports/Evologics at 0431bb19 and src/DUNE/Hardware/BasicModem at
 // 0431bb19; EvoLogics/dmac at 52ee50c5 and 339ecf31.

@@ -144,7 +144,7 @@ TEST(GatewayProgram, TheLinkOfASerialLineIsGoneAfterEachEnd) {
 
 // A buoy and a lander 750 m apart: the sound that one plays at an instant comes to the other half a second
 // later.
-TEST(GatewayProgram, CarriesSoundFromAModemInterfaceOfWaveformsToAnother) {
+TEST(GatewayProgram, CarriesSoundFromAModemOfWaveformsToAnother) {
   const halocline::testing::TemporaryFolder folder;
   std::ofstream("s.toml") << R"(
 [scenario]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Goby's Micromodem driver at two modem interfaces a kilometre apart: how it starts, and what its own test
+// Goby's Micromodem driver at two emulated modems a kilometre apart: how it starts, and what its own test
 // asks of two modems.
 #include <cstddef>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A Micromodem's modem interface and WHOI's Python driver, pyacomms, and the node of ros_acomms on it: what
-// it waits for, in its order.
+// An emulated Micromodem and WHOI's Python driver, pyacomms, and the node of ros_acomms on it: what it waits
+// for, in its order.
 //
 // Formats and order: patel999jay/pyacomms at 34e0c69b (micromodem.py, commstate.py, messageparser.py,
 // cyclestats.py), a newer message parser and flexibledataprotocol.py of acomms 2, and ros_acomms in

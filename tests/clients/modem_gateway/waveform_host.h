@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host of a modem interface of waveforms (UASP2): what it plays, and what the modem interface streams to
+// A host of a modem that plays and records waveforms (UASP2): what it plays, and what the modem streams to
 // it.
 #pragma once
 

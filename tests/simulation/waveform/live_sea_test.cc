@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Modem interfaces of waveforms in a run, against `halocline waveform` of the same run.
+// Modems of waveforms (UASP2) in a run, against `halocline waveform` of the same run.
 #include "simulation/waveform/live_sea.h"
 
 #include <algorithm>

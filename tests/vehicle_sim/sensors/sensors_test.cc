@@ -48,7 +48,7 @@ TEST(Sensors, AttitudeRatesAndActuatorsAreTheStates) {
   EXPECT_EQ(r.altitude.status, AltitudeStatus::kUnavailable);
 }
 
-TEST(Sensors, TheAltimeterSamplesAlongTheBodysDownAxis) {
+TEST(Sensors, TheAltimeterLooksAlongTheBodysDownAxis) {
   EXPECT_EQ(altimeter_direction({}), Vec3::UnitZ());
   VehicleState bow_up;
   bow_up.orientation = to_quaternion({0, 0.5, 0});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The JavaScript gateway of fjage against two UnetStack modem interfaces of a running simulation: ports in HALOCLINE_INTERFACES ("1101 1102"), the vehicles
-// HALOCLINE_RANGE_M apart in water of 1500 m/s. scripts/modem_interface_test runs it.
+// The JavaScript gateway of fjage against two emulated UnetStack modems of a running simulation: ports in HALOCLINE_INTERFACES
+// ("1101 1102"), the vehicles HALOCLINE_RANGE_M apart in water of 1500 m/s. scripts/modem_interface_test runs it.
 import assert from 'node:assert/strict';
 import { webcrypto } from 'node:crypto';
 import { after, before, test } from 'node:test';
