@@ -212,7 +212,7 @@ void Node::report_lateness(const Now& now, const Lateness& lateness) {
   const double limit_s = bus_.lateness().limit().seconds();
   if (limit_s == 0 || lateness.max_s <= limit_s || now.steady < next_lateness_report_) return;
   next_lateness_report_ = now.steady + kLatenessReported;
-  bus_.log().warning("real-time-not-held",
+  bus_.log().warning("real-time-not-kept",
                      "p50_s=" + std::to_string(lateness.p50_s) + " p99_s=" + std::to_string(lateness.p99_s) +
                          " max_s=" + std::to_string(lateness.max_s) + " limit_s=" + std::to_string(limit_s) +
                          " late=" + std::to_string(bus_.counters().late));

@@ -62,7 +62,7 @@ void GatewayNode::add_interface(const ModemInterfaceConfig& interface, const Sou
         connections_.send_datagram(client, port, bytes);
       },
       [this](ClientId client) { connections_.disconnect(client); }, std::move(trace)));
-  bus().log().info("modem_interface",
+  bus().log().info("modem-interface",
                    "vehicle=" + interface.vehicle + " kind=" + interface.kind + " place=" + place_of(number));
 }
 

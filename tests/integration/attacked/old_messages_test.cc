@@ -167,8 +167,8 @@ TEST_F(AttackedProcesses, AServerThatWasStoppedSaysSoAndDecidesAsIfItHadNotBeen)
            status.lateness_p99_s <= status.lateness_max_s && status.lateness_p50_s <= status.lateness_p99_s;
   }));
   const std::string output = at("halocline-channel-server").output();
-  EXPECT_THAT(output, HasSubstr("real-time-not-held"));
-  EXPECT_EQ(output.find("real-time-not-held"), output.rfind("real-time-not-held"));  // once a minute
+  EXPECT_THAT(output, HasSubstr("real-time-not-kept"));
+  EXPECT_EQ(output.find("real-time-not-kept"), output.rfind("real-time-not-kept"));  // once a minute
   expect_all_running();
 }
 

@@ -40,7 +40,7 @@ test("no vehicles, until one comes", async ({ page }) => {
   await expect(condition(page)).toBeHidden();
 });
 
-test("bathymetry away, and back", async ({ page }) => {
+test("bathymetry unavailable, and back", async ({ page }) => {
   const socket = await serve(page, hello, run, { ...state, bathymetry: false });
   await expect(condition(page)).toContainText("The bathymetry service does not answer");
   socket.send(JSON.stringify(state));
