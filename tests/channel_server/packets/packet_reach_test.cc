@@ -67,7 +67,7 @@ VehicleModem short_modem(bool is_high = false) {
 
 using Place = std::pair<PacketName, VehicleId>;
 
-struct Run {
+struct FleetRun {
   std::map<Place, PacketOutcome> outcomes;
   std::map<PacketName, std::size_t> out_of_reach, receivers;  // summed up; all
 };
@@ -112,11 +112,11 @@ std::unique_ptr<Propagation> propagation_of(const ReachSea& sea,
   return std::make_unique<StraightPropagation>(waters, fading);
 }
 
-Run run_of(const ReachSea& sea, bool by_level, int shards = 1) {
+FleetRun run_of(const ReachSea& sea, bool by_level, int shards = 1) {
   const acoustics::FadingModel fading{.enabled = sea.fades};
   const auto waters = std::make_shared<EnvironmentTimeline>(sea.has_field ? testing::warming_sea(2, 0.8)
                                                                           : testing::even_water());
-  Run run;
+  FleetRun run;
   for (int shard = 0; shard < shards; ++shard) {
     VehicleRegistry fleet({for_s(0.05), for_s(1000)}, {short_modem(sea.has_field), {}});
     const auto propagation = propagation_of(sea, waters);
@@ -161,7 +161,7 @@ Run run_of(const ReachSea& sea, bool by_level, int shards = 1) {
 class PacketReach : public ::testing::TestWithParam<ReachSea> {};
 
 void expect_no_other_outcome(const ReachSea& sea, std::size_t least_received) {
-  const Run all = run_of(sea, false), within = run_of(sea, true);
+  const FleetRun all = run_of(sea, false), within = run_of(sea, true);
   std::size_t lost = 0, received = 0;
   for (const auto& [place, outcome] : all.outcomes) {
     const auto same = within.outcomes.find(place);
@@ -189,13 +189,13 @@ TEST(PacketReachInAField, ChangesNoOutcomeOfThoseWithinIt) {
 }
 
 TEST_P(PacketReach, EveryPacketHasOneOutcomeAtEveryReceiver) {
-  const Run run = run_of(GetParam(), true);
+  const FleetRun run = run_of(GetParam(), true);
   EXPECT_GT(run.receivers.size(), 250u);  // a busy modem refuses
   for (const auto& [name, receivers] : run.receivers) EXPECT_EQ(receivers, GetParam().vehicles() - 1u);
 }
 
 TEST_P(PacketReach, SeveralServersCountTheSame) {
-  const Run one = run_of(GetParam(), true), three = run_of(GetParam(), true, 3);
+  const FleetRun one = run_of(GetParam(), true), three = run_of(GetParam(), true, 3);
   EXPECT_EQ(one.out_of_reach, three.out_of_reach);
   ASSERT_EQ(one.outcomes.size(), three.outcomes.size());
   for (const auto& [place, outcome] : one.outcomes) {
