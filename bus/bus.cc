@@ -235,9 +235,10 @@ void Bus::restore_history(std::string_view channel, std::int64_t session, std::i
 }
 
 void Bus::refuse_duplicate_publisher(std::string_view channel, std::int64_t session) {
-  ++counters_.rivals;
-  refuse(channel, "session is " + std::to_string(session) +
-                      ", a rival's: another is publisher until it has been silent for 1 s");
+  ++counters_.duplicate_publishers;
+  refuse(channel,
+         "session is " + std::to_string(session) +
+             ", that of a duplicate publisher: another is publisher until it has been silent for 1 s");
 }
 
 // An old message is recognised before the duplicate-publisher check, because it says nothing about who

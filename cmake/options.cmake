@@ -17,7 +17,7 @@ target_compile_options(halocline_options INTERFACE
   # wider vectors.
   $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},x86_64>:-mno-fma>
   -U__ARM_FEATURE_FMA -U__AVX__ -U__AVX2__ -U__AVX512F__
-  # Nobody looks at errno or at floating-point exceptions: a root is one instruction, and loops with comparisons and roots
+  # Nothing reads errno or floating-point exceptions: a root is one instruction, and loops with comparisons and roots
   # become vectors, of the same values.
   -fno-math-errno -fno-trapping-math
   # GCC looks for unused memory of its own only beyond 600 MB: a tenth of the time of a build.

@@ -18,7 +18,7 @@ ConductorNode::ConductorNode(lcm::LCM& lcm, bus::NodeIdentity identity, SimDurat
       bus::channels::kClock,
       [this](const sim_clock_t& clock) {
         if (clock.session == bus().identity().session) return;
-        ++bus().counters().rivals;
+        ++bus().counters().duplicate_publishers;
         bus().refuse(bus::channels::kClock,
                      "session is " + std::to_string(clock.session) + ", of a second conductor");
       },

@@ -122,7 +122,7 @@ class Run {
     };
     outputs.record = [this](const JournalEntry& entry) {
       if (!journal_ || journal_->append(entry)) return;
-      events_.error("journal-given-up",
+      events_.error("journal-abandoned",
                     "reason=\"the disk refused it, or it was deleted or truncated; the run cannot be "
                     "continued after a kill\"");
       journal_.reset();

@@ -40,7 +40,7 @@ struct CoverageOptions {
 
 RaySharing sharing_of(const CoverageOptions& options) {
   if (options.sharing == "depths") return RaySharing::kDepths;
-  return options.sharing == "bearings" ? RaySharing::kBearings : RaySharing::kNone;
+  return options.sharing == "ranges" ? RaySharing::kRanges : RaySharing::kNone;
 }
 
 CoverageArea area_of(const CoverageOptions& options, const LinkSurveyEnd& from) {
@@ -65,7 +65,7 @@ constexpr std::size_t kMany = 100'000;  // number of links, each of which takes 
 // Notes the part of a run's prediction that exists between vehicles only.
 void note_what_is_left_out(const ScenarioConfig& config) {
   if (config.channel_server.propagation.replay.is_wanted())
-    fmt::print(std::cerr, "note: measured channels hold between vehicles: the map is modelled\n");
+    fmt::print(std::cerr, "note: measured channels apply between vehicles alone: the map is modelled\n");
 }
 
 int map(const CoverageOptions& options, const ScenarioConfig& config, const LinkSurveyEnd& from) {
@@ -87,7 +87,7 @@ int map(const CoverageOptions& options, const ScenarioConfig& config, const Link
     fmt::print(
         std::cerr,
         "{} links over terrain are searched one by one; --share-rays depths takes a third of the time, "
-        "--share-rays bearings a twentieth\n",
+        "--share-rays ranges a twentieth\n",
         links);
   const Coverage coverage =
       compute_coverage(config, terrain, from, area, quantities, options.threads, sharing_of(options));
@@ -176,10 +176,9 @@ void add_coverage_command(CLI::App& app, int& exit_code) {
       ->add_option(
           "--share-rays", options->sharing,
           "over terrain, what shares rays: none (default; each link as 'halocline link'), depths of a place "
-          "(a "
-          "third of the time; a path in some hundred cells may be missed), or bearings, all places of one (a "
+          "(a third of the time; a path in some hundred cells may be missed), or ranges of a bearing (a "
           "twentieth; levels are close, for pictures)")
-      ->check(CLI::IsMember({"none", "depths", "bearings"}));
+      ->check(CLI::IsMember({"none", "depths", "ranges"}));
   command->add_option("--track", options->track,
                       "instead of a map the best depth along the way of this vehicle, or of a CSV file with "
                       "time_s, north_m, east_m");

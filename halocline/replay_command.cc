@@ -194,7 +194,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* command = app.add_subcommand(
       "compare",
-      "List the packets of one mission whose outcome differs between two logs, with the inputs that differ");
+      "List the packets of one scenario whose outcome differs between two logs, with the inputs that differ");
   command->add_option("logs", options->logs, "the log before and the log after")->required()->expected(2);
   add_format_option(*command, options->format);
   command->footer(footer("  halocline compare results/seamount/seamount.lcm calm.lcm"));

@@ -101,8 +101,8 @@ int run(const RunOptions& options) {
     for (const std::string& warning : checked.warnings)
       std::fprintf(stderr, "warning: %s\n", warning.c_str());
     warn_of_large_log(options, config, files.log);
-    if (!config.gateway.doors.empty() && options.rate != 1)
-      std::fprintf(stderr, "warning: hosts of doors keep wall time; --rate 1 does as well\n");
+    if (!config.gateway.interfaces.empty() && options.rate != 1)
+      std::fprintf(stderr, "warning: hosts of modem interfaces keep wall time; --rate 1 does as well\n");
     std::fprintf(stderr, "terrain     %s\n", checked.terrain.summary.c_str());
   }
   if (!files.config.empty()) replace_file(files.config, portable_toml(config));

@@ -130,8 +130,8 @@ std::string commented_toml() {
   config.traffic.vehicles.resize(1);
   config.localiser.vehicles.resize(1);
   config.network.members.resize(1);
-  config.gateway.doors.resize(1);
-  config.gateway.doors[0] = {"auv-1", 1, "nm3", modem_gateway::place_of("tcp:9600"), "", ""};
+  config.gateway.interfaces.resize(1);
+  config.gateway.interfaces[0] = {"auv-1", 1, "nm3", modem_gateway::place_of("tcp:9600"), "", ""};
   return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, /*with_comments=*/true);
 }
 
@@ -182,7 +182,7 @@ void Composition::add_vehicle_sims(const ScenarioConfig& config) {
 
 void Composition::add_gateway(const ScenarioConfig& config,
                               const modem_gateway::SoundFieldMaker& make_sound) {
-  if (config.gateway.doors.empty()) return;
+  if (config.gateway.interfaces.empty()) return;
   modem_gateway::GatewayConfig gateway = config.gateway;
   gateway.origin_latitude_deg = config.scenario.origin_latitude_deg;
   gateway.origin_longitude_deg = config.scenario.origin_longitude_deg;

@@ -174,7 +174,7 @@ std::vector<std::string> notes_of(const ScenarioConfig& config, const bathymetry
         "the terrain stands in the straight line: propagation.model = straight knows no terrain");
   const bool has_position = from.id == 0 || to.id == 0;
   if (has_position && config.channel_server.propagation.replay.is_wanted())
-    notes.emplace_back("measured channels hold between vehicles: a link with a position is modelled");
+    notes.emplace_back("measured channels apply between vehicles alone: a link with a position is modelled");
   return notes;
 }
 

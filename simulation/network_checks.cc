@@ -133,7 +133,7 @@ class NetworkChecks {
     if (given.seconds() >= least_s) return;
     file_.warn("network." + key, format_number(given.seconds()),
                what + " may last " + format_number(rounded_up(least_s)) +
-                   " s with these modems and places: packets collide, or are given up too early");
+                   " s with these modems and places: packets collide, or expire too early");
   }
 
   const ScenarioConfig& config_;

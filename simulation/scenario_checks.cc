@@ -170,7 +170,7 @@ bool check_ocean(const ScenarioConfig& config, bus::ConfigFile& file) {
     for (std::size_t i = 0; i < config.scenario.vehicles.size(); ++i) {
       const Vec3& start = config.scenario.vehicles[i].start_ned_m;
       if (!field->covers(start.x(), start.y()))
-        file.warn(key_of(i, "start_ned_m"), "", "the ocean is not known there: the nearest column holds");
+        file.warn(key_of(i, "start_ned_m"), "", "the ocean is not known there: the nearest column is used");
     }
     return true;
   } catch (const InvalidArgument& error) {

@@ -28,16 +28,16 @@ using bathymetry::RasterReport;
 
 // Height above the surface up to which a position is taken as a wish to surface, not as a mistake.
 constexpr double kToSurface_m = 1;
-constexpr double kBetweenLooks_m = 20;  // distance between points that are examined along a track or a circle
+constexpr double kPointSpacing_m = 20;  // distance between points that are examined along a track or a circle
 
 std::string rounded(double value) { return format_number(std::round(10 * value) / 10); }
 
 // Counts of the examined points of a mission by where they are.
-struct Looks {
-  int in_water = 0, under_ground = 0, in_air = 0, unknown = 0;
-  double shallowest_ground_m = HUGE_VAL;
+struct PointCounts {
+  int in_water = 0, below_seabed = 0, in_air = 0, unknown = 0;
+  double shallowest_seabed_m = HUGE_VAL;
 
-  int all() const { return in_water + under_ground + in_air + unknown; }
+  int all() const { return in_water + below_seabed + in_air + unknown; }
 };
 
 class MissionChecks {
@@ -70,59 +70,59 @@ class MissionChecks {
     }
   }
 
-  void look(const Vec3& point, bool by_altitude, Looks& looks) const {
-    const DepthSample ground = terrain_.depth_at(point.x(), point.y());
-    if (ground.status != DepthStatus::kOk) {
-      ++looks.unknown;
+  void count(const Vec3& point, bool by_altitude, PointCounts& counts) const {
+    const DepthSample seabed = terrain_.depth_at(point.x(), point.y());
+    if (seabed.status != DepthStatus::kOk) {
+      ++counts.unknown;
       return;
     }
-    looks.shallowest_ground_m = std::min(looks.shallowest_ground_m, ground.z_m);
+    counts.shallowest_seabed_m = std::min(counts.shallowest_seabed_m, seabed.z_m);
     const bool in_air = !by_altitude && point.z() < surface_z_m_ - kToSurface_m;
-    const bool under_ground = by_altitude ? ground.z_m < surface_z_m_ : point.z() > ground.z_m;
-    ++(in_air ? looks.in_air : under_ground ? looks.under_ground : looks.in_water);
+    const bool below_seabed = by_altitude ? seabed.z_m < surface_z_m_ : point.z() > seabed.z_m;
+    ++(in_air ? counts.in_air : below_seabed ? counts.below_seabed : counts.in_water);
   }
 
   void check_waypoints(const std::string& key, const std::vector<Vec3>& waypoints, bool by_altitude) {
     for (std::size_t i = 0; i < waypoints.size(); ++i) {
-      Looks looks;
-      look(waypoints[i], by_altitude, looks);
+      PointCounts counts;
+      count(waypoints[i], by_altitude, counts);
       const std::string point_key = key + "." + std::to_string(i);
-      if (looks.in_air > 0)
+      if (counts.in_air > 0)
         file_.refuse(point_key, "",
                      "that is above the sea surface; allowed is a z, positive down, of " +
                          format_number(surface_z_m_) + " m and more");
-      if (looks.under_ground > 0)
+      if (counts.below_seabed > 0)
         file_.refuse(point_key, "",
-                     "that is under ground, whose z there is " + rounded(looks.shallowest_ground_m) +
+                     "that is below the seabed, whose z there is " + rounded(counts.shallowest_seabed_m) +
                          " m; allowed is a lesser z, or altitude_m of a behaviour");
-      if (looks.unknown > 0)
+      if (counts.unknown > 0)
         file_.warn(point_key, "", "the terrain is not known there: it lies " + extent_text(terrain_));
     }
   }
 
   void check_track(const std::string& key, const std::string& what, const Behaviour& b,
                    const std::vector<Vec3>& points) {
-    Looks looks;
+    PointCounts counts;
     const bool by_altitude = b.altitude_m > 0;
-    for (const Vec3& point : points) look(point, by_altitude, looks);
+    for (const Vec3& point : points) count(point, by_altitude, counts);
     const std::string depth_key = key + (by_altitude ? ".altitude_m" : ".depth_m");
     const std::string depth = format_number(by_altitude ? b.altitude_m : b.depth_m);
-    const auto share = [&](int count) { return rounded(100.0 * count / looks.all()) + " % of the " + what; };
-    if (looks.in_air > 0)
+    const auto share = [&](int count) { return rounded(100.0 * count / counts.all()) + " % of the " + what; };
+    if (counts.in_air > 0)
       file_.refuse(depth_key, depth,
                    "the " + what + " lies above the sea surface; allowed is a z, positive down, of " +
                        format_number(surface_z_m_) + " m and more");
-    if (looks.under_ground > 0 && looks.in_water == 0)
+    if (counts.below_seabed > 0 && counts.in_water == 0)
       file_.refuse(depth_key, depth,
-                   "the whole " + what + " lies under ground, whose least z there is " +
-                       rounded(looks.shallowest_ground_m) + " m; allowed is less, or altitude_m");
-    else if (looks.under_ground > 0)
+                   "the whole " + what + " lies below the seabed, whose least z there is " +
+                       rounded(counts.shallowest_seabed_m) + " m; allowed is less, or altitude_m");
+    else if (counts.below_seabed > 0)
       file_.warn(depth_key, depth,
-                 share(looks.under_ground) + " lies under ground, whose least z there is " +
-                     rounded(looks.shallowest_ground_m) + " m: the vehicle rises over it");
-    if (looks.unknown > 0)
+                 share(counts.below_seabed) + " lies below the seabed, whose least z there is " +
+                     rounded(counts.shallowest_seabed_m) + " m: the vehicle rises over it");
+    if (counts.unknown > 0)
       file_.warn(depth_key, depth,
-                 share(looks.unknown) + " lies where the terrain is not known: it is known " +
+                 share(counts.unknown) + " lies where the terrain is not known: it is known " +
                      extent_text(terrain_));
   }
 
@@ -130,7 +130,7 @@ class MissionChecks {
     std::vector<Vec3> points;
     for (std::size_t i = 1; i < corners.size(); ++i) {
       const Vec3 way = corners[i] - corners[i - 1];
-      const auto steps = std::max(1, static_cast<int>(way.norm() / kBetweenLooks_m));
+      const auto steps = std::max(1, static_cast<int>(way.norm() / kPointSpacing_m));
       for (int k = 0; k <= steps; ++k) points.push_back(corners[i - 1] + way * k / steps);
     }
     return points;
@@ -138,7 +138,7 @@ class MissionChecks {
 
   static std::vector<Vec3> circle(const Behaviour& b) {
     const auto steps =
-        std::clamp(static_cast<int>(2 * std::numbers::pi * b.radius_m / kBetweenLooks_m), 8, 1000);
+        std::clamp(static_cast<int>(2 * std::numbers::pi * b.radius_m / kPointSpacing_m), 8, 1000);
     std::vector<Vec3> points;
     for (int k = 0; k < steps; ++k) {
       const double angle = 2 * std::numbers::pi * k / steps;

@@ -19,9 +19,9 @@ namespace halocline::clients {
 
 Recording record_run(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, SimTime end) {
   lcm::LCM lcm("memq://");
-  ScenarioConfig without_doors = config;  // no client connects during this run
-  without_doors.gateway.doors.clear();
-  Composition all(lcm, without_doors, Composition::kRun, nullptr, terrain);
+  ScenarioConfig without_interfaces = config;  // no client connects during this run
+  without_interfaces.gateway.interfaces.clear();
+  Composition all(lcm, without_interfaces, Composition::kRun, nullptr, terrain);
   EmbeddedRun run{.end = end,
                   .log_path = std::filesystem::temp_directory_path() /
                               ("halocline-track-" + std::to_string(getpid()) + ".lcm")};

@@ -11,7 +11,7 @@ namespace halocline::vehicle_sim {
 
 void VehicleFaults::take(const Fault& fault, const ActuatorValues& now) {
   const auto stick = [&](std::optional<double>& stuck, double angle) {
-    stuck = fault.mended ? std::nullopt : std::optional(fault.angle_rad.value_or(angle));
+    stuck = fault.fixed ? std::nullopt : std::optional(fault.angle_rad.value_or(angle));
   };
   switch (fault.kind) {
     case FaultKind::kStuckRudder:
@@ -19,19 +19,19 @@ void VehicleFaults::take(const Fault& fault, const ActuatorValues& now) {
     case FaultKind::kStuckSternPlanes:
       return stick(stern_planes_rad_, now.stern_planes_rad);
     case FaultKind::kLostPropeller:
-      lost_propeller_ = !fault.mended;
+      lost_propeller_ = !fault.fixed;
       return;
     case FaultKind::kLeak:
       require(std::isfinite(fault.leak_rate_kg_s), "the rate of a leak is not finite");
       require(fault.leak_volume_m3 >= 0, "the volume of a leak is 0 or above");
-      leak_rate_kg_s_ = fault.mended ? 0 : fault.leak_rate_kg_s;
+      leak_rate_kg_s_ = fault.fixed ? 0 : fault.leak_rate_kg_s;
       leak_volume_m3_ = fault.leak_volume_m3;
       return;
     case FaultKind::kDeadSensor:
-      dead_.at(static_cast<std::size_t>(fault.sensor)) = !fault.mended;
+      dead_.at(static_cast<std::size_t>(fault.sensor)) = !fault.fixed;
       return;
     case FaultKind::kEmptyBattery:
-      has_power_ = fault.mended;
+      has_power_ = fault.fixed;
       left_at_ = now;
       return;
   }

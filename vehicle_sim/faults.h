@@ -32,7 +32,7 @@ enum class FaultKind { kStuckRudder, kStuckSternPlanes, kLostPropeller, kLeak, k
 struct Fault {
   SimTime from = {};  // applies from the first physics step at or after this
   FaultKind kind = FaultKind::kStuckRudder;
-  bool mended = false;                   // repair: ends the fault of this kind (and sensor)
+  bool fixed = false;                    // true: ends the fault of this kind (and sensor)
   std::optional<double> angle_rad = {};  // angle of stuck fins; empty: their present angle
   double leak_rate_kg_s = 0;             // negative: pumps out
   double leak_volume_m3 = 0;             // limit of the water in the hull, 0 or above

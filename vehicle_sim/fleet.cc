@@ -89,7 +89,7 @@ void Fleet::take_due_faults() {
     const auto& [member, fault] = waiting_faults_[due];
     const std::size_t index = world_index_[member];
     faults_[member].take(fault, moves(member) ? world_.state(index).actuators : ActuatorValues{});
-    if (fault.kind == FaultKind::kEmptyBattery) power_changes_.push_back({time_, member, fault.mended});
+    if (fault.kind == FaultKind::kEmptyBattery) power_changes_.push_back({time_, member, fault.fixed});
     if (!moves(member)) continue;
     set_broken_model(member);
     const auto place = std::lower_bound(leaking_.begin(), leaking_.end(), member);

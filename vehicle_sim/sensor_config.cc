@@ -150,7 +150,7 @@ void visit(ConfigVisitor& v, SensorSettings& s) {
     v.section(key, meaning, [&](ConfigVisitor& section) { visit_basic(section, sensor, unit); });
   };
   basic("depth", "Depth below the surface", s.depth, kMetres);
-  basic("altimeter", "Height above the ground", s.altimeter, kMetres);
+  basic("altimeter", "Height above the seabed", s.altimeter, kMetres);
   basic("log", "Speed through the water, forward", s.log, kMetresPerSecond);
   v.section("compass", "Heading, pitch and roll", [&](ConfigVisitor& section) {
     visit_basic(section, s.compass, kDegrees);

@@ -17,15 +17,15 @@ std::string rounded_down(double z_m) { return format_number(std::floor(100 * z_m
 // Returns the text that describes the allowed positions; empty when the start lies in the water.
 std::string allowed_instead(const Vec3& start_ned_m, double sea_surface_z_m, const Seabed& seabed,
                             const std::string& extent) {
-  const std::optional<SeabedPlane> ground = seabed.plane_at(start_ned_m.x(), start_ned_m.y());
-  if (!ground) return "the terrain is not known there; allowed is a place on it, " + extent;
-  if (start_ned_m.z() >= sea_surface_z_m && start_ned_m.z() <= ground->z_m) return "";
-  if (ground->z_m < sea_surface_z_m)
-    return "there is land, " + rounded_down(sea_surface_z_m - ground->z_m) +
+  const std::optional<SeabedPlane> plane = seabed.plane_at(start_ned_m.x(), start_ned_m.y());
+  if (!plane) return "the terrain is not known there; allowed is a place on it, " + extent;
+  if (start_ned_m.z() >= sea_surface_z_m && start_ned_m.z() <= plane->z_m) return "";
+  if (plane->z_m < sea_surface_z_m)
+    return "there is land, " + rounded_down(sea_surface_z_m - plane->z_m) +
            " m above the sea; allowed is a place in the water";
-  return (start_ned_m.z() > ground->z_m ? "that is under ground" : "that is above the sea surface") +
+  return (start_ned_m.z() > plane->z_m ? "that is below the seabed" : "that is above the sea surface") +
          std::string("; allowed there is a z, positive down, of ") + format_number(sea_surface_z_m) +
-         " m (the sea surface) to " + rounded_down(ground->z_m) + " m (the ground)";
+         " m (the sea surface) to " + rounded_down(plane->z_m) + " m (the seabed)";
 }
 
 }  // namespace

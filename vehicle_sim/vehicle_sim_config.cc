@@ -367,7 +367,7 @@ std::vector<std::pair<std::size_t, Fault>> faults_of(const std::vector<FleetMemb
     if (entry.until <= entry.fault.from) continue;
     Fault end = entry.fault;
     end.from = entry.until;
-    end.mended = true;
+    end.fixed = true;
     faults.emplace_back(member, end);
   }
   return faults;

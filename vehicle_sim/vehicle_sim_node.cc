@@ -319,7 +319,7 @@ std::string VehicleSimNode::status_text() const {
     lost += fleet_->has_diverged(i);
   }
   return std::to_string(members_.size()) + " vehicles, " + std::to_string(aground) + " on the seabed, " +
-         std::to_string(lost) + " lost; echoes given up: " + std::to_string(echoes_.expired());
+         std::to_string(lost) + " lost; echoes expired: " + std::to_string(echoes_.expired());
 }
 
 }  // namespace halocline::vehicle_sim

@@ -18,7 +18,7 @@ constexpr double kCoarseness = 3;  // width of windows relative to those of a ra
 // Lower bound of the sine, hence upper bound of the density near a turning point.
 constexpr double kMinTurnSine = 0.02;
 constexpr double kKeptShare = 0.99;  // share of the power
-constexpr double kFarAway = 10;      // least length of a weak link, in depths
+constexpr double kFarAway = 10;      // least length of a flux-only link, in depths
 constexpr std::size_t kBottomRays = 40;
 // Width of the angles at the bottom, 60 degrees in all; steeper rays are lost even when slopes turn them.
 constexpr double kRayWidth = to_radians(1.5);
@@ -77,7 +77,7 @@ double add_leg(const RayWater& water, double xi, const Place& from, double limit
   return z;
 }
 
-// Power of a weak link: `below` under that of RayOptions::diffuse_below_pressure.
+// Power of a flux-only link: `below` under that of RayOptions::diffuse_below_pressure.
 double weak_power(const RayOptions& options, Decibels below) {
   return options.diffuse_below_pressure * options.diffuse_below_pressure * to_power_ratio(-below).value;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Incoherent energy flux of a weak link over a rough bottom, for which tracing rays is not worth while.
+// Incoherent energy flux (Weston 1971) of a flux-only link: one over a rough bottom that is too weak to be
+// worth tracing rays for.
 //
 // Model: that of acoustics/rays/diffuse_windows.h for all rays, in water of the mean depth between the ends.
 // A ray of Snell's invariant xi alternates between the points where it turns, or meets surface and bottom;
@@ -46,13 +47,13 @@ std::optional<std::vector<Eigenray>> flux_only_eigenrays(const EnergyFluxSea& se
 // True when the link may be weak over some bottom: its direct path alone is.
 bool may_be_flux_only(const RayWater& water, const RayOptions& options, const RayLink& link, Decibels below);
 
-// Lower bound of the loss of weak links for any depths of ends and bottom, by which links that cannot matter
-// are recognised before anything of them is computed.
+// Lower bound of the loss of flux-only links for any depths of ends and bottom, by which links that cannot
+// matter are recognised before anything of them is computed.
 //
 // The energy flux is greatest at certain depths of both ends and of the bottom; the bound takes the greatest
 // over kEnds and kBottoms evenly spaced ones (0.3 dB less than between them in a summer's thermocline). A
-// weak link over an uneven bottom has that energy. Over an even bottom its rays are traced: `gain` is how
-// much they may exceed the mean (least_loss.h).
+// flux-only link over an uneven bottom has that energy. Over an even bottom its rays are traced: `gain` is
+// how much they may exceed the mean (least_loss.h).
 class LeastFluxLoss {
  public:
   struct Depths {
@@ -73,7 +74,7 @@ class LeastFluxLoss {
   struct Window {
     double power_m, nepers_per_m;
   };
-  double shortest_m_;                 // weak links are longer
+  double shortest_m_;                 // flux-only links are longer
   double least_absorption_db_per_m_;  // over the depths of the ends
   Decibels gain_;
   std::vector<std::vector<Window>> links_;

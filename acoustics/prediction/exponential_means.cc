@@ -68,11 +68,12 @@ void add_cross_terms(const BlockFading& block_fading, double scale, double fast,
     const double constant = block_fading.steady[m],
                  varying = block_fading.varying[m] > 0 ? block_fading.varying[m] : 0;
     const double mean = slower * (constant + block_fading.varying[m]),
-                 beat =
+                 cross_term =
                      kCrossTermShare * slower * std::sqrt(varying * (2 * constant + block_fading.varying[m])),
-                 swing = beat < mean ? beat : mean;
+                 deviation = cross_term < mean ? cross_term : mean;
     const double old = made.means[m];
-    made.means[m] = (fast_exp(made.least - mean - swing) + fast_exp(made.least - mean + swing)) / 2 / (1 + d);
+    made.means[m] =
+        (fast_exp(made.least - mean - deviation) + fast_exp(made.least - mean + deviation)) / 2 / (1 + d);
     made.variances[m] += old * old - made.means[m] * made.means[m];
   }
 }

@@ -72,8 +72,8 @@ class BandTerms {
   double threshold_, mean_block_, fast_;
   // Octaves of descending positive scales, then of negative ones.
   std::array<Octave, 2 * kOctaves> octaves_{};
-  // Variance of the signal and the part of it that interference changes; `*_beats_` is what each gains per
-  // unit of `louder` from cross terms with the block-fading power.
+  // Variance of the signal and the part of it that interference changes; `*_cross_terms_` is what each gains
+  // per unit of `louder` from cross terms with the block-fading power.
   double signal_ = 0, signal_cross_terms_ = 0, changed_ = 0, changed_cross_terms_ = 0;
 };
 

@@ -181,9 +181,9 @@ std::optional<DiffuseRay> DepthFanCache::diffuse(double theta, std::size_t windo
   return ray;
 }
 
-class DepthFan::Column {
+class DepthFan::Fan {
  public:
-  Column(const ProfiledSea& sea, const RayLink& link)
+  Fan(const ProfiledSea& sea, const RayLink& link)
       : tracer_(sea, link), fan_(tracer_), cache_(tracer_, fan_), angles_(launch_angles(tracer_)) {
     branches_ = ProfileSearch(tracer_, fan_).branches(angles_);
     fan_.forget_since(0);
@@ -227,13 +227,13 @@ std::vector<Eigenray> DepthFan::at(const ProfiledSea& sea, const RayLink& link) 
   // The rays that are left out depend on the receiver's depth.
   if (sea.core_speed_mps > 0) return profile_rays(sea, link);
   ProfiledSea wide = sea;
-  if (!columns_.empty()) wide.options = widened(sea.options);
-  auto column = std::find_if(columns_.begin(), columns_.end(), [&](const auto& one) {
+  if (!fans_.empty()) wide.options = widened(sea.options);
+  auto fan = std::find_if(fans_.begin(), fans_.end(), [&](const auto& one) {
     return one->options() == sea.options || one->options() == wide.options;
   });
-  if (column == columns_.end()) column = columns_.insert(column, std::make_unique<Column>(wide, link));
-  std::vector<Eigenray> paths = (*column)->at(link.receiver_depth_m);
-  if (!((*column)->options() == sea.options)) drop_faint(paths, sea.options);
+  if (fan == fans_.end()) fan = fans_.insert(fan, std::make_unique<Fan>(wide, link));
+  std::vector<Eigenray> paths = (*fan)->at(link.receiver_depth_m);
+  if (!((*fan)->options() == sea.options)) drop_faint(paths, sea.options);
   return paths;
 }
 

@@ -147,8 +147,8 @@ class DepthFan : public SharedRays {
   std::vector<Eigenray> at(const ProfiledSea& sea, const RayLink& link) override;
 
  private:
-  class Column;
-  std::vector<std::unique_ptr<Column>> columns_;  // one for each set of options
+  class Fan;
+  std::vector<std::unique_ptr<Fan>> fans_;  // one for each set of options
 };
 
 }  // namespace halocline::acoustics

@@ -137,7 +137,7 @@ class AmbientNoise : public ReceiverNoise {
 };
 
 // A best-place answer of 1600 links: 40 depths, 40 listeners within 5 km, along rays in layered water over
-// level ground; each question is of another place, so every link is searched.
+// a level seabed; each question is of another place, so every link is searched.
 void best_place(benchmark::State& state) {
   constexpr int kListeners = 40, kDepths = 40;
   const auto seabed = std::make_shared<SeabedMap>(SeabedRule{});

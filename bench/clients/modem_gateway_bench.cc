@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What hosts feel of the modem gateway: how long a command waits for its echo while a mission runs, and what
-// idle doors cost. To be run on a private bus (scripts/isolated). Aims on an idle machine: 5 ms at the
-// median, 20 % of a core.
+// What hosts feel of the modem gateway: how long a command waits for its echo while a simulation runs, and
+// what idle modem interfaces cost. To be run on a private bus (scripts/isolated). Aims on an idle machine: 5
+// ms at the median, 20 % of a core.
 #include <algorithm>
 #include <chrono>
 #include <fstream>
@@ -26,7 +26,7 @@ using std::chrono::steady_clock;
 
 constexpr int kFirstPort = 21'000;
 
-// Vehicles on a grid, each with a door; where `moves`, they run on and talk every ten seconds.
+// Vehicles on a grid, each with a modem interface; where `moves`, they run on and talk every ten seconds.
 std::string scenario_of(int vehicles, bool moves) {
   std::ostringstream text;
   text << "[scenario]\nduration_s = 100000\n[terrain]\nkind = \"flat\"\n[terrain.flat]\ndepth_m = 200.0\n"
@@ -39,24 +39,24 @@ std::string scenario_of(int vehicles, bool moves) {
     if (moves) text << "[vehicle.traffic]\nperiod_s = 10\nstart_s = " << 0.5 * i << "\n";
   }
   for (int i = 1; i <= vehicles; ++i)
-    text << "[[door]]\nvehicle = \"v" << i << "\"\nkind = \"micromodem\"\nplace = \"tcp:" << kFirstPort + i
-         << "\"\n";
+    text << "[[modem_interface]]\nvehicle = \"v" << i
+         << "\"\nkind = \"micromodem\"\nplace = \"tcp:" << kFirstPort + i << "\"\n";
   return text.str();
 }
 
-// The programs of a mission in real time, and a host at each door.
-class Mission {
+// Programs of a run in real time, and a host at each modem interface.
+class Run {
  public:
-  explicit Mission(const std::vector<std::string>& programs, int vehicles, bool moves) {
-    std::ofstream("doors.toml") << scenario_of(vehicles, moves);
-    for (const std::string& program : programs) start({program, "doors.toml"});
+  explicit Run(const std::vector<std::string>& programs, int vehicles, bool moves) {
+    std::ofstream("modem_interfaces.toml") << scenario_of(vehicles, moves);
+    for (const std::string& program : programs) start({program, "modem_interfaces.toml"});
     connect(vehicles);
   }
   // All in one process.
-  explicit Mission(int vehicles) {
-    std::ofstream("doors.toml") << scenario_of(vehicles, true);
-    start({"halocline", "run", "doors.toml", "--rate", "1", "--out", "run", "--no-csv", "--no-report",
-           "--quiet"});
+  explicit Run(int vehicles) {
+    std::ofstream("modem_interfaces.toml") << scenario_of(vehicles, true);
+    start({"halocline", "run", "modem_interfaces.toml", "--rate", "1", "--out", "run", "--no-csv",
+           "--no-report", "--quiet"});
     connect(vehicles);
   }
 
@@ -89,7 +89,7 @@ class Mission {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
       }
     }
-    // Until simulation time passes at the last door.
+    // Until simulation time passes at the last modem interface.
     std::string text;
     while (text.find("00:00:03Z") == std::string::npos) {
       hosts_.back()->write("$CCTMQ,0\r\n");
@@ -118,11 +118,11 @@ double echo_s(testing::Host& host) {
 
 void command_echo(benchmark::State& state, const std::vector<std::string>& programs) {
   constexpr int kVehicles = 20;
-  const auto mission = programs.empty() ? std::make_unique<Mission>(kVehicles)
-                                        : std::make_unique<Mission>(programs, kVehicles, true);
+  const auto run =
+      programs.empty() ? std::make_unique<Run>(kVehicles) : std::make_unique<Run>(programs, kVehicles, true);
   std::vector<double> all_s;
   for ([[maybe_unused]] const auto turn : state) {
-    all_s.push_back(echo_s(mission->host(all_s.size() % kVehicles)));
+    all_s.push_back(echo_s(run->host(all_s.size() % kVehicles)));
     state.SetIterationTime(all_s.back());
     std::this_thread::sleep_for(std::chrono::microseconds(7300));  // at other instants of the steps
   }
@@ -136,20 +136,20 @@ const std::vector<std::string> kAll{"halocline-conductor", "halocline-vehicle-si
 BENCHMARK_CAPTURE(command_echo, separate_processes, kAll)->Iterations(1000)->UseManualTime();
 BENCHMARK_CAPTURE(command_echo, one_process, {})->Iterations(1000)->UseManualTime();
 
-// Doors with a host each that does nothing, of vehicles at 10 Hz.
-void idle_doors(benchmark::State& state) {
+// Modem interfaces with a host each that does nothing, of vehicles at 10 Hz.
+void idle_interfaces(benchmark::State& state) {
   constexpr double kSeconds = 10;
   for ([[maybe_unused]] const auto turn : state) {
-    const Mission mission({"halocline-conductor", "halocline-vehicle-sim", "halocline-channel-server",
-                           "halocline-modem-gateway"},
-                          static_cast<int>(state.range(0)), false);
-    const double before_s = mission.cpu_s();
+    const Run run({"halocline-conductor", "halocline-vehicle-sim", "halocline-channel-server",
+                   "halocline-modem-gateway"},
+                  static_cast<int>(state.range(0)), false);
+    const double before_s = run.cpu_s();
     std::this_thread::sleep_for(std::chrono::duration<double>(kSeconds));
     state.SetIterationTime(kSeconds);
-    state.counters["core_percent"] = 100 * (mission.cpu_s() - before_s) / kSeconds;
+    state.counters["core_percent"] = 100 * (run.cpu_s() - before_s) / kSeconds;
   }
 }
-BENCHMARK(idle_doors)->ArgName("doors")->Arg(200)->Iterations(1)->UseManualTime();
+BENCHMARK(idle_interfaces)->ArgName("interfaces")->Arg(200)->Iterations(1)->UseManualTime();
 
 }  // namespace
 }  // namespace halocline::modem_gateway

@@ -97,15 +97,15 @@ void world_step_free_remus100_pvs(benchmark::State& state) {
 }
 BENCHMARK(world_step_free_remus100_pvs)->Arg(1000);
 
-void world_step_over_ground(benchmark::State& state) {
+void world_step_above_seabed(benchmark::State& state) {
   step_all(state, std::make_shared<Flat>(), 1, 20, {0.1, 0, 20});
 }
-BENCHMARK(world_step_over_ground)->Arg(1)->Arg(1000);
+BENCHMARK(world_step_above_seabed)->Arg(1)->Arg(1000);
 
-void world_step_on_ground(benchmark::State& state) {
+void world_step_on_seabed(benchmark::State& state) {
   step_all(state, std::make_shared<Flat>(), 0.95, 99.8, {});
 }
-BENCHMARK(world_step_on_ground)->Arg(1)->Arg(1000);
+BENCHMARK(world_step_on_seabed)->Arg(1)->Arg(1000);
 
 // Steps of a whole fleet, with what its water costs.
 void fleet_step(benchmark::State& state, const FleetSettings& settings) {

@@ -52,7 +52,7 @@ void require_readable(ConfigVisitor& v, std::string_view key, const FilePath& pa
   const bool is_recorded = origin != nullptr && origin->unpacked != nullptr;
   const std::string difference = is_recorded ? origin->unpacked->difference(path.given()) : "";
   v.problem(key, "cannot read " + path.place() + ": " + reason +
-                     (difference.empty() ? "" : "; " + difference + "; --set names it anew"));
+                     (difference.empty() ? "" : "; " + difference + "; --set names another"));
 }
 
 void report_refusal(ConfigVisitor& v, std::string_view key, const std::function<void()>& attempt) {

@@ -78,8 +78,8 @@ std::string value_text(const toml::node& node);
 // Removes the indices of list items from a name: "vehicle[0].modem." becomes "vehicle.modem.".
 std::string without_indices(const std::string& name);
 
-// Returns "; did you mean KEY?" for a key that no program reads, `prefix` naming its table as in error
-// messages; empty if no known key is similar (known_keys.cc).
+// Returns "; it is now KEY" or "; did you mean KEY?" for a key that no program reads, `prefix` naming its
+// table as in error messages; empty if the key was not renamed and no known one is similar (known_keys.cc).
 std::string suggestion_for(const ConfigDocument& document, const std::string& prefix, std::string_view key);
 
 // Reader that fills structs from one table of the document; `prefix` names the table in errors

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bus/config/config_document.h"
@@ -29,6 +31,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return above[b.size()];
 }
 
+// Old names of keys and sections, and the names of today.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kRenamedKeys{
+    {{"door", "modem_interface"}, {"ground_ahead_m", "seabed_ahead_m"}, {"ground_drift", "dvl_drift"}}};
+
 // Limit between a typing error and another word: one edit in three letters.
 std::size_t most_edits(std::string_view key) { return std::max<std::size_t>(1, key.size() / 3); }
 
@@ -45,8 +51,12 @@ std::string without_indices(const std::string& name) {
   return plain;
 }
 
-// Looks for the nearest key in the same table first, then for the same key in another table.
+// Looks for a new name of the key first, then for the nearest key in the same table, then for the same key in
+// another table.
 std::string suggestion_for(const ConfigDocument& document, const std::string& prefix, std::string_view key) {
+  for (const auto& [old_name, name] : kRenamedKeys) {
+    if (key == old_name) return "; it is now " + prefix + std::string(name);
+  }
   const auto question = [](const std::string& name) { return "; did you mean " + name + "?"; };
   std::size_t least = most_edits(key) + 1;
   std::string nearest;

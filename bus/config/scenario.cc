@@ -85,25 +85,25 @@ void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {
 
 // The keys belong to the bathymetry service. They are visited here so that a program that records the
 // configuration knows the files that they name.
-void look_at_rasters(ConfigVisitor& v) {
+void visit_rasters(ConfigVisitor& v) {
   FilePath path;
-  const auto look = [&](ConfigVisitor& raster) {
+  const auto visit_raster = [&](ConfigVisitor& raster) {
     raster.shared_with_others();
     raster.file("path", path, FileNames::kRasters, "");
   };
-  const auto look_in = [&](ConfigVisitor& terrain) {
+  const auto visit_terrain = [&](ConfigVisitor& terrain) {
     terrain.shared_with_others();
     std::string kind;
     terrain.text("kind", kind, {}, "");
-    terrain.when(kind == "raster", "kind = \"raster\"", [&] { terrain.section("raster", "", look); });
+    terrain.when(kind == "raster", "kind = \"raster\"", [&] { terrain.section("raster", "", visit_raster); });
     terrain.list(
         "nested", "", 0, [](std::size_t) {},
         [&](ConfigVisitor& nested, std::size_t) {
           nested.shared_with_others();
-          nested.section("raster", "", look);
+          nested.section("raster", "", visit_raster);
         });
   };
-  v.section("terrain", "", look_in);
+  v.section("terrain", "", visit_terrain);
 }
 
 // Two vehicles with the same name would publish on the same channel; with the same id, other vehicles could
@@ -174,7 +174,7 @@ void visit(ConfigVisitor& v, Scenario& s) {
   v.section("ocean", "The ocean as fields of place and time",
             [&](ConfigVisitor& section) { visit_ocean(section, s.ocean); });
   if (!v.writing()) {
-    look_at_rasters(v);
+    visit_rasters(v);
     // The key belongs to the channel server.
     v.section("channel_server", "", [&](ConfigVisitor& section) {
       section.shared_with_others();

@@ -181,7 +181,7 @@ lockstep_turn_t Sequencer::turn_of(const std::string& name) const {
   const Member& member = *find(name);
   lockstep_turn_t turn = turn_with_inputs(member, member.delivered, member.inbox.size());
   turn.instant_ns = instant_of(member).nanoseconds();
-  turn.horizon_ns = lookahead_.nanoseconds();
+  turn.lookahead_ns = lookahead_.nanoseconds();
   turn.max_steps = -1;
   turn.farewell = last_turn_ ? 1 : 0;
   if (lookahead_ > now() || shares_its_stage(member)) {
@@ -283,7 +283,7 @@ void Sequencer::take_result(Member& member, const lockstep_result_t& result) {
   // If it is due again at the instant of its step, those that share its lookahead must not pass that instant.
   const bool is_due_again = member.schedule.due <= member.reached;
   member.schedule.lookahead =
-      is_due_again ? SimTime::at_once() : SimTime::from_nanoseconds(result.quiet_until_ns);
+      is_due_again ? SimTime::at_once() : SimTime::from_nanoseconds(result.lookahead_ns);
   if (!last_turn_) return;
   note_members_changed();
   member.present = false;  // if it returns, it begins again
@@ -344,7 +344,7 @@ std::vector<lockstep_turn_t> Sequencer::history_of(const std::string& name, std:
     const Turn& taken = member.taken[i];
     turns.push_back(turn_with_inputs(member, i == 0 ? 0 : member.taken[i - 1].inbox_end, taken.inbox_end));
     turns.back().instant_ns = taken.instant_ns;
-    turns.back().horizon_ns = taken.reached_ns + 1;
+    turns.back().lookahead_ns = taken.reached_ns + 1;
     turns.back().max_steps = taken.steps;
     size += static_cast<std::size_t>(turns.back().getEncodedSize()) + 4;
   }

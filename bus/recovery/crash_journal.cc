@@ -93,10 +93,10 @@ void CrashJournal::write_inputs(SimTime now) {
   step_ = now;
   if (!is_open()) return;
   journal_->write_inputs(now);
-  if (journal_->is_given_up() && !std::exchange(given_up_, true))
-    bus_.log().error(
-        "journal-given-up",
-        "reason=\"the disk refused it, or it was deleted or truncated; after a kill the node begins anew\"");
+  if (journal_->is_abandoned() && !std::exchange(abandoned_, true))
+    bus_.log().error("journal-abandoned",
+                     "reason=\"the disk refused it, or it was deleted or truncated; after a kill the node "
+                     "starts from the beginning\"");
   if (now > published_forgotten_at_) published_.clear();
 }
 

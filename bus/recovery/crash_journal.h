@@ -148,7 +148,7 @@ class CrashJournal {
   std::set<std::pair<std::string, std::string>> published_;
   SimTime published_forgotten_at_ = SimTime::never();
   SimTime step_;
-  bool replays_ = false, recovers_ = false, given_up_ = false;
+  bool replays_ = false, recovers_ = false, abandoned_ = false;
 };
 
 }  // namespace halocline::bus

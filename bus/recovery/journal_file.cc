@@ -79,7 +79,7 @@ std::string problem_with(int file, std::string_view header) {
   if (file < 0) return std::strerror(errno);
   struct stat status {};
   if (fstat(file, &status) != 0) return std::strerror(errno);
-  if (!S_ISREG(status.st_mode)) return "it is a device, a pipe or a folder; allowed is an ordinary file";
+  if (!S_ISREG(status.st_mode)) return "it is a device, a pipe or a folder; allowed is a regular file";
   if (!lock(file)) return "another process has it open";
   std::array<std::uint8_t, kJournalHeaderBytes> found{};
   const ssize_t size = pread(file, found.data(), found.size(), 0);

@@ -90,10 +90,10 @@ MessageJournal::MessageJournal(Rule rule) : rule_(std::move(rule)) {
   const auto earlier = [](const auto& a, const auto& b) { return a.at < b.at; };
   std::stable_sort(inherited_.begin(), inherited_.end(), earlier);
   for (const JournalledMessage& entry : inherited_) carry(entry);
-  const SimTime horizon = inherited_.empty() ? SimTime() : inherited_.back().at - rule_.kept;
-  std::erase_if(inherited_, [&](const JournalledMessage& entry) { return entry.at < horizon; });
+  const SimTime oldest = inherited_.empty() ? SimTime() : inherited_.back().at - rule_.kept;
+  std::erase_if(inherited_, [&](const JournalledMessage& entry) { return entry.at < oldest; });
   std::vector<JournalledMessage> older = carried();
-  std::erase_if(older, [&](const JournalledMessage& entry) { return entry.at >= horizon; });
+  std::erase_if(older, [&](const JournalledMessage& entry) { return entry.at >= oldest; });
   inherited_.insert(inherited_.begin(), older.begin(), older.end());
   std::stable_sort(inherited_.begin(), inherited_.end(), earlier);
   begin_file(inherited_);

@@ -72,7 +72,7 @@ class MessageJournal {
   // Bytes in the earlier incarnation's files that were no complete entry.
   std::size_t bytes_damaged() const { return bytes_damaged_; }
   // True when the disk refused an entry; nothing more is written.
-  bool is_given_up() const { return file_ == nullptr; }
+  bool is_abandoned() const { return file_ == nullptr; }
 
   // Keeps a received message in memory until the step that takes it.
   void add_input(std::string_view channel, const void* data, std::size_t size);

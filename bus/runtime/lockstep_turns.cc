@@ -93,7 +93,7 @@ SimTime LockstepTurns::lookahead(const lockstep_turn_t& turn) {
 lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
   published_.clear();
   now_ = SimTime::from_nanoseconds(turn.instant_ns);
-  const SimTime lookahead_end = SimTime::from_nanoseconds(turn.horizon_ns);
+  const SimTime lookahead_end = SimTime::from_nanoseconds(turn.lookahead_ns);
   const int max_steps = turn.max_steps >= 0 ? turn.max_steps : kMaxStepsPerTurn;
   deliver(turn.inputs);
   if (turn.farewell != 0) node_.stop({now_, now_});
@@ -113,7 +113,7 @@ lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
   result.num_steps = steps;
   result.reached_ns = now_.nanoseconds();
   result.next_due_ns = node_.lockstep_due().nanoseconds();
-  result.quiet_until_ns = lookahead(turn).nanoseconds();
+  result.lookahead_ns = lookahead(turn).nanoseconds();
   result.outputs_digest = digest_;
   result.num_outputs = static_cast<std::int32_t>(published_.size());
   result.outputs = published_;

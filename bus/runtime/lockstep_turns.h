@@ -3,7 +3,7 @@
 // due, and returns the messages that it published and the time at which it is next due.
 //
 // Inputs are delivered as LCM would deliver them; outputs go only to the result. With lookahead (a turn whose
-// horizon lies beyond its instant) the node steps at its own instants until the horizon, until it publishes a
+// lookahead lies beyond its instant) the node steps at its own instants until then, until it publishes a
 // message that may advance the due time of a participant, or until it is due again at the instant of a step.
 #pragma once
 

@@ -144,9 +144,9 @@ void Node::write_journal(SimTime now) {
   if (written) {
     bus_.log().info("journal-resumed");
   } else {
-    bus_.log().error(
-        "journal-refused",
-        "reason=\"the disk refused it, or it was deleted or truncated; after a kill the node begins anew\"");
+    bus_.log().error("journal-refused",
+                     "reason=\"the disk refused it, or it was deleted or truncated; after a kill the node "
+                     "starts from the beginning\"");
   }
 }
 
@@ -160,7 +160,7 @@ void Node::restart(const Now& now) {
 
 void Node::count_refused_clocks(std::int64_t count) {
   bus_.counters().refused += count;
-  bus_.counters().rivals += count;
+  bus_.counters().duplicate_publishers += count;
 }
 
 void Node::stop(const Now& now) {
@@ -192,7 +192,7 @@ void Node::publish_status(const Now& now, const std::string& text) {
   status.messages_sent = counters.sent;
   status.messages_refused = counters.refused;
   status.messages_unsent = counters.unsent;
-  status.rivals = counters.rivals;
+  status.rivals = counters.duplicate_publishers;
   status.gaps = counters.gaps;
   status.repaired = counters.repaired;
   status.lost = counters.lost;
@@ -212,7 +212,7 @@ void Node::report_lateness(const Now& now, const Lateness& lateness) {
   const double limit_s = bus_.lateness().limit().seconds();
   if (limit_s == 0 || lateness.max_s <= limit_s || now.steady < next_lateness_report_) return;
   next_lateness_report_ = now.steady + kLatenessReported;
-  bus_.log().warning("real-time-not-held",
+  bus_.log().warning("real-time-not-kept",
                      "p50_s=" + std::to_string(lateness.p50_s) + " p99_s=" + std::to_string(lateness.p99_s) +
                          " max_s=" + std::to_string(lateness.max_s) + " limit_s=" + std::to_string(limit_s) +
                          " late=" + std::to_string(bus_.counters().late));

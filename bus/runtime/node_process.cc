@@ -122,8 +122,8 @@ class NodeTime {
   NodeTime(Node& node, TimeSource& source) : node_(node), source_(source) {}
   const Now& now() const { return now_; }
   SimTime wake() const {
-    constexpr SimDuration kLook = SimDuration::from_milliseconds(10);
-    if (halt_.holds()) return std::min(node_.due().steady, now_.steady + kLook);
+    constexpr SimDuration kPollPeriod = SimDuration::from_milliseconds(10);
+    if (halt_.holds()) return std::min(node_.due().steady, now_.steady + kPollPeriod);
     return is_behind_ ? SimTime::at_once() : wake_time(node_, source_);
   }
 

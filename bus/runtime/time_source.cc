@@ -86,12 +86,12 @@ bool ConductorTime::is_witnessed(const sim_clock_t& clock, SimTime received) {
 void ConductorTime::refuse_unexpected() {
   std::erase_if(witnesses_, [&](const Heard& one) { return one.clock.session == last_->clock.session; });
   const auto refuse = [this](std::int64_t count, std::string_view reason) {
-    bus_.counters().rivals += count;
+    bus_.counters().duplicate_publishers += count;
     if (count > 0) bus_.refuse(channels::kClock, reason);
   };
   refuse(std::exchange(num_leaps_, 0), "utime, rate or sequence is not what is expected of its session");
   refuse(std::exchange(num_others_, 0),
-         "session is of a second conductor; the first is followed until it is silent for 3 s");
+         "session is of a second conductor; the first is accepted until it is silent for 3 s");
 }
 
 void ConductorTime::on_clock(const sim_clock_t& clock, SimTime received) {

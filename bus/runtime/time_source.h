@@ -95,7 +95,7 @@ class ConductorTime : public TimeSource {
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
   [[nodiscard]] bool restarted() override { return std::exchange(restarted_, false); }
-  std::int64_t num_refused() const override { return bus_.counters().rivals; }
+  std::int64_t num_refused() const override { return bus_.counters().duplicate_publishers; }
   const Subscriptions* receives() const override { return &bus_.receives(); }
 
   // Processes a CLOCK that was received at `received` (steady).

@@ -37,7 +37,8 @@ struct BusCounters {
   std::int64_t sent = 0;
   std::int64_t refused = 0;
   std::int64_t unsent = 0;  // refused by the network, whether or not sent later
-  std::int64_t rivals = 0;  // refused because of a second publisher of a name, or a second CLOCK
+  std::int64_t duplicate_publishers =
+      0;  // refused because of a second publisher of a name, or a second CLOCK
   std::int64_t gaps = 0;
   std::int64_t repaired = 0;
   std::int64_t lost = 0;

@@ -135,12 +135,12 @@ PowerCrossing ReceiverState::next_crossing(SimTime from, const acoustics::Band& 
 }
 
 void ReceiverState::forget(SimTime now) {
-  SimTime horizon = now - kept_longer_;
-  if (!open_.empty()) horizon = std::min(horizon, open_.front());
-  std::erase_if(sounds_, [&](const AudiblePacket& packet) { return packet.end < horizon; });
-  std::erase_if(transmissions_, [&](const PacketInterval& span) { return span.end < horizon; });
+  SimTime oldest = now - kept_longer_;
+  if (!open_.empty()) oldest = std::min(oldest, open_.front());
+  std::erase_if(sounds_, [&](const AudiblePacket& packet) { return packet.end < oldest; });
+  std::erase_if(transmissions_, [&](const PacketInterval& span) { return span.end < oldest; });
   std::erase_if(acquisitions_,
-                [&](const Acquisition& acquisition) { return acquisition.reception.end < horizon; });
+                [&](const Acquisition& acquisition) { return acquisition.reception.end < oldest; });
   size_at_forgetting_ = size();
 }
 

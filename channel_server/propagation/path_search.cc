@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "acoustics/link/energy_flux.h"
-#include "acoustics/rays/bearings/range_fan.h"
 #include "acoustics/rays/depth_fan.h"
 #include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/range_fan.h"
 #include "core/check.h"
 #include "core/hash.h"
 

@@ -158,7 +158,7 @@ class PathLine {
 struct SharedLine {
   // For receivers at several depths of one position (acoustics/rays/depth_fan.h).
   static SharedLine of_depths();
-  // For receivers along one bearing (acoustics/rays/bearings/range_fan.h); the furthest must be searched
+  // For receivers along one bearing (acoustics/rays/range_fan.h); the furthest must be searched
   // first.
   static SharedLine of_ranges(std::vector<double> rising_ranges_m);
 

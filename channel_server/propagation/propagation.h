@@ -206,7 +206,7 @@ class Propagation {
                                                          double /*deepest_end_m*/) const {
     return std::nullopt;
   }
-  // Returns the bound on flux-only links; empty where weak links are computed like all others, or where the
+  // Returns the bound on flux-only links; empty where they are computed like all others, or where the
   // depth of the water is unknown.
   virtual std::optional<FluxOnlyLinks> flux_only_links(SimTime /*at*/, double /*frequency_hz*/,
                                                        double /*deepest_end_m*/) const {

@@ -99,8 +99,8 @@ void ShardExchange::take(const found_paths_t& message) {
   Peer& peer = peers_[static_cast<std::size_t>(from)];
   peer.ended = SimTime::from_utime(message.utime);
   peer.has_ended = true;
-  if (peer.is_away) bus_.log().info("shard-back", "shard=" + std::to_string(from));
-  peer.is_away = false;
+  if (peer.is_unavailable) bus_.log().info("shard-back", "shard=" + std::to_string(from));
+  peer.is_unavailable = false;
 }
 
 void ShardExchange::keep(const link_search_t& search) {
@@ -169,7 +169,7 @@ void ShardExchange::end_tick(SimTime tick, SimTime steady) {
 }
 
 bool ShardExchange::is_missing(const Peer& peer) const {
-  return peer.is_awaited && !peer.is_away && !(peer.has_ended && peer.ended >= tick_);
+  return peer.is_awaited && !peer.is_unavailable && !(peer.has_ended && peer.ended >= tick_);
 }
 
 bool ShardExchange::must_wait(SimTime steady) {
@@ -177,8 +177,8 @@ bool ShardExchange::must_wait(SimTime steady) {
     Peer& peer = peers_[i];
     if (!is_missing(peer)) continue;
     if (steady < waits_until_) return true;
-    peer.is_away = true;
-    bus_.log().warning("shard-away", "shard=" + std::to_string(i));
+    peer.is_unavailable = true;
+    bus_.log().warning("shard-unavailable", "shard=" + std::to_string(i));
   }
   for (Peer& peer : peers_) peer.is_awaited = false;
   waits_until_ = SimTime::never();

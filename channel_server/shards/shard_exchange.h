@@ -90,7 +90,7 @@ class ShardExchange : public PathExchange {
     std::vector<found_paths_t> outbox;
     std::size_t last_bytes = 0;  // size of the last message
     SimTime ended;               // tick of the latest mark
-    bool has_ended = false, is_awaited = false, is_away = false;
+    bool has_ended = false, is_awaited = false, is_unavailable = false;
   };
 
   static Key key_of(std::int64_t sea_hash, const PathQuery& query);

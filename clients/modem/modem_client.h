@@ -135,7 +135,7 @@ class ModemClient {
 
   // Returns the receipt of a packet; nothing until it has arrived.
   std::optional<modem_receipt_t> receipt_of(std::int64_t packet_sequence) const;
-  // Returns true while the SEND of this packet is being repeated: neither answered nor given up.
+  // Returns true while the SEND of this packet is being repeated: neither answered nor expired.
   bool is_pending(std::int64_t packet_sequence) const { return pending_.contains(packet_sequence); }
   // Returns the packet that has waited longest; nothing when there is none.
   std::optional<modem_receive_t> take_received();

@@ -21,7 +21,7 @@ namespace {
 
 // Flag in the user data of an epoll event: set for the listening socket of a modem interface, whose number
 // the other bits hold. Without it the data is the number of a host.
-constexpr std::uint64_t kDoorMark = std::uint64_t{1} << 63;
+constexpr std::uint64_t kListenerMark = std::uint64_t{1} << 63;
 constexpr int kMaxEvents = 256;
 
 bool is_over(ssize_t result) {
@@ -49,27 +49,30 @@ void Connections::watch(int operation, int fd, std::uint64_t mark, std::uint32_t
 }
 
 std::size_t Connections::add(const Endpoint& place) {
-  Door door;
-  door.place = place;
+  Listener listener;
+  listener.place = place;
   if (place.is_tcp) {
-    door.listening = listen_tcp(place);
-    watch(EPOLL_CTL_ADD, door.listening.get(), kDoorMark | doors_.size(), EPOLLIN);
-    door.place.port = port_of(door.listening);
+    listener.listening = listen_tcp(place);
+    watch(EPOLL_CTL_ADD, listener.listening.get(), kListenerMark | listeners_.size(), EPOLLIN);
+    listener.place.port = port_of(listener.listening);
   } else {
     SerialLine line = open_pty(place.path);
-    door.listening = std::move(line.terminal);
-    door.link = std::move(line.link);
-    door.is_waiting_pty = true;
-    next_look_ = SimTime();
+    listener.listening = std::move(line.terminal);
+    listener.link = std::move(line.link);
+    listener.is_waiting_pty = true;
+    next_poll_ = SimTime();
   }
-  doors_.push_back(std::move(door));
-  return doors_.size() - 1;
+  listeners_.push_back(std::move(listener));
+  return listeners_.size() - 1;
 }
 
-std::string Connections::place_of(std::size_t door) const { return doors_.at(door).place.text(); }
+std::string Connections::place_of(std::size_t interface) const {
+  return listeners_.at(interface).place.text();
+}
 
 int Connections::file_of(const Client& client) const {
-  return client.connection.get() >= 0 ? client.connection.get() : doors_[client.door].listening.get();
+  return client.connection.get() >= 0 ? client.connection.get()
+                                      : listeners_[client.interface].listening.get();
 }
 
 bool Connections::is_ready() const {
@@ -79,50 +82,50 @@ bool Connections::is_ready() const {
 
 std::vector<Connections::Input> Connections::take(SimTime steady) {
   std::vector<Input> inputs;
-  if (steady >= next_look_) look_at_ptys(steady, inputs);
+  if (steady >= next_poll_) poll_ptys(steady, inputs);
   std::array<epoll_event, kMaxEvents> events{};
   const int count = epoll_wait(epoll_.get(), events.data(), kMaxEvents, 0);
   for (int i = 0; i < count; ++i) {
     const epoll_event& event = events[static_cast<std::size_t>(i)];
-    if ((event.data.u64 & kDoorMark) != 0)
-      accept_all(static_cast<std::size_t>(event.data.u64 & ~kDoorMark), inputs);
+    if ((event.data.u64 & kListenerMark) != 0)
+      accept_all(static_cast<std::size_t>(event.data.u64 & ~kListenerMark), inputs);
     else
       serve(static_cast<ClientId>(event.data.u64), event.events, inputs);
   }
   return inputs;
 }
 
-void Connections::accept_all(std::size_t door, std::vector<Input>& inputs) {
+void Connections::accept_all(std::size_t interface, std::vector<Input>& inputs) {
   for (;;) {
-    FileDescriptor connection = accept_connection(doors_[door].listening);
+    FileDescriptor connection = accept_connection(listeners_[interface].listening);
     if (connection.get() < 0) return;
-    if (doors_[door].num_clients < kMaxClients)
-      open(door, std::move(connection), inputs);
+    if (listeners_[interface].num_clients < kMaxClients)
+      open(interface, std::move(connection), inputs);
     else
       ++counters_.turned_away;  // closed at once
   }
 }
 
-ClientId Connections::open(std::size_t door, FileDescriptor connection, std::vector<Input>& inputs) {
+ClientId Connections::open(std::size_t interface, FileDescriptor connection, std::vector<Input>& inputs) {
   const ClientId id = ++last_;
-  Client& client = clients_[id] = {door, std::move(connection), {}};
+  Client& client = clients_[id] = {interface, std::move(connection), {}};
   watch(EPOLL_CTL_ADD, file_of(client), static_cast<std::uint64_t>(id), EPOLLIN);
-  ++doors_[door].num_clients;
+  ++listeners_[interface].num_clients;
   ++counters_.opened;
-  inputs.push_back({door, id, Change::kOpened, {}});
+  inputs.push_back({interface, id, Change::kOpened, {}});
   return id;
 }
 
-void Connections::look_at_ptys(SimTime steady, std::vector<Input>& inputs) {
-  next_look_ = SimTime::never();
-  for (std::size_t i = 0; i < doors_.size(); ++i) {
-    Door& door = doors_[i];
-    if (!door.is_waiting_pty) continue;
-    if (is_pty_open(door.listening)) {
-      door.is_waiting_pty = false;
+void Connections::poll_ptys(SimTime steady, std::vector<Input>& inputs) {
+  next_poll_ = SimTime::never();
+  for (std::size_t i = 0; i < listeners_.size(); ++i) {
+    Listener& listener = listeners_[i];
+    if (!listener.is_waiting_pty) continue;
+    if (is_pty_open(listener.listening)) {
+      listener.is_waiting_pty = false;
       open(i, FileDescriptor(), inputs);
     } else {
-      next_look_ = steady + kPtyPeriod;
+      next_poll_ = steady + kPtyPeriod;
     }
   }
 }
@@ -139,7 +142,7 @@ void Connections::serve(ClientId id, std::uint32_t events, std::vector<Input>& i
     if (size > 0) {
       bytes.resize(static_cast<std::size_t>(size));
       counters_.bytes_in += size;
-      inputs.push_back({client.door, id, Change::kBytes, std::move(bytes)});
+      inputs.push_back({client.interface, id, Change::kBytes, std::move(bytes)});
     }
   }
   if (is_gone) return close(id, inputs);
@@ -148,26 +151,26 @@ void Connections::serve(ClientId id, std::uint32_t events, std::vector<Input>& i
 
 void Connections::close(ClientId id, std::vector<Input>& inputs) {
   const auto found = clients_.find(id);
-  const std::size_t number = found->second.door;
-  Door& door = doors_[number];
+  const std::size_t number = found->second.interface;
+  Listener& listener = listeners_[number];
   watch(EPOLL_CTL_DEL, file_of(found->second), 0, 0);
-  if (!door.place.is_tcp) {
-    door.is_waiting_pty = true;
-    next_look_ = SimTime();
+  if (!listener.place.is_tcp) {
+    listener.is_waiting_pty = true;
+    next_poll_ = SimTime();
   }
   clients_.erase(found);
-  --door.num_clients;
+  --listener.num_clients;
   inputs.push_back({number, id, Change::kClosed, {}});
 }
 
-void Connections::write(std::size_t door, ClientId client, std::string_view bytes) {
+void Connections::write(std::size_t interface, ClientId client, std::string_view bytes) {
   if (client != kAllClients) {
     const auto found = clients_.find(client);
     if (found != clients_.end()) write_to(client, found->second, bytes);
     return;
   }
   for (auto& [id, each] : clients_) {
-    if (each.door == door) write_to(id, each, bytes);
+    if (each.interface == interface) write_to(id, each, bytes);
   }
 }
 

@@ -44,13 +44,13 @@ class Connections {
   // place cannot be opened.
   std::size_t add(const Endpoint& place);
   // Returns the place as text, with the actual port where the place asked for any free one (port 0).
-  std::string place_of(std::size_t door) const;
+  std::string place_of(std::size_t interface) const;
 
   // Returns what hosts have done since the last call, in order. Never waits. `steady`: the present time of
   // the steady clock.
   enum class Change { kOpened, kBytes, kClosed };
   struct Input {
-    std::size_t door = 0;
+    std::size_t interface = 0;
     ClientId client = 0;
     Change change = Change::kBytes;
     std::string bytes;
@@ -58,7 +58,7 @@ class Connections {
   std::vector<Input> take(SimTime steady);
 
   // Writes to one host, or with kAllClients to every host of the modem interface.
-  void write(std::size_t door, ClientId client, std::string_view bytes);
+  void write(std::size_t interface, ClientId client, std::string_view bytes);
 
   // Shuts a TCP connection down; take() reports it as closed afterwards.
   void disconnect(ClientId client);
@@ -72,13 +72,13 @@ class Connections {
   int ready_file() const { return epoll_.get(); }
   bool is_ready() const;
   // Returns the time (steady clock) of the next poll of pseudo-terminals; never() when none waits for a host.
-  SimTime next_look() const { return next_look_; }
+  SimTime next_poll() const { return next_poll_; }
 
   const ConnectionCounters& counters() const { return counters_; }
   std::size_t clients() const { return clients_.size(); }
 
  private:
-  struct Door {
+  struct Listener {
     Endpoint place;
     FileDescriptor listening;  // listening socket, or the gateway's side of the pseudo-terminal
     Link link;                 // symbolic link to the pseudo-terminal
@@ -86,17 +86,17 @@ class Connections {
     bool is_waiting_pty = false;  // no host has the pseudo-terminal open
   };
   struct Client {
-    std::size_t door = 0;
-    FileDescriptor connection;  // -1 on a pseudo-terminal, where the file of its Door is used
+    std::size_t interface = 0;
+    FileDescriptor connection;  // -1 on a pseudo-terminal, where the file of its Listener is used
     std::string unsent;
     bool watches_room = false;  // epoll also reports when the host can be written to
   };
 
   int file_of(const Client& client) const;
   void watch(int operation, int fd, std::uint64_t mark, std::uint32_t events) const;
-  void accept_all(std::size_t door, std::vector<Input>& inputs);
-  ClientId open(std::size_t door, FileDescriptor connection, std::vector<Input>& inputs);
-  void look_at_ptys(SimTime steady, std::vector<Input>& inputs);
+  void accept_all(std::size_t interface, std::vector<Input>& inputs);
+  ClientId open(std::size_t interface, FileDescriptor connection, std::vector<Input>& inputs);
+  void poll_ptys(SimTime steady, std::vector<Input>& inputs);
   void serve(ClientId id, std::uint32_t events, std::vector<Input>& inputs);
   void close(ClientId id, std::vector<Input>& inputs);
   bool send_unsent(Client& client);
@@ -105,10 +105,10 @@ class Connections {
 
   FileDescriptor epoll_;
   FileDescriptor datagrams_;  // UDP socket, opened with the first datagram
-  std::vector<Door> doors_;
+  std::vector<Listener> listeners_;
   std::map<ClientId, Client> clients_;
   ClientId last_ = 0;
-  SimTime next_look_ = SimTime::never();
+  SimTime next_poll_ = SimTime::never();
   ConnectionCounters counters_;
 };
 

@@ -38,7 +38,7 @@ FileDescriptor::~FileDescriptor() {
 
 FileDescriptor listen_tcp(const Endpoint& place) {
   FileDescriptor socket_file(socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  const std::string what = "a door cannot listen at " + place.text();
+  const std::string what = "a modem interface cannot listen at " + place.text();
   require_done(socket_file.get() >= 0, what);
   const int yes = 1;
   setsockopt(socket_file.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -68,7 +68,8 @@ FileDescriptor accept_connection(const FileDescriptor& listening) {
 Link::Link(std::string path, std::string target) : path_(std::move(path)), target_(std::move(target)) {
   struct stat there {};
   if (lstat(path_.c_str(), &there) == 0 && S_ISLNK(there.st_mode)) unlink(path_.c_str());
-  require_done(symlink(target_.c_str(), path_.c_str()) == 0, "a door cannot make the link " + path_);
+  require_done(symlink(target_.c_str(), path_.c_str()) == 0,
+               "a modem interface cannot make the link " + path_);
 }
 
 Link::~Link() {

@@ -10,8 +10,8 @@
 
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/address_book.h"
-#include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/interface_options.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "core/check.h"
@@ -45,17 +45,18 @@ class NoPort : public ProtocolPort {
   void note(std::string_view, std::string_view) override {}
 };
 
-AddressBook book_of(const GatewayConfig& config, const DoorConfig& door) {
+AddressBook book_of(const GatewayConfig& config, const ModemInterfaceConfig& interface) {
   AddressBook book;
-  assign_addresses(book, door.addresses, config.vehicles);
+  assign_addresses(book, interface.addresses, config.vehicles);
   return book;
 }
 
 // Throws InvalidArgument for options that the kind does not know, or that name a vehicle as a transponder
 // which is not one. `book` holds the addresses of the modem interface's kind.
-void check_options(const GatewayConfig& config, const DoorConfig& door, AddressBook book) {
+void check_options(const GatewayConfig& config, const ModemInterfaceConfig& interface, AddressBook book) {
   NoPort port;
-  const auto protocol = make_protocol(door.kind, {port, book, door.vehicle_id, DoorOptions(door.options)});
+  const auto protocol =
+      make_protocol(interface.kind, {port, book, interface.vehicle_id, InterfaceOptions(interface.options)});
   const std::vector<std::int32_t> transponders = protocol->transponders();
   for (const NamedVehicle& vehicle : config.vehicles) {
     require(
@@ -80,27 +81,27 @@ std::string kinds_text() {
   return text;
 }
 
-void visit_door(ConfigVisitor& v, DoorConfig& door) {
-  v.text("vehicle", door.vehicle, {}, "name of the vehicle whose modem it is");
-  v.text("kind", door.kind, protocol_kinds(), "whose protocol it speaks");
-  std::string place = door.place.text();
+void visit_interface(ConfigVisitor& v, ModemInterfaceConfig& interface) {
+  v.text("vehicle", interface.vehicle, {}, "name of the vehicle whose modem it is");
+  v.text("kind", interface.kind, protocol_kinds(), "whose protocol it speaks");
+  std::string place = interface.place.text();
   v.text("place", place, {}, "tcp:PORT on this host alone, tcp:ADDRESS:PORT, or pty:PATH of a serial line");
-  bus::report_refusal(v, "place", [&] { door.place = place_of(place); });
-  v.text("addresses", door.addresses, {},
+  bus::report_refusal(v, "place", [&] { interface.place = place_of(place); });
+  v.text("addresses", interface.addresses, {},
          "of modems of this kind: VEHICLE=ADDRESS with blanks between; others have the vehicle's id");
-  v.text("options", door.options, {}, "NAME=VALUE with blanks between (docs/interfaces.md)");
+  v.text("options", interface.options, {}, "NAME=VALUE with blanks between (docs/interfaces.md)");
 }
 
-void check_door(ConfigVisitor& v, const GatewayConfig& config, std::size_t i) {
-  const DoorConfig& door = config.doors[i];
-  bus::report_refusal(v, "vehicle", [&] { id_of(config, door.vehicle); });
-  if (door.kind.empty()) return v.problem("kind", "it must be given: one of " + kinds_text());
+void check_interface(ConfigVisitor& v, const GatewayConfig& config, std::size_t i) {
+  const ModemInterfaceConfig& interface = config.interfaces[i];
+  bus::report_refusal(v, "vehicle", [&] { id_of(config, interface.vehicle); });
+  if (interface.kind.empty()) return v.problem("kind", "it must be given: one of " + kinds_text());
   std::optional<AddressBook> book;
-  bus::report_refusal(v, "addresses", [&] { book = book_of(config, door); });
-  bus::report_refusal(v, "options", [&] { check_options(config, door, book.value_or(AddressBook())); });
+  bus::report_refusal(v, "addresses", [&] { book = book_of(config, interface); });
+  bus::report_refusal(v, "options", [&] { check_options(config, interface, book.value_or(AddressBook())); });
   for (std::size_t other = 0; other < i; ++other) {
-    if (config.doors[other].place == door.place && door.place.text() != "tcp:0")
-      v.problem("place", "another door has this place; allowed is one of its own");
+    if (config.interfaces[other].place == interface.place && interface.place.text() != "tcp:0")
+      v.problem("place", "another modem interface has this place; allowed is one of its own");
   }
 }
 
@@ -148,32 +149,34 @@ void visit(ConfigVisitor& v, GatewayConfig& config) {
       });
   visit(v, config.clocks);
   v.list(
-      "door", "A front door: the modem of a vehicle as a real one (halocline-modem-gateway)",
-      config.doors.size(), [&](std::size_t n) { config.doors.resize(n); },
-      [&](ConfigVisitor& item, std::size_t i) { visit_door(item, config.doors[i]); });
+      "modem_interface",
+      "Emulated interface of a vehicle's modem, for hosts that speak the protocol of a real one",
+      config.interfaces.size(), [&](std::size_t n) { config.interfaces.resize(n); },
+      [&](ConfigVisitor& item, std::size_t i) { visit_interface(item, config.interfaces[i]); });
   if (v.writing()) return;
   // The second pass checks references to vehicles, once all their names are known.
   v.list(
-      "door", "", config.doors.size(), [](std::size_t) {},
+      "modem_interface", "", config.interfaces.size(), [](std::size_t) {},
       [&](ConfigVisitor& item, std::size_t i) {
-        check_door(item, config, i);
+        check_interface(item, config, i);
         for (const auto& vehicle : config.vehicles) {
-          if (vehicle.name == config.doors[i].vehicle) config.doors[i].vehicle_id = vehicle.id;
+          if (vehicle.name == config.interfaces[i].vehicle) config.interfaces[i].vehicle_id = vehicle.id;
         }
       });
 }
 
-void add_door(GatewayConfig& config, std::string_view text) {
+void add_interface(GatewayConfig& config, std::string_view text) {
   const auto equals = text.find('='), colon = text.find(':', equals);
   require(equals != std::string_view::npos && colon != std::string_view::npos,
-          "--door '" + std::string(text) + "'; allowed is VEHICLE=KIND:PLACE, such as auv-1=nm3:tcp:9600");
-  DoorConfig door;
-  door.vehicle = text.substr(0, equals);
-  door.vehicle_id = id_of(config, door.vehicle);
-  door.kind = text.substr(equals + 1, colon - equals - 1);
-  door.place = place_of(text.substr(colon + 1));
-  check_options(config, door, book_of(config, door));
-  config.doors.push_back(std::move(door));
+          "--modem-interface '" + std::string(text) +
+              "'; allowed is VEHICLE=KIND:PLACE, such as auv-1=nm3:tcp:9600");
+  ModemInterfaceConfig interface;
+  interface.vehicle = text.substr(0, equals);
+  interface.vehicle_id = id_of(config, interface.vehicle);
+  interface.kind = text.substr(equals + 1, colon - equals - 1);
+  interface.place = place_of(text.substr(colon + 1));
+  check_options(config, interface, book_of(config, interface));
+  config.interfaces.push_back(std::move(interface));
 }
 
 }  // namespace halocline::modem_gateway

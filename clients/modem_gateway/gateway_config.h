@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sections [[door]] of a scenario file: the modems that have an emulated interface, its kind, and its place.
+// Sections [[modem_interface]] of a scenario file: the modems that have an emulated interface, its kind, and
+// its place.
 #pragma once
 
 #include <cstdint>
@@ -29,18 +30,18 @@ struct Endpoint {
 // names these forms.
 Endpoint place_of(std::string_view text);
 
-struct DoorConfig {
+struct ModemInterfaceConfig {
   std::string vehicle;
   std::int32_t vehicle_id = 0;
   std::string kind;
   Endpoint place;
   std::string addresses;  // syntax: address_book.h
-  std::string options;    // syntax: door_options.h
+  std::string options;    // syntax: interface_options.h
 };
 
 struct GatewayConfig {
   std::vector<NamedVehicle> vehicles;  // the vehicles of the scenario
-  std::vector<DoorConfig> doors;
+  std::vector<ModemInterfaceConfig> interfaces;
   // The caller copies these from the scenario; they are not keys of the section.
   double rate = 1;                                           // simulated seconds per wall second
   double origin_latitude_deg = 0, origin_longitude_deg = 0;  // origin of the world frame
@@ -51,6 +52,6 @@ void visit(bus::ConfigVisitor& v, GatewayConfig& config);
 
 // Adds a modem interface given on the command line as "VEHICLE=KIND:PLACE". Throws InvalidArgument for any
 // other text.
-void add_door(GatewayConfig& config, std::string_view text);
+void add_interface(GatewayConfig& config, std::string_view text);
 
 }  // namespace halocline::modem_gateway

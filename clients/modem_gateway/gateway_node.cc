@@ -14,20 +14,20 @@
 
 namespace halocline::modem_gateway {
 GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const GatewayConfig& config,
-                         SimDuration look_period, const std::string& trace_path,
+                         SimDuration poll_period, const std::string& trace_path,
                          const SoundFieldMaker& make_sound)
     : Node(lcm, std::move(identity)),
       config_(config),
       clocks_(bus(), config.clocks),
-      look_period_(look_period),
-      next_look_(look_period == SimDuration() ? SimTime::never() : SimTime()) {
+      poll_period_(poll_period),
+      next_poll_(poll_period == SimDuration() ? SimTime::never() : SimTime()) {
   if (!trace_path.empty()) trace_ = std::make_unique<TraceLog>(trace_path);
   if (config.rate != 1)
     bus().log().warning("rate", "rate=" + std::to_string(config.rate) + ": hosts keep wall time");
   assign_all_addresses();
-  for (const DoorConfig& door : config.doors) add_door(door, make_sound);
-  const bool wants_outcomes =
-      std::any_of(doors_.begin(), doors_.end(), [](const auto& door) { return door->wants_outcomes(); });
+  for (const ModemInterfaceConfig& interface : config.interfaces) add_interface(interface, make_sound);
+  const bool wants_outcomes = std::any_of(interfaces_.begin(), interfaces_.end(),
+                                          [](const auto& interface) { return interface->wants_outcomes(); });
   if (!wants_outcomes) return;
   bus().subscribe<packet_outcome_t>(bus::channels::kOutcome,
                                     [this](const packet_outcome_t& outcome) { take_outcome(outcome); });
@@ -35,25 +35,26 @@ GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Gatewa
 
 // Fills the address books in place: the modem interfaces keep references to them.
 void GatewayNode::assign_all_addresses() {
-  for (const DoorConfig& door : config_.doors) addresses_[door.kind] = AddressBook();
-  for (const DoorConfig& door : config_.doors)
-    assign_addresses(addresses_[door.kind], door.addresses, config_.vehicles);
+  for (const ModemInterfaceConfig& interface : config_.interfaces) addresses_[interface.kind] = AddressBook();
+  for (const ModemInterfaceConfig& interface : config_.interfaces)
+    assign_addresses(addresses_[interface.kind], interface.addresses, config_.vehicles);
 }
 
-void GatewayNode::add_door(const DoorConfig& door, const SoundFieldMaker& make_sound) {
-  if (needs_sound(door.kind) && !sound_) {
-    require(make_sound != nullptr, "a door of kind '" + door.kind + "' needs the water of a scenario");
+void GatewayNode::add_interface(const ModemInterfaceConfig& interface, const SoundFieldMaker& make_sound) {
+  if (needs_sound(interface.kind) && !sound_) {
+    require(make_sound != nullptr,
+            "a modem interface of kind '" + interface.kind + "' needs the water of a scenario");
     sound_ = make_sound(bus());
   }
-  const std::size_t number = connections_.add(door.place);
-  Door::Trace trace;
+  const std::size_t number = connections_.add(interface.place);
+  ModemInterface::Trace trace;
   if (trace_) {
-    trace = [this, name = door.vehicle + " " + door.kind](char direction, std::string_view bytes) {
+    trace = [this, name = interface.vehicle + " " + interface.kind](char direction, std::string_view bytes) {
       trace_->write(now_, name, direction, bytes);
     };
   }
-  doors_.push_back(std::make_unique<Door>(
-      bus(), door, config_, clocks_, addresses_[door.kind], sound_.get(),
+  interfaces_.push_back(std::make_unique<ModemInterface>(
+      bus(), interface, config_, clocks_, addresses_[interface.kind], sound_.get(),
       [this, number](ClientId client, std::string_view bytes) {
         written_.push_back({number, client, std::string(bytes)});
       },
@@ -61,24 +62,26 @@ void GatewayNode::add_door(const DoorConfig& door, const SoundFieldMaker& make_s
         connections_.send_datagram(client, port, bytes);
       },
       [this](ClientId client) { connections_.disconnect(client); }, std::move(trace)));
-  bus().log().info("door", "vehicle=" + door.vehicle + " kind=" + door.kind + " place=" + place_of(number));
+  bus().log().info("modem-interface",
+                   "vehicle=" + interface.vehicle + " kind=" + interface.kind + " place=" + place_of(number));
 }
 
 void GatewayNode::take_outcome(const packet_outcome_t& outcome) {
-  for (const auto& door : doors_) {
-    if (door->vehicle_id() == outcome.receiver_id && door->wants_outcomes()) door->store(outcome);
+  for (const auto& interface : interfaces_) {
+    if (interface->vehicle_id() == outcome.receiver_id && interface->wants_outcomes())
+      interface->store(outcome);
   }
 }
 
 bus::Due GatewayNode::on_due() const {
-  bus::Due due{.sim = next_look_};
-  const bool watches_files = look_period_ == SimDuration();
+  bus::Due due{.sim = next_poll_};
+  const bool watches_files = poll_period_ == SimDuration();
   if (watches_files) {
-    due.steady = connections_.next_look();
+    due.steady = connections_.next_poll();
     if (connections_.is_ready()) due.sim = SimTime::at_once();
   }
-  for (const auto& door : doors_) {
-    const bus::Due own = door->due();
+  for (const auto& interface : interfaces_) {
+    const bus::Due own = interface->due();
     due.sim = std::min(due.sim, own.sim);
     due.steady = std::min(due.steady, own.steady);
   }
@@ -87,24 +90,24 @@ bus::Due GatewayNode::on_due() const {
 
 void GatewayNode::on_step(const bus::Now& now) {
   now_ = now.sim;
-  for (const auto& door : doors_) door->begin_step(now);
+  for (const auto& interface : interfaces_) interface->begin_step(now);
   serve_hosts(now.steady);
-  for (const auto& door : doors_) door->end_step();
-  if (look_period_ > SimDuration() && now.sim >= next_look_) next_look_ = next_on_grid(now.sim, look_period_);
+  for (const auto& interface : interfaces_) interface->end_step();
+  if (poll_period_ > SimDuration() && now.sim >= next_poll_) next_poll_ = next_on_grid(now.sim, poll_period_);
 }
 
 void GatewayNode::serve_hosts(SimTime steady) {
   for (const Connections::Input& input : connections_.take(steady)) {
-    Door& door = *doors_[input.door];
+    ModemInterface& interface = *interfaces_[input.interface];
     switch (input.change) {
       case Connections::Change::kOpened:
-        door.on_opened(input.client);
+        interface.on_opened(input.client);
         break;
       case Connections::Change::kBytes:
-        door.on_bytes(input.client, input.bytes);
+        interface.on_bytes(input.client, input.bytes);
         break;
       case Connections::Change::kClosed:
-        door.on_closed(input.client);
+        interface.on_closed(input.client);
         break;
     }
   }
@@ -112,40 +115,41 @@ void GatewayNode::serve_hosts(SimTime steady) {
 
 void GatewayNode::on_restart(const bus::Now& now) {
   assign_all_addresses();
-  for (const auto& door : doors_) door->restart();
+  for (const auto& interface : interfaces_) interface->restart();
   clocks_.restart(now.sim);
-  if (look_period_ > SimDuration()) next_look_ = now.sim;
+  if (poll_period_ > SimDuration()) next_poll_ = now.sim;
 }
 
 void GatewayNode::on_archive(Archive& a) {
   a(clocks_);
-  for (const auto& door : doors_) a(*door);
+  for (const auto& interface : interfaces_) a(*interface);
 }
 
 bool GatewayNode::on_wants_commit() {
   bool wants = false;
-  for (const auto& door : doors_) wants = door->take_stored() || wants;
+  for (const auto& interface : interfaces_) wants = interface->take_stored() || wants;
   return wants;
 }
 
 void GatewayNode::on_committed() {
   for (const Written& written : std::exchange(written_, {}))
-    connections_.write(written.door, written.client, written.bytes);
+    connections_.write(written.interface, written.client, written.bytes);
 }
 
 std::string GatewayNode::status_text() const {
   std::int64_t sent = 0, received = 0, lost = 0;
-  for (const auto& door : doors_) {
-    sent += door->counters().sent;
-    received += door->counters().received;
-    lost += door->losses();
+  for (const auto& interface : interfaces_) {
+    sent += interface->counters().sent;
+    received += interface->counters().received;
+    lost += interface->losses();
   }
   const ConnectionCounters& hosts = connections_.counters();
-  return "doors " + std::to_string(doors_.size()) + ", hosts " + std::to_string(connections_.clients()) +
-         ", opened " + std::to_string(hosts.opened) + ", turned away " + std::to_string(hosts.turned_away) +
-         ", bytes in " + std::to_string(hosts.bytes_in) + ", out " + std::to_string(hosts.bytes_out) +
-         ", writes dropped " + std::to_string(hosts.writes_dropped) + ", sent " + std::to_string(sent) +
-         ", received " + std::to_string(received) + ", lost " + std::to_string(lost);
+  return "interfaces " + std::to_string(interfaces_.size()) + ", hosts " +
+         std::to_string(connections_.clients()) + ", opened " + std::to_string(hosts.opened) +
+         ", turned away " + std::to_string(hosts.turned_away) + ", bytes in " +
+         std::to_string(hosts.bytes_in) + ", out " + std::to_string(hosts.bytes_out) + ", writes dropped " +
+         std::to_string(hosts.writes_dropped) + ", sent " + std::to_string(sent) + ", received " +
+         std::to_string(received) + ", lost " + std::to_string(lost);
 }
 
 }  // namespace halocline::modem_gateway

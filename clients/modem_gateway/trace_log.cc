@@ -32,9 +32,10 @@ TraceLog::TraceLog(const std::string& path) {
   require(file_.is_open(), "--trace " + path + " cannot be written; allowed is a file, or - for stderr");
 }
 
-void TraceLog::write(SimTime now, std::string_view door, char direction, std::string_view bytes) {
+void TraceLog::write(SimTime now, std::string_view interface, char direction, std::string_view bytes) {
   std::ostream& out = file_.is_open() ? static_cast<std::ostream&>(file_) : std::cerr;
-  out << fmt::format("{:.6f} {} {} {}\n", now.seconds(), door, direction, printable(bytes)) << std::flush;
+  out << fmt::format("{:.6f} {} {} {}\n", now.seconds(), interface, direction, printable(bytes))
+      << std::flush;
 }
 
 }  // namespace halocline::modem_gateway

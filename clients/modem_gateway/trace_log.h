@@ -22,7 +22,7 @@ class TraceLog {
   // Opens the file; "-" means stderr. Throws InvalidArgument for a file that cannot be written.
   explicit TraceLog(const std::string& path);
 
-  void write(SimTime now, std::string_view door, char direction, std::string_view bytes);
+  void write(SimTime now, std::string_view interface, char direction, std::string_view bytes);
 
  private:
   std::ofstream file_;  // not open: stderr

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 package halocline.spy;
 
-/** What a view shows anew a few times a second, however fast messages come. */
+/** View that is redrawn a few times a second, however fast messages come. */
 interface Refreshed {
   void refresh();
 

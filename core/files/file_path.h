@@ -15,7 +15,7 @@ namespace halocline {
 class FilePath {
  public:
   FilePath() = default;
-  // Makes the path of a file at `place`. Implicit, because a place stands for its file.
+  // Makes the path of a file at `place`. Implicit, because a place represents its file.
   // NOLINTBEGIN(google-explicit-constructor)
   FilePath(std::string place) : given_(std::move(place)), place_(given_) {}
   FilePath(const char* place) : FilePath(std::string(place)) {}

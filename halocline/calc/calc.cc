@@ -106,8 +106,8 @@ class PublishedCheck {
                                             : published_range(quantity, form.model, input.names.front()));
   }
 
-  void look_at(const CsvTable& table, const CsvLine& row, const ColumnMap& map,
-               const std::vector<double>& values) {
+  void check(const CsvTable& table, const CsvLine& row, const ColumnMap& map,
+             const std::vector<double>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!map[i] || ranges_[i].holds(values[i]) || count_++ > 0) continue;
       first_ = "line " + std::to_string(row.number) + ", column " + table.header.cells[*map[i]] + ": " +
@@ -155,7 +155,7 @@ std::vector<std::string> compute(const CsvTable& table, const QuantityForm& form
     const std::size_t before = errors.size();
     const std::vector<double> values = read_row(table, row, form, map, errors);
     if (errors.size() > before) continue;
-    published.look_at(table, row, map, values);
+    published.check(table, row, map, values);
     try {
       lines.push_back(row.text + result_cells(function(values)));
     } catch (const InvalidArgument& error) {

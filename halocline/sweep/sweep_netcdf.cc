@@ -71,7 +71,7 @@ std::string variable_name(const std::string& key) {
   return std::isalpha(static_cast<unsigned char>(name.front())) != 0 ? name : "axis_" + name;
 }
 
-// Returns the unit that a key's suffix stands for (CONTRIBUTING.md); 1 for dimensionless values.
+// Returns the unit that a key's suffix denotes (CONTRIBUTING.md); 1 for dimensionless values.
 std::string unit_of(const std::string& key) {
   static const std::vector<std::pair<const char*, const char*>> units{
       {"_mps", "m s-1"},  {"_hz", "Hz"},     {"_bps", "bit s-1"},         {"_deg", "degree"}, {"_db", "dB"},

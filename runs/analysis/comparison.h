@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Comparison of two logs of one mission: the packets whose outcome changed, and the inputs of the decision
+// Comparison of two logs of one scenario: the packets whose outcome changed, and the inputs of the decision
 // that differ.
 //
 // A packet at a receiver is matched with the other log by its name (sender, kind, session, sequence),
 // destination and receiver. A name that was used more than once is matched by the instant of departure, and
 // in order where that moved. When one log has no outcome for it, the receipt of its transmission may give the
-// reason (refused), or the log ended before, or the log holds no outcomes at all (a mission recorded at sea).
+// reason (refused), or the log ended before, or the log holds no outcomes at all (a run recorded at sea).
 //
 // `moved` names the inputs of the decision that differ: level, noise, interference, paths, propagation,
 // range, duration, cutoff, doppler, draws, colliders. Levels count as different from 0.05 dB on, ranges from
@@ -54,7 +54,7 @@ class Comparison {
     const packet_outcome_t& any() const { return before ? *before : *after; }
   };
 
-  // Compares two logs. The names of their vehicles must agree, as in logs of one mission.
+  // Compares two logs. The names of their vehicles must agree, as in logs of one scenario.
   Comparison(const LoggedOutcomes& before, const LoggedOutcomes& after);
 
   const std::vector<Row>& rows() const { return rows_; }  // sorted by departure, sender, sequence, receiver

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Output of tracks as netCDF-4, through netCDF's C library. Part of the module halocline_tracks_netcdf.so,
-// which only mission_export.cc loads.
+// which only run_export.cc loads.
 #include <cstddef>
 #include <functional>
 #include <numbers>

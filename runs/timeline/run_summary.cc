@@ -90,7 +90,7 @@ void add_pairs(const RunTimeline& timeline, std::vector<SummaryRow>& rows) {
   const char* key = "received";
   if (pairs.size() <= kRowsEach) {
     for (const auto& [ids, both] : pairs) {
-      rows.push_back({key, both.names + " of each other: " + share(both.received, both.packets)});
+      rows.push_back({key, "between " + both.names + ": " + share(both.received, both.packets)});
       key = "";
     }
     return;
@@ -141,7 +141,7 @@ void add_lateness(const RunTimeline& timeline, std::vector<SummaryRow>& rows) {
   }
   if (late.empty()) return;
   std::sort(late.rbegin(), late.rend());
-  std::string text = "real time was not held: results up to";
+  std::string text = "real time was not kept: results up to";
   for (std::size_t i = 0; i < std::min(late.size(), kRowsEach); ++i)
     text += fmt::format("{} {:.2g} s late from {}", i == 0 ? "" : ",", late[i].first, late[i].second);
   if (late.size() > kRowsEach) text += fmt::format(" and {} more", late.size() - kRowsEach);

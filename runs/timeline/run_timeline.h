@@ -7,7 +7,7 @@
 //
 // The store accepts the messages of a bus or a log in any order and of any kind. A message on an unknown
 // channel, or one that does not decode or is not valid, is counted and left out. Times are simulation time,
-// taken from each message (mission_time.h); a message without a time takes the latest time that was reached.
+// taken from each message (run_time_base.h); a message without a time takes the latest time that was reached.
 // The store reads no file, opens no socket and reads no clock. Not thread-safe.
 //
 // Memory is bounded by TimelineLimits: the series of vehicles are thinned together (timed_series.h), and the
@@ -66,7 +66,7 @@ struct TimelineCounts {
   std::int64_t messages = 0;      // passed to add()
   std::int64_t unknown = 0;       // on a channel that is none of Halocline's
   std::int64_t undecodable = 0;   // not a valid message of their channel's type
-  std::int64_t without_time = 0;  // their utime is 0 or from another clock (mission_time.h)
+  std::int64_t without_time = 0;  // their utime is 0 or from another clock (run_time_base.h)
 };
 
 class RunTimeline {

@@ -155,7 +155,7 @@ class Mapping {
   void over_terrain() {
     channel_server::SeabedMap seabed = links_.seabed_map();
     std::vector<Line> lines = lines_of_cells();
-    if (sharing_ == RaySharing::kBearings && !links_.is_in_a_field()) lines = bearings(lines);
+    if (sharing_ == RaySharing::kRanges && !links_.is_in_a_field()) lines = bearings(lines);
     // The seabed must be known along a whole bearing; otherwise each of its cells gets its own profile.
     std::vector<Line> known;
     for (const Line& line : lines) {

@@ -3,17 +3,17 @@
 //
 // Model. Each cell and depth is the link from `from` to a receiver with the scenario's modem at rest at the
 // middle of the cell, computed as by `halocline link` (scenario/link_surveyor.h). Over terrain each cell has
-// a bottom profile, and links may share rays (RaySharing): either the depths of a cell, or the cells on a
+// a bottom profile, and links may share rays (RaySharing): either the depths of a cell, or the ranges of a
 // bearing. Bearings are so dense that neighbours are one cell apart at the farthest corner. Where the water
 // depends on depth only, the terrain is level and no vehicle makes noise, links of equal range are equal, and
 // links whose ranges differ by less than a cell are interpolated where that is verified (sampling.h).
 //
 // Error relative to `halocline link`. Over level terrain it is the tolerance of the interpolation, for the
 // quantities asked for: delivery 0.002, level 0.03 dB, delay 0.3 us. Over terrain it is zero without shared
-// rays. When depths share rays it is that of their paths (acoustics/rays/depth_fan.h), except in one
-// cell of a few hundred, where one of two searches misses a path at a fold or at the edge of a shadow. When
-// bearings share rays it is that of acoustics/rays/bearings/range_fan.h and of the terrain within half a
-// cell. tests/simulation/coverage measures the differences over 1000 random cells.
+// rays. When depths share rays it is that of their paths (acoustics/rays/depth_fan.h), except in one cell of
+// a few hundred, where one of two searches misses a path at a fold or at the edge of a shadow. When ranges
+// share rays it is that of acoustics/rays/range_fan.h and of the terrain within half a cell.
+// tests/simulation/coverage measures the differences over 1000 random cells.
 #pragma once
 
 #include <cstddef>

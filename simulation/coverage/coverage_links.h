@@ -32,8 +32,8 @@ enum class RaySharing {
   // (acoustics/rays/depth_fan.h).
   kDepths,
   // One fan of rays for all ranges on a bearing, over the bottom along that bearing
-  // (acoustics/rays/bearings/range_fan.h).
-  kBearings
+  // (acoustics/rays/range_fan.h).
+  kRanges
 };
 
 // Links from one end, with the water and terrain of a scenario.

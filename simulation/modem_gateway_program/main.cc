@@ -38,7 +38,7 @@ SoundFieldMaker water_of(ConfigFile* file) {
 
 int main(int argc, char** argv) {
   halocline::modem_gateway::GatewayConfig config;
-  std::vector<std::string> doors;
+  std::vector<std::string> interfaces;
   std::string trace;
   NodeProgram program;
   program.program = "halocline-modem-gateway";
@@ -51,16 +51,18 @@ int main(int argc, char** argv) {
       "           SENSORS.<vehicle>, STATE.<vehicle>, BATTERY.<vehicle>, GPS.<vehicle>\n"
       "publishes: SEND.<vehicle>, LISTEN.<vehicle>, STATUS.<name>";
   program.options = {
-      {.name = "--door",
-       .help = "one more door: VEHICLE=KIND:tcp:PORT or VEHICLE=KIND:pty:PATH (repeatable)",
-       .values = &doors},
-      {.name = "--trace", .help = "file of all that passes through the doors; -: stderr", .value = &trace}};
+      {.name = "--modem-interface",
+       .help = "one more modem interface: VEHICLE=KIND:tcp:PORT or VEHICLE=KIND:pty:PATH (repeatable)",
+       .values = &interfaces},
+      {.name = "--trace",
+       .help = "file of all that passes through the modem interfaces; -: stderr",
+       .value = &trace}};
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   program.make_node = [&](const NodeProgram::Context& context) {
     config.rate = context.scenario.rate;
     config.origin_latitude_deg = context.scenario.origin_latitude_deg;
     config.origin_longitude_deg = context.scenario.origin_longitude_deg;
-    for (const std::string& door : doors) add_door(config, door);
+    for (const std::string& interface : interfaces) add_interface(config, interface);
     return std::make_unique<GatewayNode>(context.lcm, context.identity, config,
                                          context.in_lockstep ? GatewayNode::kLockstepPeriod : SimDuration(),
                                          trace, water_of(context.file));

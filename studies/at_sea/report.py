@@ -11,7 +11,7 @@ from at_sea.surveys import Refusal, Survey
 
 RMS = "measured less predicted: rms, us"
 MAX_POINTS = 500  # of a panel
-SLOW_S = 600  # what the shots within this of each other have in common is the sea's
+SLOW_S = 600  # what shots less than this apart have in common is the sea's
 TABLE_BEGIN, TABLE_END = "<!-- table of studies/validate_at_sea -->", "<!-- end of table -->"
 
 

@@ -27,7 +27,7 @@ TEST(FlowWatchForgery, ANumberFarAheadDoesNotEndItsFlow) {
   EXPECT_EQ(watch.lost(), 0);
 }
 
-// As far as repair reaches: what lies between is missing, given up, and received when it comes.
+// As far as repair reaches: what lies between is missing, expires, and is received when it comes.
 TEST(FlowWatchForgery, ANumberAheadDoesNotEndItsFlow) {
   for (const int ahead : {2, 60, 1500}) {
     FlowWatch watch;

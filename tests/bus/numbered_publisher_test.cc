@@ -62,7 +62,7 @@ TEST_F(NumberedPublisherTest, NamesMadeUpWithoutEndDoNotRenumberAChannelInUse) {
       EXPECT_EQ(next_on("OUTCOME"), expected++);
     }
   }
-  EXPECT_EQ(next_on("RECEIPT.0"), 0) << "longest unused, so begun anew";
+  EXPECT_EQ(next_on("RECEIPT.0"), 0) << "longest unused, so started again at 0";
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who publishes, or receives, from later on. A process that was killed and started again is, as a publisher,
-// a rival of the one before for a second, and its messages are refused (session_watch.h): what it published
-// meanwhile is repaired. As a receiver it goes on with the flows that the one before knew. What was published
-// before a subscription is not missing.
+// Nodes that publish, or receive, from later on. A process that was killed and started again is, as a
+// publisher, a duplicate of the one before for a second, and its messages are refused (session_watch.h): what
+// it published meanwhile is repaired. As a receiver it goes on with the flows that the one before knew. What
+// was published before a subscription is not missing.
 #include <cstdint>
 #include <string>
 #include <string_view>

@@ -150,7 +150,7 @@ TEST_P(RecoveringServer, PublishesInAllIncarnationsWhatAnUninterruptedServerPubl
   EXPECT_TRUE(several.receipts.size() == one.receipts.size());
   EXPECT_GT(one.events.size(), 200u);
   EXPECT_TRUE(several.events == one.events);
-  EXPECT_GT(late_, 5) << "nothing was due while it was away: not much of a test";
+  EXPECT_GT(late_, 5) << "nothing was due while it was down: not much of a test";
 }
 
 // What was due before a late step happened after its inputs were known, and does so when the step is done
@@ -214,7 +214,7 @@ TEST_P(RecoveringServer, AnswersNoPacketOfLongAgoAgain) {
   ASSERT_FALSE(second.bench.links.empty()) << "it did not resume";
 }
 
-// As one whose bathymetry service is away decides by other paths.
+// A server whose bathymetry service is unavailable decides by other paths.
 TEST_P(RecoveringServer, DeliversNothingThatItsOutcomeDoesNotName) {
   Incarnation first(GetParam(), journal_);
   first.run(0, 200);

@@ -70,8 +70,8 @@ TEST_F(ConductorNodeTest, InRealTimeItReportsTheClocksOfAnotherAndStays) {
     while (lcm_.handleTimeout(0) > 0) {
     }
   }
-  EXPECT_EQ(node.counters().rivals, 5);
-  EXPECT_EQ(other.counters().rivals, 5);
+  EXPECT_EQ(node.counters().duplicate_publishers, 5);
+  EXPECT_EQ(other.counters().duplicate_publishers, 5);
   EXPECT_NE(::testing::internal::GetCapturedStderr().find("session is 2, of a second conductor"),
             std::string::npos);
   EXPECT_EQ(clocks_.size(), 10u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A Bus that repairs, with every channel subscribed to, and a timeline's store: messages in any order,
-// repairs, heartbeats, requests and rivals among them, as time goes on.
+// repairs, heartbeats, requests and duplicate publishers among them, as time goes on.
 #include <memory>
 #include <string>
 #include <string_view>

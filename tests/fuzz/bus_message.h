@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, 6> kNames{"auv-1", "auv-2",   "cha
 // Of the byte before the body, beside the name: the body has a fingerprint of its own; it is a repair.
 inline constexpr std::uint8_t kOwnFingerprint = 0x80, kRepairs = 0x40;
 
-// Two bytes stand for a type or a channel: a hash of its name, so that kept inputs mean the same when others
+// Two bytes denote a type or a channel: a hash of its name, so that kept inputs mean the same when others
 // come.
 inline std::uint16_t key_of(std::string_view name) { return static_cast<std::uint16_t>(fnv1a(name)); }
 // Of values that are sorted by their keys, the first whose key is not below; the first of all behind the

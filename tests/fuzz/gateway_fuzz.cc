@@ -16,7 +16,7 @@
 #include "bus/messages/message_codec.h"
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/address_book.h"
-#include "clients/modem_gateway/protocols/door_options.h"
+#include "clients/modem_gateway/protocols/interface_options.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
@@ -62,7 +62,7 @@ class Port : public ProtocolPort {
   std::optional<vehicle_battery_t> charge;
 };
 
-// As a door hands it over: what the bus refuses never comes.
+// As a modem interface hands it over: what the bus refuses never comes.
 template <class Message>
 std::optional<Message> message_from(fuzz::Input& input) {
   return bus::decoded<Message>(fuzz::with_fingerprint(Message::getHash(), input.block()));
@@ -79,13 +79,13 @@ class QuietSea : public SoundField {
   }
 };
 
-class Door {
+class ModemInterface {
  public:
-  Door()
+  ModemInterface()
       : protocol_(make_protocol(HALOCLINE_FUZZ_PROTOCOL, {port_,
                                                           addresses_,
                                                           kVehicle,
-                                                          DoorOptions(""),
+                                                          InterfaceOptions(""),
                                                           {{"auv-1", kVehicle}, {"auv-2", 2}},
                                                           40,
                                                           -50,
@@ -225,7 +225,7 @@ class Door {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input(data, size);
-  Door door;
-  while (!input.is_empty()) door.step(input);
+  ModemInterface interface;
+  while (!input.is_empty()) interface.step(input);
   return 0;
 }

@@ -145,7 +145,7 @@ class Run {
     result.num_steps = static_cast<std::int8_t>(input.number());
     result.reached_ns = instant_from(input, instant);
     result.next_due_ns = instant_from(input, instant);
-    result.quiet_until_ns = instant_from(input, instant);
+    result.lookahead_ns = instant_from(input, instant);
     const std::size_t outputs = input.below(4);
     for (std::size_t i = 0; i < outputs; ++i) {
       lockstep_message_t message{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Short texts of command lines and scenarios, by the first byte: rotation of logs, addresses and options of
-// doors, places, hosts that are accepted, channels.
+// modem interfaces, places, hosts that are accepted, channels.
 #include <string>
 #include <vector>
 
@@ -9,7 +9,7 @@
 #include "bus/transport/receive_filter.h"
 #include "clients/modem_gateway/gateway_config.h"
 #include "clients/modem_gateway/protocols/address_book.h"
-#include "clients/modem_gateway/protocols/door_options.h"
+#include "clients/modem_gateway/protocols/interface_options.h"
 #include "core/check.h"
 #include "core/csv_table.h"
 #include "tests/fuzz/fuzz_input.h"
@@ -31,7 +31,7 @@ void take(fuzz::Input& input) {
       break;
     }
     case 2: {
-      modem_gateway::DoorOptions options(text);
+      modem_gateway::InterfaceOptions options(text);
       options.take_number("rate", 1, 0, 10);
       options.take_flag("echo", false);
       options.require_all_taken();

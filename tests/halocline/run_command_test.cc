@@ -211,14 +211,14 @@ void write_bay(const fs::path& bay) {
   std::ofstream(bay / "auv.toml") << "based_on = \"torpedo\"\nname = \"own auv\"\n";
   std::ofstream(bay / "cast.csv") << "depth_m,temperature_degC,salinity_psu\n0,18,35\n60,12,35\n";
   std::ofstream(bay / "noise.csv") << "t_s,frequency_khz,level_db\n0,1,70\n0,100,40\n";
-  std::ofstream ground(bay / "ground.asc");
-  ground << "ncols 5\nnrows 5\nxllcorner -2500\nyllcorner -2500\ncellsize 1000\n";
-  for (int i = 0; i < 25; ++i) ground << "-60 ";
+  std::ofstream raster(bay / "terrain.asc");
+  raster << "ncols 5\nnrows 5\nxllcorner -2500\nyllcorner -2500\ncellsize 1000\n";
+  for (int i = 0; i < 25; ++i) raster << "-60 ";
   std::ofstream(bay / "bay.toml")
       << "[scenario]\nname = \"bay\"\nduration_s = 40\n[modem]\nprofile = \"modems/own.toml\"\n"
          "[environment]\nprofile = \"file\"\nprofile_file = \"cast.csv\"\nnoise_file = \"noise.csv\"\n"
          "[terrain]\nkind = \"raster\"\nsize_north_m = 2000\nsize_east_m = 2000\n"
-         "[terrain.raster]\npath = \"ground.asc\"\ncoordinate_system = \"local\"\n"
+         "[terrain.raster]\npath = \"terrain.asc\"\ncoordinate_system = \"local\"\n"
          "[[vehicle]]\nname = \"a\"\nid = 1\nmodel = \"auv.toml\"\nstart_ned_m = [0.0, 0.0, 20.0]\n"
          "[[vehicle]]\nname = \"b\"\nid = 2\nmodel = \"fixed\"\nstart_ned_m = [0.0, 300.0, 20.0]\n"
          "[vehicle.traffic]\nperiod_s = 5\npayload_bytes = 4\n";
@@ -252,20 +252,20 @@ TEST_F(RunCommand, ALogReplaysWhereNoneOfItsFilesIs) {
 // A raster above 1 MB.
 TEST_F(RunCommand, ALargeFileIsNamedByItsPlaceAndMissedByIt) {
   write_bay(folder_ + "/bay");
-  std::ofstream ground(folder_ + "/bay/ground.asc");
-  ground << "ncols 700\nnrows 700\nxllcorner -2500\nyllcorner -2500\ncellsize 7.142857142857143\n";
-  for (int i = 0; i < 490'000; ++i) ground << "-60 ";
-  ground.close();
+  std::ofstream raster(folder_ + "/bay/terrain.asc");
+  raster << "ncols 700\nnrows 700\nxllcorner -2500\nyllcorner -2500\ncellsize 7.142857142857143\n";
+  for (int i = 0; i < 490'000; ++i) raster << "-60 ";
+  raster.close();
   ASSERT_EQ(run("run bay/bay.toml --log away/made.lcm --no-csv --no-report --quiet").code, 0);
   EXPECT_EQ(run("replay away/made.lcm --log away/1.lcm").code, 0);
-  std::ofstream(folder_ + "/bay/ground.asc", std::ios::app) << " ";
+  std::ofstream(folder_ + "/bay/terrain.asc", std::ios::app) << " ";
   EXPECT_THAT(run("replay away/made.lcm --log away/2.lcm").output,
               HasSubstr("it is another file than the one of"));
-  fs::rename(folder_ + "/bay/ground.asc", folder_ + "/away/moved.asc");
+  fs::rename(folder_ + "/bay/terrain.asc", folder_ + "/away/moved.asc");
   const Ended missed = run("replay away/made.lcm --log away/3.lcm");
   EXPECT_EQ(missed.code, 2);
-  EXPECT_THAT(missed.output, HasSubstr("terrain.raster.path is 'ground.asc'; cannot read"));
-  EXPECT_THAT(missed.output, HasSubstr("bay/ground.asc: there is no such file; a file of 19"));
+  EXPECT_THAT(missed.output, HasSubstr("terrain.raster.path is 'terrain.asc'; cannot read"));
+  EXPECT_THAT(missed.output, HasSubstr("bay/terrain.asc: there is no such file; a file of 19"));
   EXPECT_EQ(run("replay away/made.lcm --log away/4.lcm --set terrain.raster.path=away/moved.asc").code, 0);
 }
 
@@ -358,11 +358,11 @@ TEST_F(RunCommand, NanIsNoNumberOfAnyOption) {
   }
 }
 
-TEST_F(RunCommand, TheVehicleSimulatorRefusesAStartUnderGroundToo) {
+TEST_F(RunCommand, TheVehicleSimulatorRefusesAStartBelowTheSeabedToo) {
   Process process({HALOCLINE_BIN_DIR "/halocline-vehicle-sim", folder_ + "/pond.toml", "--time-source",
                    "lockstep", "--set", "vehicle.0.start_ned_m=[0.0,0.0,500.0]"});
   EXPECT_EQ(process.wait(), 2);
-  EXPECT_THAT(process.output(), HasSubstr("vehicle a: that is under ground"));
+  EXPECT_THAT(process.output(), HasSubstr("vehicle a: that is below the seabed"));
 }
 
 TEST_F(RunCommand, QuietIsSilentButForErrors) {

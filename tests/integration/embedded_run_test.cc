@@ -84,8 +84,8 @@ TEST_F(EmbeddedRunTest, AnotherSeedIsAnotherSessionAndTheSameWater) {
   EXPECT_EQ(a.back().second.peers[0].received_level_db, b.back().second.peers[0].received_level_db);
 }
 
-// The receiver locks on one of the paths: on the first significant one, whose travel time is stated, or where
-// a stronger guard interval begins, within the delay spread.
+// The receiver synchronises on one of the paths: on the first significant one, whose travel time is stated,
+// or where a stronger guard interval begins, within the delay spread.
 TEST_F(EmbeddedRunTest, PacketsArriveWithTheirDelay) {
   const std::string log = run(harbour(), "log");
   const auto packets = messages_in<modem_receive_t>(log);

@@ -37,7 +37,7 @@ double normalised_square(const position_estimate_t& e) {
 
 // Travel times are exact here; what is left is the bending of the way (0.1 m in 0.9 km of this water, by
 // Fermat's principle) and the slip of the vehicle in turns, which dead reckoning does not model and which the
-// next ranges take back: a turn of 60 degrees is reckoned with 2 m.
+// next ranges take back: a turn of 60 degrees is estimated at 2 m.
 TEST_F(RangingTest, FindsAndKeepsItsPlaceByPings) {
   const auto all = estimates({"scenario.duration_s=420"});
   ASSERT_EQ(all.size(), 421u);

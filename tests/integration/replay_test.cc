@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A recorded mission through another sea: the same scenario repeats every number; each change moves what it
+// A recorded run through another sea: the same scenario repeats every number; each change moves what it
 // must; a log from sea, or a damaged one, is replayed as far as it can be read.
 #include <algorithm>
 #include <cmath>

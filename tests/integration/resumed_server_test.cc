@@ -153,7 +153,7 @@ TEST_P(ResumedServer, PublishesOneOutcomeOfEveryPacketAtEachReceiver) {
   EXPECT_THAT(output, ::testing::HasSubstr("resumed"));
   std::int64_t late = 0;
   for (const auto& [incarnation, count] : auditor.late) late += count;
-  EXPECT_GT(late, 0) << "nothing was due while a server was away: not much of a test";
+  EXPECT_GT(late, 0) << "nothing was due while a server was down: not much of a test";
   std::printf("%zu packets, %zu outcomes, %zu receptions, %lld of them late\n", auditor.accepted.size(),
               auditor.outcomes.size(), auditor.received.size(), static_cast<long long>(late));
 }

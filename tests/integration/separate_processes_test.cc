@@ -103,8 +103,8 @@ std::ostream& operator<<(std::ostream& out, const Interruption& interruption) {
 
 class AfterAnInterruption : public ::testing::TestWithParam<Interruption> {};
 
-// What `other` publishes while `absent` is away: without vehicles there are no links and no transmissions;
-// without a channel server traffic may have nothing to repeat; all else goes on.
+// Channels of `other` while `absent` is unavailable: without vehicles there are no links and no
+// transmissions; without a channel server traffic may have nothing to repeat; all else goes on.
 std::vector<std::string> shown_without(const std::string& absent, const Service& other) {
   const bool needs_vehicles =
       other.program != "halocline-conductor" && other.program != "halocline-bathymetry";

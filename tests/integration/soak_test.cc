@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Long missions need no more memory than short ones: hours of simulated time, as fast as they compute, with
+// Long runs need no more memory than short ones: hours of simulated time, as fast as they compute, with
 // the bytes in use compared between the first half and the second. Not a test of time.
 #include <algorithm>
 #include <cstdint>
@@ -27,7 +27,7 @@ class SoakTest : public testing::EmbeddedTest {
     const struct mallinfo2 info = mallinfo2();
     return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
   }
-  // The most in use at any of the instants looked at, every 60 s, from one to the other.
+  // Largest use at any of the instants examined, every 60 s, from one to the other.
   double max_in_use(bus::LockstepRunner& runner, bus::LogRecorder& log, double from_s, double to_s) {
     double most = 0;
     for (double t = from_s; t <= to_s; t += 60) {

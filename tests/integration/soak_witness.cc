@@ -64,11 +64,11 @@ class Witness : public bus::Node {
   }
 
  protected:
-  bus::Due on_due() const override { return {next_look_}; }
+  bus::Due on_due() const override { return {next_check_}; }
   void on_step(const bus::Now& now) override {
     if (!now.sim_known) return;
     now_ = now.sim;
-    next_look_ = now_ + SimDuration::from_milliseconds(1000);
+    next_check_ = now_ + SimDuration::from_milliseconds(1000);
     std::erase_if(packets_, [&](const auto& entry) {
       if (now_ - entry.second.last_heard < kSettled) return false;
       judge(entry.first, entry.second);
@@ -147,7 +147,7 @@ class Witness : public bus::Node {
   }
 
   int others_;
-  SimTime now_, next_look_;
+  SimTime now_, next_check_;
   std::map<Key, Packet> packets_;
   std::map<std::pair<std::int64_t, std::int64_t>, int> kinds_;  // of the SENDs of packets_
   std::int64_t num_packets_ = 0, num_refused_ = 0, num_receptions_ = 0, num_broken_ = 0;

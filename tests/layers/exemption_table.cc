@@ -9,7 +9,7 @@ const std::vector<Exemption>& exemptions() {
   static const std::vector<Exemption> table{
       {"bathymetry/terrain/local_frame", "GeographicLib/", "the one place of geodesy"},
       {"vehicle_sim/main.cc", "bathymetry/",
-       "vehicles touch the ground that the bathymetry service answers from: its main makes the same terrain"},
+       "vehicles touch the seabed that the bathymetry service answers from: its main makes the same terrain"},
       {"viewer/sources/log_nodes", "simulation/composition.h",
        "the links of a log are computed by the nodes that its configuration describes"},
       {"viewer/sources/modems", "channel_server/",
@@ -18,7 +18,7 @@ const std::vector<Exemption>& exemptions() {
       {"core/huge_page_vector", "sys/mman.h", "the one place that asks for large pages"},
       {"core/atomic_file", "", "files are replaced as a whole in one place"},
       {"core/files/guarded_reading", "", "the one place that reads in a child process first"},
-      {"core/files/input_file", "", "what a user names is looked at in one place before it is opened"},
+      {"core/files/input_file", "", "what a user names is examined in one place before it is opened"},
       {"core/memory/memory_budget", "", "the one place that asks how much memory there is"},
   };
   return table;

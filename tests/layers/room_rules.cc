@@ -40,7 +40,7 @@ bool is_exempt(std::string_view file, std::string_view header) {
   });
 }
 
-const Words kFree{"tests", "bench"};  // they may look at everything
+const Words kFree{"tests", "bench"};  // they may include everything
 
 // What a pure file may not know: clocks, threads, files, logging, and random numbers that are drawn by turn.
 const Words kImpure{"chrono", "ctime",   "thread",   "mutex",      "shared_mutex", "condition_variable",

@@ -3,7 +3,7 @@
 //
 // A room is a folder with sources; a sub-folder is a room of its own. Debian puts LCM's headers where every
 // compiler finds them, so lists of linked libraries alone do not keep LCM out of the models. Only `#include`
-// lines are looked at; a header reached through another is that other's business.
+// lines are examined; a header reached through another is that other's business.
 #pragma once
 
 #include <string>

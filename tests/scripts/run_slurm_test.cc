@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Missions over several hosts as jobs of SLURM (scripts/run --slurm), with network namespaces as hosts
+// Runs over several hosts as jobs of SLURM (scripts/run --slurm), with network namespaces as hosts
 // (scripts/slurm_node). Each case runs inside a network namespace of its own (scripts/isolated).
 #include <chrono>
 #include <csignal>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each check of sense: a scenario that breaks it, and one beside it that does not.
+// Each sanity check: a scenario that fails it, and one beside it that does not.
 #include <fstream>
 #include <string>
 #include <utility>
@@ -21,11 +21,12 @@ using ::testing::IsEmpty;
 
 TEST_F(ScenarioChecks, AVehicleStartsInTheWater) {
   EXPECT_THAT(errors_with("start_ned_m = [0.0, 0.0, 100.0]\n"), IsEmpty());
-  EXPECT_THAT(errors_with("start_ned_m = [0.0, 0.0, 101.5]\n"),
-              ElementsAre(AllOf(
-                  HasSubstr("sea.toml:5: vehicle[0].start_ned_m is ["), HasSubstr("101.5"),
-                  HasSubstr("vehicle auv: that is under ground; allowed there is a z, positive down, of 0 m "
-                            "(the sea surface) to 100 m (the ground)"))));
+  EXPECT_THAT(
+      errors_with("start_ned_m = [0.0, 0.0, 101.5]\n"),
+      ElementsAre(AllOf(
+          HasSubstr("sea.toml:5: vehicle[0].start_ned_m is ["), HasSubstr("101.5"),
+          HasSubstr("vehicle auv: that is below the seabed; allowed there is a z, positive down, of 0 m "
+                    "(the sea surface) to 100 m (the seabed)"))));
   EXPECT_THAT(errors_with("start_ned_m = [0.0, 0.0, -20.0]\n"),
               ElementsAre(HasSubstr("above the sea surface")));
   EXPECT_THAT(errors_with("start_ned_m = [2000.1, 0.0, 20.0]\n"), IsEmpty()) << "a level bottom has no end";
@@ -39,7 +40,7 @@ TEST_F(ScenarioChecks, AVehicleStartsInTheWater) {
 
 TEST_F(ScenarioChecks, AFixedVehicleIsCheckedAndAnExternalOneIsNot) {
   EXPECT_THAT(errors_with("start_ned_m = [0.0, 0.0, 101.5]\n", "fixed"),
-              ElementsAre(HasSubstr("under ground")));
+              ElementsAre(HasSubstr("below the seabed")));
   EXPECT_THAT(errors_with("start_ned_m = [0.0, 0.0, 101.5]\n", "external"), IsEmpty());
 }
 
@@ -57,7 +58,7 @@ TEST_F(ScenarioChecks, AWaypointLiesInTheWater) {
   EXPECT_THAT(errors("[50.0, 0.0, 99.0]"), IsEmpty());
   EXPECT_THAT(errors("[50.0, 0.0, 120.0]"),
               ElementsAre(AllOf(HasSubstr("sea.toml:7: vehicle[0].mission.waypoints[1] is ["),
-                                HasSubstr("under ground"))));
+                                HasSubstr("below the seabed"))));
   EXPECT_THAT(errors("[50.0, 0.0, -20.0]"), ElementsAre(HasSubstr("above the sea surface")));
   EXPECT_THAT(errors("[50.0, 0.0, -0.5]"), IsEmpty());  // to come up
   const std::string outside = vehicle_with("[vehicle.mission]\nwaypoints = [[3000.0, 0.0, 20.0]]\n");
@@ -126,26 +127,26 @@ TEST_F(ScenarioChecks, ANetworksPacketsFitTheModemsThatSendThem) {
                                                 HasSubstr("its packets have 5021 bytes"))));
 }
 
-TEST_F(ScenarioChecks, ASurveyLiesAboveGround) {
+TEST_F(ScenarioChecks, ASurveyLiesAboveTheSeabed) {
   const auto survey = [&](const std::string& keys) {
     return vehicle_with("[vehicle.mission]\n[[vehicle.mission.behaviour]]\nkind = \"survey\"\n" + keys);
   };
   EXPECT_THAT(findings_in(survey("depth_m = 90\n")).errors, IsEmpty());
   EXPECT_THAT(findings_in(survey("depth_m = 110\n")).errors,
               ElementsAre(AllOf(HasSubstr("sea.toml:9: vehicle[0].mission.behaviour[0].depth_m is 110"),
-                                HasSubstr("the whole survey lies under ground"))));
+                                HasSubstr("the whole survey lies below the seabed"))));
   EXPECT_THAT(findings_in(survey("depth_m = -5\n")).errors,
               ElementsAre(HasSubstr("the survey lies above the sea")));
   EXPECT_THAT(findings_in(survey("altitude_m = 5\ndepth_m = 110\n")).errors, IsEmpty());
   const std::string slope = "[terrain]\nkind = \"slope\"\n[terrain.slope]\ndepth_m = 50\nslope = 0.05\n";
   const Findings partly = findings_in(slope + survey("depth_m = 50\n"));
   EXPECT_THAT(partly.errors, IsEmpty());
-  EXPECT_THAT(partly.warnings, ElementsAre(HasSubstr("% of the survey lies under ground")));
+  EXPECT_THAT(partly.warnings, ElementsAre(HasSubstr("% of the survey lies below the seabed")));
   EXPECT_THAT(
       findings_in(vehicle_with(
                       "[vehicle.mission]\n[[vehicle.mission.behaviour]]\nkind = \"loiter\"\ndepth_m = 110\n"))
           .errors,
-      ElementsAre(HasSubstr("the whole circle lies under ground")));
+      ElementsAre(HasSubstr("the whole circle lies below the seabed")));
 }
 
 // 20 x 20 posts 100 m apart in local metres.
@@ -159,17 +160,17 @@ void write_raster(const std::string& path) {
 }
 
 TEST_F(ScenarioChecks, ARasterSmallerThanTheGridIsWarnedOf) {
-  write_raster(folder_ + "/ground.asc");
+  write_raster(folder_ + "/terrain.asc");
   const auto terrain = [](const char* size) {
     return "[terrain]\nkind = \"raster\"\nspacing_m = 100\nsize_north_m = " + std::string(size) +
            "\nsize_east_m = " + size +
-           "\n[terrain.raster]\npath = \"ground.asc\"\ncoordinate_system = \"local\"\n" + vehicle_with("");
+           "\n[terrain.raster]\npath = \"terrain.asc\"\ncoordinate_system = \"local\"\n" + vehicle_with("");
   };
   EXPECT_THAT(findings_in(terrain("1800")).errors, IsEmpty());
   EXPECT_THAT(findings_in(terrain("1800")).warnings, IsEmpty());
   EXPECT_THAT(
       findings_in(terrain("3000")).warnings,
-      ElementsAre(AllOf(HasSubstr("sea.toml:7: terrain.raster.path is 'ground.asc'"),
+      ElementsAre(AllOf(HasSubstr("sea.toml:7: terrain.raster.path is 'terrain.asc'"),
                         HasSubstr("posts of the grid have no depth: the raster is smaller than the grid"))));
 }
 

@@ -150,14 +150,15 @@ TEST_F(FleetWithBattery, AnEmptyBatteryStopsThePropellerAndDeafensTheSensors) {
 }
 
 TEST_F(FleetWithBattery, AFaultTakesThePowerAwayAndItsEndGivesItBack) {
-  Fleet mended = fleet(1e6);
-  ASSERT_TRUE(mended.apply_fault(0, {.from = at_ms(1000), .kind = FaultKind::kEmptyBattery}));
-  run(mended, 5000);
-  EXPECT_FALSE(mended.faults(0).has_power());
-  ASSERT_TRUE(mended.apply_fault(0, {.from = at_ms(6000), .kind = FaultKind::kEmptyBattery, .mended = true}));
-  run(mended, 20'000);
-  EXPECT_TRUE(mended.faults(0).has_power());
-  EXPECT_NEAR(mended.state_at(0, mended.time()).actuators.propeller_hz, 20, 0.1);
+  Fleet restored = fleet(1e6);
+  ASSERT_TRUE(restored.apply_fault(0, {.from = at_ms(1000), .kind = FaultKind::kEmptyBattery}));
+  run(restored, 5000);
+  EXPECT_FALSE(restored.faults(0).has_power());
+  ASSERT_TRUE(
+      restored.apply_fault(0, {.from = at_ms(6000), .kind = FaultKind::kEmptyBattery, .fixed = true}));
+  run(restored, 20'000);
+  EXPECT_TRUE(restored.faults(0).has_power());
+  EXPECT_NEAR(restored.state_at(0, restored.time()).actuators.propeller_hz, 20, 0.1);
 }
 
 }  // namespace

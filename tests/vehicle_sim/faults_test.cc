@@ -132,10 +132,10 @@ TEST(Faults, AVehicleWithWaterInsideHasTheMassMatrixOfBothBodies) {
 TEST(Faults, AMendedLeakKeepsItsWaterAndANegativeRatePumpsItOut) {
   Fleet fleet = fleet_of(plain_body());
   EXPECT_TRUE(fleet.apply_fault(0, leak(0.1, 0.01)));
-  Fault mended = leak(0.1, 0.01);
-  mended.from = at_s(10);
-  mended.mended = true;
-  EXPECT_TRUE(fleet.apply_fault(0, mended));
+  Fault plugged = leak(0.1, 0.01);
+  plugged.from = at_s(10);
+  plugged.fixed = true;
+  EXPECT_TRUE(fleet.apply_fault(0, plugged));
   fleet.advance(at_s(20));
   EXPECT_NEAR(water_inside_kg(fleet), 1, tolerance(1e-9));
   EXPECT_TRUE(fleet.apply_fault(0, leak(-0.5, 0)));
@@ -162,11 +162,11 @@ TEST(Faults, WithoutItsPropellerAVehicleCoastsAgainstItsDrag) {
 }
 
 TEST(Faults, AMendedPropellerDrivesAgain) {
-  const auto speed_after_a_minute = [](bool mend) {
+  const auto speed_after_a_minute = [](bool is_fixed) {
     Fleet fleet = fleet_of(*programmed_model("torpedo"));
     EXPECT_TRUE(fleet.apply_fault(0, {.from = SimTime(), .kind = FaultKind::kLostPropeller}));
-    if (mend) {
-      EXPECT_TRUE(fleet.apply_fault(0, {.from = at_s(5), .kind = FaultKind::kLostPropeller, .mended = true}));
+    if (is_fixed) {
+      EXPECT_TRUE(fleet.apply_fault(0, {.from = at_s(5), .kind = FaultKind::kLostPropeller, .fixed = true}));
     }
     for (int s = 0; s < 30; ++s) {
       EXPECT_EQ(fleet.command(0, {at_s(s), {.propeller_hz = 20}}), CommandVerdict::kTaken);
@@ -208,7 +208,7 @@ TEST(Faults, WithoutAnAngleARudderSticksWhereItIs) {
   EXPECT_TRUE(fleet.apply_fault(0, {.from = at_s(5), .kind = FaultKind::kStuckRudder}));
   run(fleet, 5, 5, -5 * kDegree);
   EXPECT_EQ(fleet.state_at(0, at_s(10)).actuators.rudder_rad, there);
-  EXPECT_TRUE(fleet.apply_fault(0, {.from = at_s(10), .kind = FaultKind::kStuckRudder, .mended = true}));
+  EXPECT_TRUE(fleet.apply_fault(0, {.from = at_s(10), .kind = FaultKind::kStuckRudder, .fixed = true}));
   run(fleet, 10, 5, -5 * kDegree);
   EXPECT_NEAR(fleet.state_at(0, at_s(15)).actuators.rudder_rad, -5 * kDegree, 1e-3);
 }
@@ -238,7 +238,7 @@ TEST(Faults, EachSensorFailsAndIsMendedByItself) {
   faults.take(dead, {});
   dead.sensor = SensorKind::kGps;
   faults.take(dead, {});
-  dead.mended = true;
+  dead.fixed = true;
   faults.take(dead, {});
   VehicleFaults::Dead expected = {};
   expected[static_cast<std::size_t>(SensorKind::kDvl)] = true;

@@ -12,7 +12,7 @@
 #include "core/check.h"
 #include "tests/support/at_ms.h"
 #include "tests/support/tolerance.h"
-#include "tests/vehicle_sim/world/grounds.h"
+#include "tests/vehicle_sim/world/formula_seabed.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/world/terrain_seabed.h"
@@ -216,7 +216,7 @@ TEST(Fleet, AHeavyVehicleComesToRestOnTheTerrain) {
   EXPECT_NEAR(fleet.state_at(0, at_ms(60'000)).position_ned_m.z(), 52 - 0.095, tolerance(2e-3));
 }
 
-TEST(Fleet, BeyondTheTerrainThereIsNoGround) {
+TEST(Fleet, BeyondTheTerrainThereIsNoSeabed) {
   const bathymetry::GridGeometry geometry{0, 0, 10, 3, 3};
   const auto terrain = std::make_shared<const bathymetry::Terrain>(
       bathymetry::make_grid(geometry, bathymetry::FlatShape{.depth_m = 52}));

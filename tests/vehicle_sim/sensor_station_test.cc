@@ -52,7 +52,7 @@ SensorStation station_of(std::size_t count, const SensorSettings& settings = all
   return {std::move(vehicles), 5, kPeriod, 100};
 }
 
-// Flat ground at 50 m.
+// Flat seabed at 50 m.
 void answer(SensorTick& tick) {
   for (std::size_t i = 0; i < tick.beams.size(); ++i) {
     const EchoBeam& beam = tick.beams[i];

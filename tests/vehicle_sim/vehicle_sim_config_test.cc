@@ -291,7 +291,7 @@ TEST(VehicleSimConfig, AFaultHasItsTimesAndItsEnd) {
   for (const auto& [member, fault] : faults) EXPECT_EQ(member, 1u);
   EXPECT_EQ(faults[0].second.from, SimTime::from_seconds(10));
   EXPECT_NEAR(faults[0].second.angle_rad.value(), to_radians(5), tolerance(1e-12));
-  EXPECT_TRUE(faults[1].second.mended);
+  EXPECT_TRUE(faults[1].second.fixed);
   EXPECT_EQ(faults[1].second.from, SimTime::from_seconds(20));
   EXPECT_EQ(faults[2].second.sensor, SensorKind::kGyro);
   EXPECT_EQ(faults[2].second.angle_rad, std::nullopt);

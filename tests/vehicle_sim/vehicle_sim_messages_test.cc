@@ -143,7 +143,7 @@ TEST(VehicleSimMessages, ARefusedOrShortReplyGivesNoEchoes) {
 TEST(VehicleSimMessages, AFaultSurvivesTheRoundTrip) {
   const Fault fault{.from = kWhen,
                     .kind = FaultKind::kDeadSensor,
-                    .mended = true,
+                    .fixed = true,
                     .angle_rad = -0.1,
                     .leak_rate_kg_s = 0.5,
                     .leak_volume_m3 = 0.01,
@@ -153,7 +153,7 @@ TEST(VehicleSimMessages, AFaultSurvivesTheRoundTrip) {
   const Fault back = from_message(message);
   EXPECT_EQ(back.from, fault.from);
   EXPECT_EQ(back.kind, fault.kind);
-  EXPECT_TRUE(back.mended);
+  EXPECT_TRUE(back.fixed);
   EXPECT_EQ(back.angle_rad, fault.angle_rad);
   EXPECT_EQ(back.leak_rate_kg_s, 0.5);
   EXPECT_EQ(back.leak_volume_m3, 0.01);

@@ -23,7 +23,7 @@
 #include "tests/bus/runtime/journal_files.h"
 #include "tests/support/at_ms.h"
 #include "tests/vehicle_sim/client_messages.h"
-#include "tests/vehicle_sim/world/grounds.h"
+#include "tests/vehicle_sim/world/formula_seabed.h"
 #include "vehicle_sim/dynamics/currents.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/sensors/sensor_errors.h"

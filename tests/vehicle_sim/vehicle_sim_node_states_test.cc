@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// States by dead reckoning: what receivers who carry the last state on see of a vehicle that manoeuvres.
+// States by dead reckoning: what receivers that extrapolate the last state see of a vehicle that manoeuvres.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -66,9 +66,10 @@ Seen seen_by_receiver(const std::vector<vehicle_state_t>& truth,
     while (last + 1 < published.size() && SimTime::from_utime(published[last + 1].utime) + delay <= now)
       ++last;
     const KinematicState known = kinematics_in(published[last]), true_state = kinematics_in(state);
-    const Pose carried = reckoned(known, now - SimTime::from_utime(published[last].utime)).pose;
-    seen.off_m = std::max(seen.off_m, (true_state.pose.position_ned_m - carried.position_ned_m).norm());
-    seen.off_rad = std::max(seen.off_rad, angle_between(true_state.pose.orientation, carried.orientation));
+    const Pose extrapolated = reckoned(known, now - SimTime::from_utime(published[last].utime)).pose;
+    seen.off_m = std::max(seen.off_m, (true_state.pose.position_ned_m - extrapolated.position_ned_m).norm());
+    seen.off_rad =
+        std::max(seen.off_rad, angle_between(true_state.pose.orientation, extrapolated.orientation));
     seen.allowed_m =
         std::max(seen.allowed_m, (period + delay).seconds() * speed_difference_mps(state, published[last]));
   }

@@ -190,7 +190,7 @@ TEST_F(VehicleSimNodeTest, AFaultOnTheBusBreaksAndMends) {
   EXPECT_NEAR(sensors_["sub"].back().rudder_angle_rad, -0.05, tolerance(1e-4));
   EXPECT_TRUE(sensors_["sub"][2].depth_fresh);
   EXPECT_FALSE(sensors_["sub"].back().depth_fresh);
-  publish_fault({.from = SimTime(), .kind = FaultKind::kStuckRudder, .mended = true});
+  publish_fault({.from = SimTime(), .kind = FaultKind::kStuckRudder, .fixed = true});
   command(at_ms(1000), {0.1, 0, 20});
   run_until(at_ms(2000));
   EXPECT_NEAR(sensors_["sub"].back().rudder_angle_rad, 0.1, tolerance(1e-4));

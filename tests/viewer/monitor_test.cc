@@ -50,7 +50,7 @@ TEST(Monitor, ShowsVehiclesThatMove) {
       page.await([](const json& m) { return m["type"] == "state" && m["has_states"] == true; });
   EXPECT_EQ(state["bus"], "live");
   EXPECT_EQ(page.await([](const json& m) {
-    return m["type"] == "mission" && m["vehicles"].size() == 3;
+    return m["type"] == "run" && m["vehicles"].size() == 3;
   })["vehicles"][1]["name"],
             "auv-2");
   const double first_s = page.next_frame_s();
@@ -100,12 +100,12 @@ TEST(Monitor, CommandsAreRefusedUnlessAllowed) {
   {
     Program program;
     Page page(program.port());
-    page.await([](const json& m) { return m["type"] == "mission" && m["vehicles"].size() == 2; });
+    page.await([](const json& m) { return m["type"] == "run" && m["vehicles"].size() == 2; });
     EXPECT_THAT(page.ask(command)["error"], HasSubstr("--allow-commands"));
   }
   Program program({"--allow-commands"});
   Page page(program.port());
-  page.await([](const json& m) { return m["type"] == "mission" && m["vehicles"].size() == 2; });
+  page.await([](const json& m) { return m["type"] == "run" && m["vehicles"].size() == 2; });
   const auto lcm = bus::open_transport(bus::effective_url(""));
   bus::Bus bus(*lcm, {"vehicle", 1});
   int commands = 0, sends = 0;
@@ -128,7 +128,7 @@ TEST(Monitor, HostileClientsCostOnlyThemselves) {
   const Fleet fleet(100);
   Page good(program.port());
   ASSERT_TRUE(good.opened());
-  good.await([](const json& m) { return m["type"] == "mission" && m["vehicles"].size() == 100; });
+  good.await([](const json& m) { return m["type"] == "run" && m["vehicles"].size() == 100; });
   const double before_mb = program.resident_mb();
   std::vector<std::unique_ptr<Page>> stalled;  // never read
   for (int i = 0; i < 4; ++i) stalled.push_back(std::make_unique<Page>(program.port()));
@@ -259,11 +259,10 @@ TEST(Monitor, LogWithItsScenarioHasRaysAndTerrain) {
   log.add_scenario();
   Program program({log.path()});
   Page page(program.port());
-  const json mission =
-      page.await([](const json& m) { return m["type"] == "mission" && !m["terrain"].is_null(); });
-  ASSERT_FALSE(mission.is_null());
-  EXPECT_EQ(mission["name"], "pair");
-  EXPECT_EQ(mission["terrain"]["min_depth_m"], 100);
+  const json run = page.await([](const json& m) { return m["type"] == "run" && !m["terrain"].is_null(); });
+  ASSERT_FALSE(run.is_null());
+  EXPECT_EQ(run["name"], "pair");
+  EXPECT_EQ(run["terrain"]["min_depth_m"], 100);
   const json link = page.ask({{"ask", "link"}, {"from", 0}, {"to", 1}, {"time_s", 10}});
   EXPECT_TRUE(link["notice"].is_null()) << link["notice"];
   ASSERT_GT(link["paths"].size(), 2u);

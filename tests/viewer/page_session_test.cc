@@ -41,7 +41,7 @@ struct Page {
   PageSession session;
 };
 
-TEST(PageSession, GreetsOnceThenMissionAndState) {
+TEST(PageSession, GreetsOnceThenRunAndState) {
   const testing::FixedSource source(true);
   Page page(source);
   page.session.tick(0, true, page.packets);
@@ -51,7 +51,7 @@ TEST(PageSession, GreetsOnceThenMissionAndState) {
   EXPECT_EQ(hello["source"], "log");
   EXPECT_EQ(hello["end_s"], 100);
   EXPECT_EQ(hello["link_columns"][0]["key"], "snr_db");
-  EXPECT_EQ(json::parse(page.texts[1])["type"], "mission");
+  EXPECT_EQ(json::parse(page.texts[1])["type"], "run");
   EXPECT_EQ(json::parse(page.texts[1])["vehicles"].size(), 2u);
   EXPECT_EQ(json::parse(page.texts[2])["type"], "state");
   EXPECT_TRUE(page.tick(0.05, "hello").empty());

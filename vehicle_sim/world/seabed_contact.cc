@@ -34,8 +34,8 @@ double gap_to(const Sphere& sphere, const SeabedPlane& plane, const Vec3& on_pla
 
 // True when the plane's point nearest to the sphere lies in the water, not on the seabed.
 bool hangs(const Seabed& seabed, const Vec3& nearest) {
-  const auto ground = seabed.plane_at(nearest.x(), nearest.y());
-  return ground && nearest.z() < ground->z_m - kHangingTolerance;
+  const auto plane = seabed.plane_at(nearest.x(), nearest.y());
+  return plane && nearest.z() < plane->z_m - kHangingTolerance;
 }
 
 void keep_least(Candidate& best, const Sphere& sphere, const SeabedPlane& plane, double gap) {
@@ -45,22 +45,22 @@ void keep_least(Candidate& best, const Sphere& sphere, const SeabedPlane& plane,
 
 // True when the seabed below bow, centre and stern is so deep that no slope up to the steepest reaches the
 // hull.
-bool far_from_ground(const HullShape& hull, const Vec3& center, const Vec3& axis, const Seabed& seabed,
-                     double margin) {
+bool is_far_from_seabed(const HullShape& hull, const Vec3& center, const Vec3& axis, const Seabed& seabed,
+                        double margin) {
   const double half = hull.length_m / 2;
   const double clear = hull.diameter_m / 2 + margin + kSteepestSeen * (half / 2 + hull.diameter_m / 2);
   for (const double along : {0.0, half, -half}) {
     const Vec3 point = center + along * axis;
-    const auto ground = seabed.plane_at(point.x(), point.y());
-    if (ground && ground->z_m - point.z() < clear) return false;
+    const auto plane = seabed.plane_at(point.x(), point.y());
+    if (plane && plane->z_m - point.z() < clear) return false;
   }
   return true;
 }
 
 // Finds the candidates of one sphere: for the plane below in best[0], for those on the sides, where they
 // differ from it, in best[1] and best[2].
-void look_round(const Sphere& sphere, const Vec3& sideways, int third, const Seabed& seabed, double margin,
-                std::array<BestOfThirds, 3>& best) {
+void find_candidates(const Sphere& sphere, const Vec3& sideways, int third, const Seabed& seabed,
+                     double margin, std::array<BestOfThirds, 3>& best) {
   const auto below = seabed.plane_at(sphere.center.x(), sphere.center.y());
   if (!below) return;
   const Vec3 under(sphere.center.x(), sphere.center.y(), below->z_m);
@@ -90,14 +90,14 @@ void find_contacts(const HullShape& hull, const Vec3& position_ned_m, const Quat
                    const Seabed& seabed, double margin_m, std::vector<HullContact>& contacts) {
   contacts.clear();
   const Vec3 axis = orientation * Vec3::UnitX();
-  if (far_from_ground(hull, position_ned_m, axis, seabed, margin_m)) return;
+  if (is_far_from_seabed(hull, position_ned_m, axis, seabed, margin_m)) return;
   const Vec3 sideways = level_and_across(axis);
   std::array<BestOfThirds, 3> best;
   for (int i = 0; i < kSpheres; ++i) {
     const double along = 2.0 * i / (kSpheres - 1) - 1;  // -1 at the stern, 1 at the bow
     const Sphere sphere{position_ned_m + along * hull.length_m / 2 * axis,
                         hull.diameter_m / 2 * std::sqrt(std::max(0.0, 1 - along * along))};
-    look_round(sphere, sideways, i * kThirds / kSpheres, seabed, margin_m, best);
+    find_candidates(sphere, sideways, i * kThirds / kSpheres, seabed, margin_m, best);
   }
   for (const BestOfThirds& thirds : best) {
     for (const Candidate& c : thirds) {

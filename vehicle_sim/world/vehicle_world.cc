@@ -117,7 +117,7 @@ void VehicleWorld::solve_free_motions(double step_s) {
     for (std::size_t i = chunk * kAtOnce; i < end; ++i) {
       Vehicle& v = vehicles_[i];
       if (!v.diverged) solve_free_motion(v, step_s);
-      if (!v.diverged && seabed_) look_for_ground(v, step_s);
+      if (!v.diverged && seabed_) find_seabed_contacts(v, step_s);
     }
   });
 }
@@ -127,7 +127,7 @@ void VehicleWorld::solve_free_motion(Vehicle& v, double step_s) {
   v.next = rk4_step(*v.model, v.state, v.command, v.water, step_s);
   v.linked = false;
   v.mass_scale = 1;
-  v.ground.clear();
+  v.seabed_contacts.clear();
   if (is_finite(v.next)) return;
   v.diverged = true;
   v.seabed_force.setZero();
@@ -135,10 +135,10 @@ void VehicleWorld::solve_free_motion(Vehicle& v, double step_s) {
   v.touches_vehicle = false;
 }
 
-void VehicleWorld::look_for_ground(Vehicle& v, double step_s) {
+void VehicleWorld::find_seabed_contacts(Vehicle& v, double step_s) {
   const VehicleState reached = moved_freely(*v.model, v.state, v.next, step_s);
   find_contacts(v.model->parameters().hull, reached.position_ned_m, reached.orientation, *seabed_,
-                kContactMargin, v.ground);
+                kContactMargin, v.seabed_contacts);
 }
 
 // Steps ODE with the bodies that have a contact; the others keep their free motion.
@@ -157,11 +157,11 @@ void VehicleWorld::solve_contacts(double step_s) {
 
 void VehicleWorld::attach_contacts(std::size_t index, double step_s) {
   const Vehicle& v = vehicles_[index];
-  if (v.ground.empty()) return;
+  if (v.seabed_contacts.empty()) return;
   if (!v.linked) write_body(v.body, *v.model, v.state);
   const Motion now = motion_of_cg(*v.model, v.state), free = motion_of_cg(*v.model, v.next);
   const Vec3 cg_reached = now.position + step_s * free.velocity;
-  for (const HullContact& c : v.ground) {
+  for (const HullContact& c : v.seabed_contacts) {
     // The gap after the step is to be 0 or more: gap + h n . (v - v_rk4), at the point of contact.
     const Vec3 arm = c.point_ned_m - cg_reached;
     const double free_speed = c.normal_ned.dot(free.velocity + free.angular_velocity.cross(arm));

@@ -136,9 +136,9 @@ class VehicleWorld {
     bool touches = false;          // touched the seabed in the last step
     bool touches_vehicle = false;  // touched another vehicle in the last step
     bool diverged = false;
-    std::vector<HullContact> ground = {};  // contacts with the seabed in this step
+    std::vector<HullContact> seabed_contacts = {};  // in this step
 
-    bool takes_part() const { return linked || !ground.empty(); }  // true in ODE's step
+    bool takes_part() const { return linked || !seabed_contacts.empty(); }  // true in ODE's step
   };
   struct TiedTether {
     Tether tether;
@@ -147,7 +147,7 @@ class VehicleWorld {
 
   void solve_free_motions(double step_s);
   static void solve_free_motion(Vehicle& vehicle, double step_s);
-  void look_for_ground(Vehicle& vehicle, double step_s);
+  void find_seabed_contacts(Vehicle& vehicle, double step_s);
   void solve_contacts(double step_s);
   void attach_contacts(std::size_t index, double step_s);
   void find_links(double step_s);

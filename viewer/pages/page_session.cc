@@ -8,8 +8,8 @@
 #include "runs/timeline/packet_book.h"
 #include "runs/timeline/run_timeline.h"
 #include "viewer/pages/link_display.h"
-#include "viewer/pages/mission_json.h"
 #include "viewer/pages/request_fields.h"
+#include "viewer/pages/run_json.h"
 
 namespace halocline::monitor {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 // Periods of the messages, s of steady time.
-constexpr double kStatePeriod = 1, kStateCheckPeriod = 0.2, kMissionPeriod = 0.5, kLinksPeriod = 1;
+constexpr double kStatePeriod = 1, kStateCheckPeriod = 0.2, kRunPeriod = 0.5, kLinksPeriod = 1;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ void PageSession::tick(double steady_s, bool idle, PacketIndex& packets) {
   const clients::RunTimeline& timeline = source_.timeline();
   playback_.advance(steady_s, timeline.begin(), source_.now());
   if (std::exchange(greets_, false)) send(hello_json(source_, may_command_));
-  send_mission(steady_s);
+  send_run(steady_s);
   send_state(steady_s, std::exchange(state_wanted_, false));
   if (!idle) return;
   std::string frame = vehicle_frame(timeline, playback_.at());
@@ -49,13 +49,13 @@ void PageSession::send_state(double steady_s, bool at_once) {
   last_state_ = std::move(state);
 }
 
-void PageSession::send_mission(double steady_s) {
-  if (!last_mission_.is_null() && steady_s - mission_seen_s_ < kMissionPeriod) return;
-  mission_seen_s_ = steady_s;
-  json timeline = mission_json(source_, playback_.at());
-  if (timeline == last_mission_) return;
+void PageSession::send_run(double steady_s) {
+  if (!last_run_.is_null() && steady_s - run_seen_s_ < kRunPeriod) return;
+  run_seen_s_ = steady_s;
+  json timeline = run_json(source_, playback_.at());
+  if (timeline == last_run_) return;
   send(timeline);
-  last_mission_ = std::move(timeline);
+  last_run_ = std::move(timeline);
 }
 
 void PageSession::send_packets(PacketIndex& packets) {

@@ -46,7 +46,7 @@ class PageSession {
 
  private:
   void send_state(double steady_s, bool at_once);
-  void send_mission(double steady_s);
+  void send_run(double steady_s);
   void send_packets(PacketIndex& packets);
   void send_links(double steady_s, PacketIndex& packets);
 
@@ -56,8 +56,8 @@ class PageSession {
   std::vector<std::size_t> watched_;  // indices in link_displays()
   bool greets_ = true, may_command_;
   bool state_wanted_ = true;
-  double state_sent_s_ = 0, mission_seen_s_ = 0, links_seen_s_ = 0;
-  nlohmann::json last_state_, last_mission_;
+  double state_sent_s_ = 0, run_seen_s_ = 0, links_seen_s_ = 0;
+  nlohmann::json last_state_, last_run_;
   std::string last_frame_;
   std::map<std::size_t, std::string> last_links_;  // frames without their time; key: column
   bool packets_restart_ = true;

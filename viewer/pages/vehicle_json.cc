@@ -14,8 +14,8 @@
 #include "core/elementary.h"
 #include "runs/timeline/timed_series.h"
 #include "runs/timeline/vehicle_record.h"
-#include "viewer/pages/mission_json.h"
 #include "viewer/pages/plan_json.h"
+#include "viewer/pages/run_json.h"
 
 namespace halocline::monitor {
 namespace {

@@ -101,8 +101,8 @@ class DepthStrip {
     std::string plots;
     if (!seabed.empty() && !range_.is_seabed_cut) {
       track += "$seabed << EOD\n" + seabed + "EOD\n";
-      plots += "$seabed using 1:2 with filledcurves y1=" + format_number(range_.greatest_m) + ink("ground") +
-               " notitle, $seabed using 1:2 with lines lw 1.2" + ink("ground-edge") + " notitle, ";
+      plots += "$seabed using 1:2 with filledcurves y1=" + format_number(range_.greatest_m) + ink("seabed") +
+               " notitle, $seabed using 1:2 with lines lw 1.2" + ink("seabed-edge") + " notitle, ";
     }
     plots += "$track using 1:2 with lines lw 3" + ink(colour_of(vehicle_)) + " notitle";
     if (!commanded.empty()) {
@@ -166,7 +166,7 @@ class DepthStrip {
           R"(<g class="fault"><path d="M{0} {1}V{2}"/><text x="{3}" y="{4}">{5}</text></g>)",
           px(picture_.x_px(at.seconds() / axis_.unit_s)), px(picture_.top_px),
           px(picture_.height_px - picture_.bottom_px), px(picture_.x_px(at.seconds() / axis_.unit_s) + 4),
-          px(picture_.top_px + 12), fault.fault_mended ? "fault mended" : "fault");
+          px(picture_.top_px + 12), fault.fault_mended ? "fault fixed" : "fault");
     }
   }
 

@@ -14,11 +14,11 @@ namespace {
 
 constexpr const char* kStyle =
     R"css(:root { --paper: #fbfaf6; --ink: #1b2327; --quiet: #5d6a71; --line: #dcd9d0; --accent: #0a6a8c;
-  --ground: #d9d1be; --ground-edge: #8b7f66; --water: #e6eff0; --hatch: #fbfaf6; --soft: #f0eee7;
+  --seabed: #d9d1be; --seabed-edge: #8b7f66; --water: #e6eff0; --hatch: #fbfaf6; --soft: #f0eee7;
     --contour: #14262c; --arrived: .55; --casing: #fff; color-scheme: light dark; }
 @media (prefers-color-scheme: dark) { :root { --paper: #0d1316; --ink: #e4e9eb; --quiet: #93a0a7;
   --line: #28333a; --accent: #63c4e3;
-  --ground: #3d382d; --ground-edge: #9a8d72; --water: #10242b; --hatch: #0d1316; --soft: #151d21;
+  --seabed: #3d382d; --seabed-edge: #9a8d72; --water: #10242b; --hatch: #0d1316; --soft: #151d21;
     --contour: #14262c; --arrived: .8; --casing: #0b1a20; --c-no_path: #4d9fd0; }
   svg image { filter: brightness(.86); } }
 * { box-sizing: border-box; }
@@ -56,8 +56,8 @@ svg { display: block; max-width: 100%; height: auto; font-variant-numeric: tabul
 .sample { display: inline-block; width: 22px; height: 10px; vertical-align: -.02em; margin-right: .35rem; }
 .sample .vehicle { stroke: none; }
 .sample .track, .sample .seabed-edge { stroke-width: 2.6; }
-.seabed { fill: var(--ground); }
-.seabed-edge { fill: none; stroke: var(--ground-edge); }
+.seabed { fill: var(--seabed); }
+.seabed-edge { fill: none; stroke: var(--seabed-edge); }
 .commanded { fill: none; stroke: var(--ink); stroke-width: 1.2; stroke-dasharray: 5 4; }
 .predicted { fill: none; stroke: var(--accent); stroke-width: 2; stroke-dasharray: 6 4; }
 a { color: inherit; text-decoration-color: var(--line); text-underline-offset: .2em; }

@@ -15,8 +15,8 @@ namespace {
 
 // Colours of the page. gnuplot draws each in a colour that is used for nothing else (#01fe00, #01fe01, ...),
 // which is then replaced.
-constexpr std::array<std::string_view, 15> kInks{"ink",         "quiet",   "line", "accent", "ground",
-                                                 "ground-edge", "contour", "v-0",  "v-1",    "v-2",
+constexpr std::array<std::string_view, 15> kInks{"ink",         "quiet",   "line", "accent", "seabed",
+                                                 "seabed-edge", "contour", "v-0",  "v-1",    "v-2",
                                                  "v-3",         "v-4",     "v-5",  "v-6",    "v-7"};
 
 std::string hex_of(std::size_t number) { return fmt::format("#01fe{:02x}", number); }

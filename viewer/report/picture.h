@@ -35,7 +35,7 @@ struct Picture {
   }
 };
 
-// Returns " lc rgb '...'" for a colour of the page: ink, quiet, line, accent, ground, ground-edge, contour,
+// Returns " lc rgb '...'" for a colour of the page: ink, quiet, line, accent, seabed, seabed-edge, contour,
 // v-0 to v-7 (vehicle_style.h).
 std::string ink(std::string_view variable);
 

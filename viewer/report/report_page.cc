@@ -177,7 +177,7 @@ struct Section {
 };
 
 constexpr Section kSections[] = {
-    {"chart", "Where everybody was", chart_section},
+    {"chart", "Tracks", chart_section},
     {"matrix", "Who received whom", matrix_section, false, true},
     {"ledger", "What was received and lost, by cause", ledger_section, false, true},
     {"range", "Received against range", range_section, false, true},

@@ -56,7 +56,7 @@ double depth_m(const TerrainOverview& terrain, double north_m, double east_m) {
 }
 
 // Returns the brightness of a slope, given by its rise per metre toward north and east, under light from the
-// north-west at an elevation of 45 degrees; 1 on level ground.
+// north-west at an elevation of 45 degrees; 1 on a level seabed.
 //   brightness = max(0, n . l) / l_up,  n = (-north, -east, 1) / sqrt(1 + north^2 + east^2),
 //   l = (1/2, -1/2, 1/sqrt(2)) in north, east, up
 double light(double toward_north, double toward_east) {

@@ -23,7 +23,7 @@
 #include "bus/messages/messages.h"
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/address_book.h"
-#include "clients/modem_gateway/protocols/door_options.h"
+#include "clients/modem_gateway/protocols/interface_options.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
 #include "core/archive.h"
 #include "core/sim_time.h"
@@ -98,7 +98,7 @@ struct ProtocolContext {
   ProtocolPort& port;
   AddressBook& addresses;  // addresses of all modems of this kind
   std::int32_t vehicle_id;
-  DoorOptions options;
+  InterfaceOptions options;
   std::vector<NamedVehicle> vehicles = {};  // the vehicles of the scenario
   double origin_latitude_deg = 0, origin_longitude_deg = 0;
   SoundField* sound = nullptr;  // not null when needs_sound(kind), except while options alone are checked

@@ -42,7 +42,7 @@ std::unique_ptr<Protocol> make_protocol(std::string_view kind, ProtocolContext c
       std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& k) { return k.name == kind; });
   std::string names;
   for (const Kind& k : kKinds) names += (names.empty() ? "" : ", ") + std::string(k.name);
-  require(found != kKinds.end(), "kind of door '" + std::string(kind) + "'; allowed are " + names);
+  require(found != kKinds.end(), "kind of modem interface '" + std::string(kind) + "'; allowed are " + names);
   return found->make(std::move(context));
 }
 

@@ -98,7 +98,7 @@ void visit_circle(ConfigVisitor& v, Behaviour& b) {
 void visit_where(ConfigVisitor& v, Behaviour& b) {
   using Kind = BehaviourKind;
   const auto visit_altitude = [&] {
-    v.number("altitude_m", b.altitude_m, {0, 1000, "m", "above the ground instead of a depth; 0: not used"});
+    v.number("altitude_m", b.altitude_m, {0, 1000, "m", "above the seabed instead of a depth; 0: not used"});
   };
   if (!v.writing()) visit_altitude();
   with_kind(v, b, {Kind::kHeading, Kind::kLoiter, Kind::kSurvey}, [&] {
@@ -197,7 +197,7 @@ void visit_navigator(ConfigVisitor& v, PilotConfig& pilot) {
   NavigatorRules& rules = pilot.navigator;
   AcousticFixRules& fix = pilot.acoustic_fix;
   v.number("log_drift_mps", rules.log_drift_mps, {0, 10, "m/s", "by the speed through the water: currents"});
-  v.number("ground_drift", rules.ground_drift, {0, 1, "", "metres a metre by the speed over ground"});
+  v.number("dvl_drift", rules.dvl_drift, {0, 1, "", "metres a metre by the speed over ground"});
   v.number("start_deviation_m", rules.start_deviation_m, {0, 1e4, "m", "of the place at the start"});
   bus::degrees(v, "gyro_bias_degps", rules.gyro_bias_radps,
                {0, 10, "deg/s", "at most, of a gyro that carries the heading on without a compass"});
@@ -262,7 +262,7 @@ void visit_mission(ConfigVisitor& v, PilotConfig& pilot) {
   v.number("lookahead_m", m.lookahead_m, {0.1, 1e4, "m", "how far ahead on the leg the vehicle aims"});
   v.number("min_altitude_m", m.min_altitude_m,
            {0, 1000, "m", "least height above the seabed, where the altimeter sees it"});
-  v.number("ground_ahead_m", pilot.ground_ahead_m, {0, 1000, "m", "how far ahead the ground is looked at"});
+  v.number("seabed_ahead_m", pilot.seabed_ahead_m, {0, 1000, "m", "how far ahead the seabed is considered"});
   bus::choice(
       v, "steering", pilot.steering, kSteerings,
       "what steers it: propeller and fins, thrusters as hover has them, or buoyancy, moving mass and rudder");

@@ -39,7 +39,7 @@ struct PilotConfig {
   std::int32_t vehicle_id = 0;
   Mission mission;
   std::vector<Behaviour> behaviours;  // replace the mission's waypoints
-  double ground_ahead_m = 4;          // m, look-ahead distance for the slope of the seabed
+  double seabed_ahead_m = 4;          // m, look-ahead distance for the slope of the seabed
   NavigateBy navigate_by = NavigateBy::kState;
   NavigatorRules navigator;  // used with navigate_by = sensors
   std::string usbl_beacons;  // vehicles used as USBL beacons: names, separated by spaces

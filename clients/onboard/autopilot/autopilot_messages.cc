@@ -134,7 +134,7 @@ LeaderReport to_report(const Situation& situation) {
   return {situation.position_ned_m, course, speed, situation.time_s};
 }
 
-AltimeterLook to_look(const vehicle_sensors_t& sensors, const Situation& situation) {
+AltimeterSample to_altimeter_sample(const vehicle_sensors_t& sensors, const Situation& situation) {
   const double time_s = SimTime::from_utime(sensors.utime).seconds();
   return {
       .time_s = time_s,

@@ -55,7 +55,7 @@ void take_in(const position_estimate_t& estimate, Navigator& navigator);
 LeaderReport to_report(const Situation& situation);
 
 // Returns the altimeter measurement with the position at which it was made.
-AltimeterLook to_look(const vehicle_sensors_t& sensors, const Situation& situation);
+AltimeterSample to_altimeter_sample(const vehicle_sensors_t& sensors, const Situation& situation);
 
 // Returns the plan and its progress; before the first situation `progress` is the default one. Behaviours
 // beyond 100 and waypoints beyond 1200 do not fit the message; they are left out and counted.

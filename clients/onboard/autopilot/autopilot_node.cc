@@ -37,7 +37,7 @@ AutopilotNode::AutopilotNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Au
 }
 
 void AutopilotNode::add_pilot(const AutopilotConfig& all, const PilotConfig& config) {
-  const SeabedRules rules{config.mission.min_altitude_m, config.ground_ahead_m};
+  const SeabedRules rules{config.mission.min_altitude_m, config.seabed_ahead_m};
   const VehiclePilot vehicle_pilot(make_plan(config.mission, config.behaviours), rules);
   pilots_.push_back(std::make_unique<Pilot>(Pilot{config, {}, {}, false, vehicle_pilot}));
   pilots_.back()->beacons = beacons_of(all, config);
@@ -65,13 +65,13 @@ void AutopilotNode::subscribe(Pilot& pilot) {
       bus::channels::kSensors.of(config.vehicle),
       bus::newest<vehicle_sensors_t>([&pilot](const vehicle_sensors_t& sensors) {
         pilot.sensors = sensors;
-        pilot.looked = false;
-        if (pilot.navigator) reckon(pilot, sensors);
+        pilot.altitude_taken = false;
+        if (pilot.navigator) dead_reckon(pilot, sensors);
       }),
       bus::Wakeup::kStoreOnly);
 }
 
-void AutopilotNode::reckon(Pilot& pilot, const vehicle_sensors_t& sensors) {
+void AutopilotNode::dead_reckon(Pilot& pilot, const vehicle_sensors_t& sensors) {
   pilot.attitude->add(to_attitude_reading(sensors));
   pilot.navigator->add(to_navigation_sample(sensors, *pilot.attitude, pilot.fresh_ping(sensors.utime)));
 }
@@ -164,16 +164,17 @@ std::optional<Situation> AutopilotNode::situation_of(Pilot& pilot, SimTime insta
                                         : to_situation(*pilot.state, instant);
   if (has_sensors) {
     situation.water_speed_mps = pilot.sensors->water_speed_mps;
-    look_at_ground(pilot, situation);
+    take_altimeter_sample(pilot, situation);
   }
   return situation;
 }
 
 // Adds an altitude measurement to the pilot once, though each is seen at several command instants.
-void AutopilotNode::look_at_ground(Pilot& pilot, const Situation& situation) {
+void AutopilotNode::take_altimeter_sample(Pilot& pilot, const Situation& situation) {
   const bool known = pilot.sensors->altitude_status != vehicle_sensors_t::ALTITUDE_UNAVAILABLE;
-  if (known && !pilot.looked) pilot.pilot.look_at_ground(to_look(*pilot.sensors, situation));
-  pilot.looked = true;
+  if (known && !pilot.altitude_taken)
+    pilot.pilot.add_altimeter_sample(to_altimeter_sample(*pilot.sensors, situation));
+  pilot.altitude_taken = true;
 }
 
 vehicle_command_t AutopilotNode::command_for(Pilot& pilot, const SetPoints& points,
@@ -274,7 +275,7 @@ void AutopilotNode::on_archive(Archive& a) {
 }
 
 void AutopilotNode::Pilot::archive(Archive& a) {
-  a(state, sensors, looked, pilot, sequence, situation, ping, reported);
+  a(state, sensors, altitude_taken, pilot, sequence, situation, ping, reported);
   if (navigator) a(*navigator, *attitude);
   if (link) a(*link);
   if (finder) a(*finder);

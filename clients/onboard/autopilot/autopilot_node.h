@@ -68,7 +68,7 @@ class AutopilotNode : public bus::Node {
     PilotConfig config;
     std::optional<vehicle_state_t> state;
     std::optional<vehicle_sensors_t> sensors;
-    bool looked = false;  // the altitude in `sensors` was given to the pilot
+    bool altitude_taken = false;  // the pilot has the altitude in `sensors`
     VehiclePilot pilot;
     std::int64_t sequence = 0;
     std::optional<Navigator> navigator{};      // with navigate_by = sensors
@@ -87,7 +87,7 @@ class AutopilotNode : public bus::Node {
   void add_pilot(const AutopilotConfig& all, const PilotConfig& config);
   void subscribe(Pilot& pilot);
   void subscribe_fixes(Pilot& pilot);
-  static void reckon(Pilot& pilot, const vehicle_sensors_t& sensors);
+  static void dead_reckon(Pilot& pilot, const vehicle_sensors_t& sensors);
   void join_formation(const AutopilotConfig& all, Pilot& pilot);
   std::optional<Situation> situation_of(Pilot& pilot, SimTime instant) const;
   void command_all(SimTime instant);
@@ -96,7 +96,7 @@ class AutopilotNode : public bus::Node {
   vehicle_command_t command_for(Pilot& pilot, const SetPoints& points, const Situation& situation) const;
   SetPoints steer(Pilot& pilot, const Situation& situation, SimTime instant);
   void report(Pilot& pilot, const std::optional<SetPoints>& points, SimTime instant);
-  static void look_at_ground(Pilot& pilot, const Situation& situation);
+  static void take_altimeter_sample(Pilot& pilot, const Situation& situation);
   void report_progress(const Pilot& pilot, const std::optional<PlanProgress>& before);
 
   SimDuration period_, state_timeout_;

@@ -28,7 +28,7 @@
 namespace halocline::clients {
 
 // One measurement of the altimeter, and the vehicle's position and attitude at it.
-struct AltimeterLook {
+struct AltimeterSample {
   double time_s = 0;
   Vec3 position_ned_m = Vec3::Zero();
   EulerAngles attitude;
@@ -39,7 +39,7 @@ struct AltimeterLook {
 };
 
 // Seabed as a straight line along the vehicle's path.
-struct GroundLine {
+struct SeabedLine {
   double z_ned_m = 0;  // z of the seabed at the vehicle
   double slope = 0;    // z per metre of path; above 0: the seabed falls away ahead
   double time_s = 0;   // time of the latest echo
@@ -49,9 +49,9 @@ class SeabedAhead {
  public:
   static constexpr double kWindowM = 10, kOldestS = 5;
 
-  void add(const AltimeterLook& look);
+  void add(const AltimeterSample& sample);
   // Returns the line at the latest measurement; empty when no echo is younger than kOldestS at `time_s`.
-  std::optional<GroundLine> ground(double time_s) const;
+  std::optional<SeabedLine> line(double time_s) const;
   // True when the latest measurement is not older than kOldestS and saw no bottom, and there is no line to go
   // by.
   bool sees_no_bottom(double time_s) const;
@@ -63,7 +63,7 @@ class SeabedAhead {
     double way_m, z_ned_m, time_s;
   };
   std::deque<Point> points_;
-  std::optional<AltimeterLook> last_;
+  std::optional<AltimeterSample> last_;
   double way_m_ = 0;
 };
 
@@ -75,7 +75,7 @@ struct SeabedRules {
 
 // Returns the set points adapted to the seabed: the depth follows from the height where one is set, and the
 // minimum height is always observed. `z_ned_m`: z of the vehicle.
-SetPoints above_ground(const SeabedRules& rules, const SeabedAhead& seabed, double time_s, double z_ned_m,
+SetPoints above_seabed(const SeabedRules& rules, const SeabedAhead& seabed, double time_s, double z_ned_m,
                        SetPoints points);
 
 }  // namespace halocline::clients

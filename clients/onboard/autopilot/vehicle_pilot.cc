@@ -33,7 +33,7 @@ SetPoints VehiclePilot::steer_for(const Situation& situation) {
   const Vec3& position = situation.position_ned_m;
   if (!progress_) progress_ = begin(position, situation.time_s);
   progress_ = advance(plan_, *progress_, position, situation.time_s);
-  return above_ground(seabed_rules_, seabed_, situation.time_s, position.z(), planned(situation));
+  return above_seabed(seabed_rules_, seabed_, situation.time_s, position.z(), planned(situation));
 }
 
 SetPoints VehiclePilot::planned(const Situation& situation) {

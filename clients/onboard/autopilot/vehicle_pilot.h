@@ -61,7 +61,7 @@ class VehiclePilot {
  public:
   VehiclePilot(Plan plan, SeabedRules seabed_rules);
 
-  void look_at_ground(const AltimeterLook& look) { seabed_.add(look); }
+  void add_altimeter_sample(const AltimeterSample& sample) { seabed_.add(sample); }
 
   // Adds a report received from the vehicle `leader`.
   void on_leader_report(const std::string& leader, const LeaderReport& report);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // DACAP, the distance-aware collision avoidance protocol (Peleato and Stojanovic 2007): MACA whose sender
-// waits between the receiver's leave to send (CTS) and its data, and abandons the exchange when packets of
+// waits between the receiver's clear to send (CTS) and its data, and abandons the exchange when packets of
 // others threaten it.
 //
-// A sender that overhears a request or a leave of others before its data leave tries again later. A receiver
-// that hears one after its leave transmits a warning, which makes its sender do the same. The wait is long
+// A sender that overhears an RTS or a CTS of others before it sends its data tries again later. A receiver
+// that hears one after its CTS transmits a warning, which makes its sender do the same. The wait is long
 // enough for that, and no longer than the distance requires. With U the travel time to the receiver, half the
-// time from the end of the request to the leave's arrival:
+// time from the end of the RTS to the arrival of the CTS:
 //
 //   t_1  = (t_min - min(D, t_data, 2 T - t_min)) / 2
 //   wait = max(t_min - 2 U,       2 D)    where U < t_1
@@ -18,9 +18,9 @@
 //   D       `tolerance`: the travel time by which an interferer must be further from a receiver
 //           than its sender, so as not to disturb it
 //
-// Without capture, no data collide when D >= T + half of the durations of request, leave and warning: the
-// warning about a request that crossed the leave then arrives before the data leave, and every vehicle that
-// has sent no request by then has heard the leave. The variant with acknowledgements is not implemented.
+// Without capture, no data collide when D >= T + half of the durations of RTS, CTS and warning: the warning
+// about an RTS that crossed the CTS then arrives before the data are sent, and every vehicle that has sent no
+// RTS by then has heard the CTS. The variant with acknowledgements is not implemented.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -49,7 +49,7 @@ class Dacap : public Maca {
     Maca::on_packet(packet, own_id);
     const bool is_warning = !packet.payload.empty() && packet.payload.front() == kWarning;
     if (is_warning && packet.destination_id == own_id && packet.source_id == partner_ &&
-        state_ == State::kHasLeave)
+        state_ == State::kHasClearToSend)
       give_way(SimTime::from_utime(packet.utime));
   }
 
@@ -59,13 +59,13 @@ class Dacap : public Maca {
   }
 
  protected:
-  void on_leave(const modem_receive_t& packet) override {
+  void on_clear_to_send(const modem_receive_t& packet) override {
     const double travel_s = (SimTime::from_utime(packet.arrival_utime) - sent_).seconds() / 2;
-    await(State::kHasLeave, SimTime::from_utime(packet.utime) + wait_for(travel_s));
+    await(State::kHasClearToSend, SimTime::from_utime(packet.utime) + wait_for(travel_s));
   }
 
   void on_threat(SimTime at) override {
-    if (state_ == State::kAwaitsLeave || state_ == State::kHasLeave) give_way(at);
+    if (state_ == State::kAwaitsClearToSend || state_ == State::kHasClearToSend) give_way(at);
     if (state_ == State::kAwaitsData && !answer_) answer_ = MacFrame{partner_, {kWarning}};
   }
 

@@ -10,7 +10,7 @@
 namespace halocline::networks {
 namespace {
 
-constexpr std::uint8_t kData = 0xA0, kRequest = 0xA1, kLeave = 0xA2;
+constexpr std::uint8_t kData = 0xA0, kRequestToSend = 0xA1, kClearToSend = 0xA2;
 
 }  // namespace
 
@@ -22,12 +22,13 @@ void Maca::on_packet(const modem_receive_t& packet, std::int32_t own_id) {
   if (kind == kData && (is_ours || packet.destination_id == kBroadcastId)) {
     if (is_ours && state_ == State::kAwaitsData && packet.source_id == partner_) become_idle(at);
     port_.deliver(at, {packet.destination_id, {packet.payload.begin() + 1, packet.payload.end()}});
-  } else if (kind == kRequest && is_ours) {
+  } else if (kind == kRequestToSend && is_ours) {
     on_request(packet);
-  } else if (kind == kLeave && is_ours) {
-    if (state_ == State::kAwaitsLeave && packet.source_id == partner_) on_leave(packet);
-  } else if (kind == kRequest || kind == kLeave) {
-    silent_until_ = std::max(silent_until_, at + (kind == kRequest ? rules_.handshake : rules_.exchange));
+  } else if (kind == kClearToSend && is_ours) {
+    if (state_ == State::kAwaitsClearToSend && packet.source_id == partner_) on_clear_to_send(packet);
+  } else if (kind == kRequestToSend || kind == kClearToSend) {
+    silent_until_ =
+        std::max(silent_until_, at + (kind == kRequestToSend ? rules_.handshake : rules_.exchange));
     on_threat(at);
   }
 }
@@ -36,14 +37,14 @@ void Maca::on_request(const modem_receive_t& packet) {
   const SimTime at = SimTime::from_utime(packet.utime);
   if (state_ == State::kIdle && at >= silent_until_ && !answer_) {
     partner_ = packet.source_id;
-    answer_ = MacFrame{partner_, {kLeave}};
+    answer_ = MacFrame{partner_, {kClearToSend}};
     await(State::kAwaitsData, at + rules_.exchange);
   } else if (packet.source_id != partner_) {
     on_threat(at);
   }
 }
 
-void Maca::on_leave(const modem_receive_t& packet) { send_data(SimTime::from_utime(packet.utime)); }
+void Maca::on_clear_to_send(const modem_receive_t& packet) { send_data(SimTime::from_utime(packet.utime)); }
 
 void Maca::on_clock_set(SimTime now, SimDuration by) {
   Mac::on_clock_set(now, by);
@@ -62,10 +63,10 @@ void Maca::step(SimTime now) {
   if (next() > now) return;
   if (answer_) {
     transmit(*std::exchange(answer_, std::nullopt), now);
-  } else if (state_ == State::kAwaitsLeave) {
+  } else if (state_ == State::kAwaitsClearToSend) {
     become_idle(now);
     try_again(now);
-  } else if (state_ == State::kHasLeave) {
+  } else if (state_ == State::kHasClearToSend) {
     send_data(now);
   } else if (state_ == State::kAwaitsData) {
     become_idle(now);
@@ -78,8 +79,8 @@ void Maca::attempt(SimTime now) {
   if (carrier_) return try_again(now);
   if (queue_.front().destination == kBroadcastId) return send_data(now);
   partner_ = queue_.front().destination;
-  await(State::kAwaitsLeave, now + rules_.handshake);
-  transmit({partner_, {kRequest}}, now);
+  await(State::kAwaitsClearToSend, now + rules_.handshake);
+  transmit({partner_, {kRequestToSend}}, now);
 }
 
 void Maca::await(State state, SimTime deadline) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MACA (Karn 1990): a short request to send (RTS), the receiver's short leave to send (CTS), then the data;
+// MACA (Karn 1990): a short request to send (RTS), the receiver's short clear to send (CTS), then the data;
 // vehicles that overhear these are silent meanwhile.
 //
-// The first byte of each packet tells its type. A request without an answer within `handshake` is repeated
-// after a random wait, `tries` times in all. A vehicle that overhears a request is silent for `handshake`,
-// which must cover the request, the leave and twice the greatest travel time. One that overhears a leave is
-// silent for `exchange`, which must cover the data and twice the greatest travel time. The modem must be
-// promiscuous. Broadcast frames are sent without a handshake. There are no acknowledgements.
+// The first byte of each packet tells its type. An RTS without an answer within `handshake` is repeated after
+// a random wait, `tries` times in all. A vehicle that overhears an RTS is silent for `handshake`, which must
+// cover RTS, CTS and twice the greatest travel time. One that overhears a CTS is silent for `exchange`, which
+// must cover the data and twice the greatest travel time. The modem must be promiscuous. Broadcast frames are
+// sent without a handshake. There are no acknowledgements.
 #pragma once
 
 #include <cstdint>
@@ -29,11 +29,11 @@ class Maca : public Mac {
   void step(SimTime now) override;
 
  protected:
-  enum class State { kIdle, kAwaitsLeave, kHasLeave, kAwaitsData };
+  enum class State { kIdle, kAwaitsClearToSend, kHasClearToSend, kAwaitsData };
 
   void attempt(SimTime now) override;
-  // Called when the receiver gives leave to send the first frame.
-  virtual void on_leave(const modem_receive_t& packet);
+  // Called when the receiver is clear for the first frame.
+  virtual void on_clear_to_send(const modem_receive_t& packet);
   // Called when packets of a third vehicle may disturb the exchange.
   virtual void on_threat(SimTime /*at*/) {}
 

@@ -164,7 +164,7 @@ std::uint64_t hash_of(VectorInstructions instructions) {
   return sum;
 }
 
-// On processors without AVX-512 or AVX2 the number stands for them.
+// On processors without AVX-512 or AVX2 the number is that of the others.
 constexpr std::uint64_t kHash = 3623977414889254942u;
 TEST(LinkKernel, GivesTheSameBitsWithAllVectorInstructions) {
   for (const VectorInstructions instructions : vector_instructions())

@@ -49,7 +49,7 @@ TEST(SlopeDiffusion, KeepsTheEnergyOfAllAnglesWhateverTheirCycles) {
   EXPECT_GT(rays[20].power, 0.01);
 }
 
-TEST(SlopeDiffusion, OverLevelGroundEachRayLosesItsOwn) {
+TEST(SlopeDiffusion, OverALevelSeabedEachRayLosesItsOwn) {
   std::vector<BottomRay> rays;
   for (std::size_t i = 0; i < 8; ++i) rays.push_back({500, 1e-4 * static_cast<double>(i), 3});
   diffuse_by_slopes(rays, 0.03, 0, 6000);

@@ -305,7 +305,7 @@ TEST(ModemProfile, FasterRatesNeedMore) {
 
 // A vehicle may meet another at 2 m/s each in every profile; the reference receivers correct no more than 5
 // m/s.
-TEST(ModemProfile, SubmarinesAreWithinTheDopplerTolerance) {
+TEST(ModemProfile, VehiclesAreWithinTheDopplerTolerance) {
   for (const std::string& name : built_in_modems()) {
     const Modem modem = modem_of(name);
     EXPECT_GT(modem.doppler_tolerance, 4.0 / 1500) << name;

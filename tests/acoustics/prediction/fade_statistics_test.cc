@@ -113,7 +113,7 @@ TEST(FadeStatistics, FadesFallIntoAsManyPartsAsThereAreInstantsFarApart) {
 }
 
 // Rayleigh's crossings of the level R mean, sqrt(2 pi) B sqrt(2) sqrt(R) exp(-R) a second with B the rms
-// spread: as many as stretches of 1 ms fall below it, each of them anew.
+// spread: as many as stretches of 1 ms that newly fall below it.
 TEST(FadeStatistics, CrossesALevelAsOftenAsRice) {
   constexpr double kStepS = 1e-3;
   for (const BandPoint& point : points_of(law_of(scattered(1, 0, 1), 1, 0), {2, kStepS})) {

@@ -70,7 +70,7 @@ TEST(SteadyBand, ClosePathsInterfere) {
 }
 
 // In antiphase at the middle of the band, at sines of the angles apart by d: with g = exp(-(k 0.2 m d)^2 / 2)
-// the mean is 2 - 2 g sinc and its variance that of 200 000 ends that sway.
+// the mean is 2 - 2 g sinc and its variance that of 200 000 jittered ends.
 TEST(SteadyBand, JitterTurnsPathsOfOtherAnglesAgainstEachOther) {
   constexpr double kWaveNumber = 2 * pi * 25'000 / 1500, kCycles = 0.4;
   const double sinc = std::sin(pi * kCycles) / (pi * kCycles);

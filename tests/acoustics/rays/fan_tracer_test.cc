@@ -44,7 +44,7 @@ TEST_P(FanOverSeas, RaysArriveAsByTheExactTracerWithTheSameEvents) {
   const auto& [name, knots, bottom, link] = GetParam();
   const RayWater water = water_of(knots);
   RayOptions options;
-  options.min_boundary_factor = 0;  // the two give up faint rays each by its own rule
+  options.min_boundary_factor = 0;  // each of the two abandons faint rays by its own rule
   const ProfiledSea sea{water, bottom, fluid_bottom(1.9, 1650, 0.8), RaySurface{}, options};
   const ArcTracer exact(sea, link);
   FanTracer quick(exact);

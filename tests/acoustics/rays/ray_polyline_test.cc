@@ -184,7 +184,7 @@ TEST(RayPolyline, OfAVehicleRightAboveAnotherIsStraight) {
   }
 }
 
-// Both ends on the axis of a channel: the axial ray stands for those of the core.
+// Both ends on the axis of a channel: the axial ray represents those of the core.
 TEST(RayPolyline, OfTheCoreOfAChannelIsStraight) {
   const RaySea sea = sea_of({{0, 1520}, {100, 1500}, {200, 1520}, {12'000, 1700}}, BottomProfile::flat(300));
   const RayLink link{100, 100, 4000};

@@ -242,7 +242,7 @@ TEST(ProfileRays, TubeOverABentBottomFollowsTheFocusOfABasin) {
   const double leg = std::hypot(500, 50), sine = 50 / leg;
   const double tube = leg + leg * (1 - 2 * leg / (kRadius * sine));
   const double expected = std::sqrt(std::cos(bounce->launch_angle_rad) / (1000 * std::abs(tube)));
-  // Facets of 10 m stand for the circle to 1e-5 of its sine; the bend of the reflection to 1e-3.
+  // Facets of 10 m approximate the circle to 1e-5 of its sine; the bend of the reflection to 1e-3.
   EXPECT_NEAR(20 * std::log10(bounce->amplitude / expected) + bounce->bottom_loss_db, 0, tolerance(0.02));
 }
 

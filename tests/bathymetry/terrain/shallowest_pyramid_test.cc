@@ -13,7 +13,7 @@
 namespace halocline::bathymetry {
 namespace {
 
-// By looking at every post of the block.
+// Found by examining every post of the block.
 float shallowest_post(const HeightGrid& grid, int level, int bi, int bj) {
   const GridGeometry& g = grid.geometry();
   float least = HUGE_VALF;

@@ -71,6 +71,11 @@ TEST(UnknownKey, SuggestsTheTableInWhichTheKeyIsKnown) {
               ElementsAre(HasSubstr("did you mean environment.wind_mps?")));
 }
 
+TEST(UnknownKey, NamesItsNewNameWhereItWasRenamed) {
+  EXPECT_THAT(errors_in("[[door]]\nvehicle = 'a'\n"),
+              ElementsAre(HasSubstr("door is unknown; it is now modem_interface")));
+}
+
 TEST(UnknownKey, SuggestsNothingForAnotherWord) {
   EXPECT_THAT(
       errors_in("[environment]\nsalinity = 1\n"),

@@ -184,7 +184,7 @@ TEST_F(LogContentsTest, AVehicleAloneOrWithoutAModemNeedsNone) {
 
 TEST_F(LogContentsTest, AVehicleThatIsSilentAtTheDepartureNeedsNone) {
   run(2, [&](std::int64_t sequence, std::int64_t at) { add(at, "OUTCOME", outcome(sequence, at, 2)); });
-  for (const std::int64_t s : {1, 2, 58}) {  // a third one, with a modem, was away meanwhile
+  for (const std::int64_t s : {1, 2, 58}) {  // a third one, with a modem, published nothing meanwhile
     auto state = testing::state_at(s * kSecond);
     state.vehicle_id = 3;
     add(s * kSecond, "STATE.v3", state);

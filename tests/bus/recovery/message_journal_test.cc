@@ -174,7 +174,7 @@ TEST_F(MessageJournalTest, WhenTheDiskIsFullTheJournalIsGivenUpAndNothingElse) {
     const halocline::testing::FileSizeLimit full_disk(std::filesystem::file_size(path_) + 10);
     receive(*journal, 2, "STATE.a", 6);
   }
-  EXPECT_TRUE(journal->is_given_up());
+  EXPECT_TRUE(journal->is_abandoned());
   receive(*journal, 3, "STATE.a", 7);
   journal->write_output(SimTime::from_seconds(4), "OUTCOME", {8});
   EXPECT_TRUE(inherited(*open()).empty());
@@ -277,14 +277,14 @@ TEST_F(MessageJournalTest, AFileThatOthersDeleteOrTruncateIsGivenUp) {
   for (const bool deletes : {true, false}) {
     const auto journal = open();
     receive(*journal, 1, "STATE.a", 5);
-    EXPECT_FALSE(journal->is_given_up());
+    EXPECT_FALSE(journal->is_abandoned());
     if (deletes) {
       std::filesystem::remove(path_);
     } else {
       std::filesystem::resize_file(path_, 0);
     }
     receive(*journal, 2, "STATE.a", 6);
-    EXPECT_TRUE(journal->is_given_up());
+    EXPECT_TRUE(journal->is_abandoned());
     EXPECT_TRUE(inherited(*open()).empty());
   }
 }

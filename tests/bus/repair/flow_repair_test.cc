@@ -333,8 +333,8 @@ TEST_F(FlowRepairTest, OfTwoPublishersOfOneNameTheFirstIsReceived) {
     pass(50);
   }
   EXPECT_TRUE(received_each_once());
-  EXPECT_GT(receiver_->counters().rivals, 100);
-  EXPECT_GT(publisher_->counters().rivals, 10);
+  EXPECT_GT(receiver_->counters().duplicate_publishers, 100);
+  EXPECT_GT(publisher_->counters().duplicate_publishers, 10);
 }
 
 TEST_F(FlowRepairTest, ARequestForAnUnknownMessageIsIgnored) {

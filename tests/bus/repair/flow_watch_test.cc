@@ -105,7 +105,7 @@ TEST_F(FlowWatchTest, SeventySessionsOfOneChannelAreTrackedWhileAllAreHeard) {
   }
 }
 
-// A program that is started anew every minute has four sessions that are known, and one that is silent for
+// A program that is started again every minute has four sessions that are known, and one that is silent for
 // less than half of one is remembered whatever follows it.
 TEST_F(FlowWatchTest, SessionsThatAreSilentForLongAreForgotten) {
   for (int session = 1; session <= 100; ++session)

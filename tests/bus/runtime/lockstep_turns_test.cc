@@ -25,7 +25,7 @@ using halocline::testing::at_ms;
 lockstep_turn_t turn_at(SimTime instant, SimTime lookahead = SimTime::at_once()) {
   lockstep_turn_t turn{};
   turn.instant_ns = instant.nanoseconds();
-  turn.horizon_ns = lookahead.nanoseconds();
+  turn.lookahead_ns = lookahead.nanoseconds();
   turn.max_steps = -1;
   return turn;
 }
@@ -88,7 +88,7 @@ TEST_F(LockstepTurnsTest, LookaheadEndsWithAStepThatPublishesOnAStoppingChannel)
 
 TEST_F(LockstepTurnsTest, ANodeThatPromisesNothingHasLookaheadUntilItIsDue) {
   const lockstep_result_t result = turns_.take(turn_at(at_ms(0)));
-  EXPECT_EQ(result.quiet_until_ns, result.next_due_ns);
+  EXPECT_EQ(result.lookahead_ns, result.next_due_ns);
 }
 
 // But where it publishes STATUS before, once a second, and that matters to others than services.
@@ -111,7 +111,7 @@ TEST(LockstepTurnsOfAQuietNode, ItsPromiseCoversTheChannelsThatOthersThanService
     turn.only_asks = {static_cast<std::int8_t>(only_asks)};
     turn.num_stopping = 1;
     instant_ms += 100;
-    return SimTime::from_nanoseconds(turns.take(turn).quiet_until_ns);
+    return SimTime::from_nanoseconds(turns.take(turn).lookahead_ns);
   };
   EXPECT_EQ(lookahead("OTHER", false), at_ms(5000));
   EXPECT_EQ(lookahead("TICK\\..*", false), at_ms(200));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rows that hold on from tick to tick: for how long, what follows the ends meanwhile, and how far it is from
-// a row computed anew.
+// a row computed again.
 #include "channel_server/links/link_row_cache.h"
 
 #include <cmath>
@@ -184,7 +184,7 @@ TEST(LinkRowCache, DelayAndDopplerFollowTheEnds) {
   }
 }
 
-// Rows from those they stand for, root of the mean square.
+// Deviation of rows from those they replace, root of the mean square.
 class Deviation {
  public:
   void add(const std::vector<LinkRow>& rows, const std::vector<LinkRow>& truth) {
@@ -243,7 +243,7 @@ class RowsAlongRays : public ::testing::Test {
 };
 
 // Beside rows whose links are searched for themselves at every tick: with cells of 25 m that serve several
-// links, and carried on over 10 and 25 m as well.
+// links, and extrapolated over 10 and 25 m as well.
 TEST_F(RowsAlongRays, AreHardlyFurtherFromTheExactOnesThanThoseOfSharedSearches) {
   constexpr double kCellM = 25;
   Ticks exact(0, rays(0)), shared(0, rays(kCellM)), near(10, rays(kCellM)), far(25, rays(kCellM));

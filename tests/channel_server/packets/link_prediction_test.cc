@@ -71,8 +71,8 @@ struct Case {
 
 class PredictedLink : public ::testing::TestWithParam<Case> {};
 
-// The ends sway up and down (acoustics/prediction/steady_band.h): phases of the paths as packet `i` meets
-// them.
+// Platform jitter moves the ends (acoustics/prediction/steady_band.h): phases of the paths as packet `i`
+// meets them.
 std::vector<Arrival> jittered(std::vector<Arrival> paths, double frequency_hz, std::uint64_t i) {
   const auto jitter_m = [&](std::uint64_t end) {
     return acoustics::kPlatformJitterM *

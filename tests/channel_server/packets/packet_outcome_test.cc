@@ -186,7 +186,7 @@ TEST_F(PacketOutcomeTest, TheDrawsAreThoseOfTheContentsNotOfTheSession) {
   EXPECT_NE(seeded.success_draw, first.success_draw);
 }
 
-// Generators that are seeded anew for each packet give each the same number.
+// Generators that are seeded again for each packet give each the same number.
 TEST_F(PacketOutcomeTest, NoTwoPacketsReceiversOrPurposesShareADraw) {
   for (const VehicleId to : {2, 3, 4}) water.set(1, to, {path(1, 100)});
   for (int i = 0; i < 20; ++i) send(1, 10 + i, i, 10);

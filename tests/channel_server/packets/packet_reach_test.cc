@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Missions of 100 vehicles, and of 30 in an ocean's field, with and without reach: what is out of reach is
+// Runs of 100 vehicles, and of 30 in an ocean's field, with and without reach: what is out of reach is
 // counted, and nothing else changes.
 #include <cstdint>
 #include <map>
@@ -66,7 +66,7 @@ VehicleModem short_modem(bool is_high = false) {
 
 using Place = std::pair<PacketName, VehicleId>;
 
-struct Mission {
+struct FleetRun {
   std::map<Place, PacketOutcome> outcomes;
   std::map<PacketName, std::size_t> out_of_reach, receivers;  // summed up; all
 };
@@ -107,11 +107,11 @@ std::unique_ptr<Propagation> propagation_of(const ReachSea& sea,
   return std::make_unique<StraightPropagation>(waters, fading);
 }
 
-Mission mission_of(const ReachSea& sea, bool by_level, int shards = 1) {
+FleetRun run_of(const ReachSea& sea, bool by_level, int shards = 1) {
   const acoustics::FadingModel fading{.enabled = sea.fades};
   const auto waters = std::make_shared<EnvironmentTimeline>(sea.has_field ? testing::warming_sea(2, 0.8)
                                                                           : testing::even_water());
-  Mission mission;
+  FleetRun run;
   for (int shard = 0; shard < shards; ++shard) {
     VehicleRegistry fleet({for_s(0.05), for_s(1000)}, {short_modem(sea.has_field), {}});
     const auto propagation = propagation_of(sea, waters);
@@ -140,23 +140,23 @@ Mission mission_of(const ReachSea& sea, bool by_level, int shards = 1) {
     for (PacketOutcome& outcome :
          testing::outcomes_in(medium.advance_to(at_s(1 + sea.packets() / sea.packets_per_s() + 60)))) {
       const PacketName name = outcome.packet->name();
-      mission.receivers[name] += outcome.receivers;
+      run.receivers[name] += outcome.receivers;
       if (outcome.receiver_id == 0) {
         EXPECT_EQ(outcome.kind, OutcomeKind::kOutOfReach);
-        EXPECT_TRUE(mission.out_of_reach.emplace(name, outcome.receivers).second);
+        EXPECT_TRUE(run.out_of_reach.emplace(name, outcome.receivers).second);
       } else {
         EXPECT_EQ(outcome.receivers, 1u);
-        EXPECT_TRUE(mission.outcomes.emplace(Place{name, outcome.receiver_id}, std::move(outcome)).second);
+        EXPECT_TRUE(run.outcomes.emplace(Place{name, outcome.receiver_id}, std::move(outcome)).second);
       }
     }
   }
-  return mission;
+  return run;
 }
 
 class PacketReach : public ::testing::TestWithParam<ReachSea> {};
 
 void expect_no_other_outcome(const ReachSea& sea, std::size_t least_received) {
-  const Mission all = mission_of(sea, false), within = mission_of(sea, true);
+  const FleetRun all = run_of(sea, false), within = run_of(sea, true);
   std::size_t lost = 0, received = 0;
   for (const auto& [place, outcome] : all.outcomes) {
     const auto same = within.outcomes.find(place);
@@ -184,13 +184,13 @@ TEST(PacketReachInAField, ChangesNoOutcomeOfThoseWithinIt) {
 }
 
 TEST_P(PacketReach, EveryPacketHasOneOutcomeAtEveryReceiver) {
-  const Mission mission = mission_of(GetParam(), true);
-  EXPECT_GT(mission.receivers.size(), 250u);  // a busy modem refuses
-  for (const auto& [name, receivers] : mission.receivers) EXPECT_EQ(receivers, GetParam().vehicles() - 1u);
+  const FleetRun run = run_of(GetParam(), true);
+  EXPECT_GT(run.receivers.size(), 250u);  // a busy modem refuses
+  for (const auto& [name, receivers] : run.receivers) EXPECT_EQ(receivers, GetParam().vehicles() - 1u);
 }
 
 TEST_P(PacketReach, SeveralServersCountTheSame) {
-  const Mission one = mission_of(GetParam(), true), three = mission_of(GetParam(), true, 3);
+  const FleetRun one = run_of(GetParam(), true), three = run_of(GetParam(), true, 3);
   EXPECT_EQ(one.out_of_reach, three.out_of_reach);
   ASSERT_EQ(one.outcomes.size(), three.outcomes.size());
   for (const auto& [place, outcome] : one.outcomes) {

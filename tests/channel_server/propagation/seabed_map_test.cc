@@ -49,7 +49,7 @@ TEST_F(SeabedMapTest, APlaneIsExactUnderEveryLink) {
   }
 }
 
-TEST_F(SeabedMapTest, LevelGroundStaysLevelToTheLastBit) {
+TEST_F(SeabedMapTest, ALevelSeabedStaysLevelToTheLastBit) {
   const auto profile = surveyed({-310.7, 45.3, 20}, {902.2, 777.7, 50}, [](const Vec3&) { return 123.4; });
   for (const double z_m : profile.z_m) EXPECT_EQ(z_m, 123.4);
 }

@@ -196,7 +196,7 @@ TEST_F(ScheduledRaysTest, ALimitForAllChangesNothing) {
   }
 }
 
-// A server that was granted the link before the change and one that never was.
+// A server whose link was scheduled before the change, and one whose never was.
 TEST_F(ScheduledRaysTest, APacketIsSearchedInTheWaterThatItIsSentInto) {
   const auto links = links_at(6);
   RayPropagation scheduled = rays(100), fresh = rays(100);

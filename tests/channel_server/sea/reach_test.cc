@@ -53,8 +53,8 @@ enum class Bound { kMinLoss, kMinLossOfKnownDepths, kFluxOnlyLinks };
 
 class LevelBound : public ::testing::TestWithParam<Sea> {
  protected:
-  // Level over its bound, dB, at each place where anything arrives; of weak links, at each that is long and
-  // weak.
+  // Level over its bound, dB, at each place where anything arrives; of flux-only links, at each that is long
+  // and weak.
   std::vector<double> excesses(Bound bound) const {
     const bool depths_are_known = bound != Bound::kMinLoss;
     const Sea& sea = GetParam();
@@ -124,7 +124,7 @@ TEST_P(LevelBound, HoldsAtRandomPlaces) {
   }
 }
 
-// Weak links in deep water are longer than those drawn.
+// Flux-only links in deep water are longer than those drawn.
 TEST_P(LevelBound, OfFluxOnlyLinksHoldsAtRandomPlaces) {
   const std::vector<double> all = excesses(Bound::kFluxOnlyLinks);
   if (GetParam().bottom_m <= 100 && GetParam().waves_m == 0) {

@@ -66,7 +66,7 @@ TEST(StateHistory, WhatHasPassedIsInterpolatedOnceALaterStateIsKnown) {
   history.insert(state_at(1, {0, 0, 0}, {50, 0, 0}));
   history.insert(state_at(2, {10, 0, 0}, {50, 0, 0}));
   EXPECT_NEAR(history.at(at_s(1.3), at_s(2.05), kRule)->position_ned_m.x(), 3, tolerance(kRounding));
-  // Decided an instant earlier the second state is not known yet: carried on at 50 m/s.
+  // Decided an instant earlier the second state is not known yet: extrapolated at 50 m/s.
   EXPECT_NEAR(history.at(at_s(1.3), at_s(2.04), kRule)->position_ned_m.x(), 15, tolerance(kRounding));
 }
 

@@ -16,7 +16,7 @@ constexpr SimDuration kShort = SimDuration::from_milliseconds(20);
 
 class BlockingModemTest : public ::testing::Test {
  protected:
-  // Twice: a conductor is followed once two of its CLOCKs agree.
+  // Twice: a conductor is accepted once two of its CLOCKs agree.
   void publish_clock(std::int64_t utime) {
     sim_clock_t clock{};
     clock.utime = utime;

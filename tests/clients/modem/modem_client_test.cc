@@ -329,7 +329,7 @@ TEST_F(ModemClientTest, CountsWhatChangesItsArchive) {
   EXPECT_TRUE(after([&] { step(300); }));
   EXPECT_TRUE(after([&] { server_.accept(server_.sends[0]); }));
   EXPECT_TRUE(after([&] { send(400); }));
-  EXPECT_TRUE(after([&] { step(2000); }));  // given up
+  EXPECT_TRUE(after([&] { step(2000); }));  // expired
   for (int i = 0; i < 2; ++i) EXPECT_TRUE(after([&] { server_.deliver(9, 5, 0); }));
   EXPECT_TRUE(after([&] { modem_.take_received(); }));
   const std::int64_t ping = modem_.ping(at_ms(3000), at_ms(3000), 7);

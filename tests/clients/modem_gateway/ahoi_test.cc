@@ -133,7 +133,7 @@ TEST(Ahoi, SkipsWhatIsNoFrame) {
             "");
   EXPECT_EQ(bench.say("10020102"
                       "10020102000005001003"),
-            "100201FFFF0005001003");  // begun anew
+            "100201FFFF0005001003");  // started again
   EXPECT_THROW(AhoiBench("colour=red"), InvalidArgument);
 }
 

@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/clients/modem_gateway/door_dialogue.h"
+#include "tests/clients/modem_gateway/interface_dialogue.h"
 
 namespace halocline::modem_gateway {
 namespace {
@@ -18,24 +18,24 @@ using testing::has_in_turn;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// A command that each kind of door answers at once, without its end.
+// A command that each kind of modem answers at once, without its end.
 struct Manner {
   const char* kind;
   const char* profile;
   std::string command, answer;
 };
 
-class AnyHost : public ::testing::TestWithParam<Manner>, public testing::DoorDialogue {
+class AnyHost : public ::testing::TestWithParam<Manner>, public testing::InterfaceDialogue {
  protected:
   AnyHost()
-      : DoorDialogue({{"one", 1, GetParam().profile, 0, 0, GetParam().kind},
-                      {"two", 2, GetParam().profile, 500, 0, GetParam().kind}}) {}
+      : InterfaceDialogue({{"one", 1, GetParam().profile, 0, 0, GetParam().kind},
+                           {"two", 2, GetParam().profile, 500, 0, GetParam().kind}}) {}
   static std::size_t count(const std::string& text, const std::string& part) {
     std::size_t found = 0;
     for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++found;
     return found;
   }
-  void connect_again() { hosts[0] = std::make_unique<testing::Host>(mission.gateway().place_of(0)); }
+  void connect_again() { hosts[0] = std::make_unique<testing::Host>(run.gateway().place_of(0)); }
 };
 
 INSTANTIATE_TEST_SUITE_P(
@@ -82,11 +82,11 @@ TEST_P(AnyHost, BreaksOffWithinALineAndComesAgain) {
   EXPECT_FALSE(heard[1].empty());
 }
 
-class MicromodemManners : public ::testing::Test, public testing::DoorDialogue {
+class MicromodemManners : public ::testing::Test, public testing::InterfaceDialogue {
  protected:
   MicromodemManners()
-      : DoorDialogue({{"one", 1, "micromodem-psk-1", 0, 0, "micromodem"},
-                      {"two", 2, "micromodem-psk-1", 500, 0, "micromodem"}}) {}
+      : InterfaceDialogue({{"one", 1, "micromodem-psk-1", 0, 0, "micromodem"},
+                           {"two", 2, "micromodem-psk-1", 500, 0, "micromodem"}}) {}
 };
 
 TEST_F(MicromodemManners, SmallLettersBlanksAndNoChecksumsAreTaken) {
@@ -100,7 +100,7 @@ TEST_F(MicromodemManners, SmallLettersBlanksAndNoChecksumsAreTaken) {
 // What was given for a cycle before the host broke off is sent; a new host is told how it ended.
 TEST_F(MicromodemManners, AHostThatComesAgainIsToldWhatItsModemDoes) {
   say(0, "$CCCYC,0,1,2,1,1,2\r\n$CCTXD,1,2,1,6162\r\n$CCTXD,1,2,1,63", 0.3);
-  hosts[0] = std::make_unique<testing::Host>(mission.gateway().place_of(0));
+  hosts[0] = std::make_unique<testing::Host>(run.gateway().place_of(0));
   say(0, "$CCTXD,1,2,1,6364\r\n", 10);
   EXPECT_THAT(heard[0], has_in_turn({"$CATXD,1,2,1,2*", "$CATXF,4*", "$CAACK,2,1,1,1*", "$CAACK,2,1,2,1*"}));
   EXPECT_THAT(heard[1], has_in_turn({"$CARXD,1,2,1,1,6162*", "$CARXD,1,2,1,2,6364*"}));
@@ -132,11 +132,11 @@ std::string unet(const std::string& fields) {
          fields + "}}}\n";
 }
 
-class ConfirmedCommands : public ::testing::TestWithParam<Sending>, public testing::DoorDialogue {
+class ConfirmedCommands : public ::testing::TestWithParam<Sending>, public testing::InterfaceDialogue {
  protected:
   ConfirmedCommands()
-      : DoorDialogue({{"one", 1, GetParam().profile, 0, 0, GetParam().kind},
-                      {"two", 2, GetParam().profile, 500, 0, GetParam().kind}}) {}
+      : InterfaceDialogue({{"one", 1, GetParam().profile, 0, 0, GetParam().kind},
+                           {"two", 2, GetParam().profile, 500, 0, GetParam().kind}}) {}
   std::size_t count(const std::string& part) const {
     std::size_t found = 0;
     for (std::size_t at = 0; !part.empty() && (at = heard[0].find(part, at)) != std::string::npos;
@@ -146,7 +146,7 @@ class ConfirmedCommands : public ::testing::TestWithParam<Sending>, public testi
   }
   std::size_t transmitted() const {
     return static_cast<std::size_t>(
-        std::count_if(mission.outcomes.begin(), mission.outcomes.end(), [](const packet_outcome_t& outcome) {
+        std::count_if(run.outcomes.begin(), run.outcomes.end(), [](const packet_outcome_t& outcome) {
           return outcome.source_id == 1 && outcome.packet_kind != modem_receive_t::ACK;
         }));
   }

@@ -33,7 +33,7 @@ class Echo {
       if (input.change == Change::kClosed) ++closed;
       if (input.change != Change::kBytes) continue;
       received += input.bytes.size();
-      if (!is_silent) connections.write(input.door, input.client, "<" + input.bytes + ">");
+      if (!is_silent) connections.write(input.interface, input.client, "<" + input.bytes + ">");
     }
   }
   // What `host` gets until that is `size` bytes.
@@ -51,13 +51,13 @@ class Echo {
 
 TEST(Connections, EachHostHasAConversationOfItsOwn) {
   Echo echo;
-  const auto door = echo.add("tcp:0");
-  Host one(echo.connections.place_of(door)), two(echo.connections.place_of(door));
+  const auto interface = echo.add("tcp:0");
+  Host one(echo.connections.place_of(interface)), two(echo.connections.place_of(interface));
   one.write("one");
   two.write("two");
   EXPECT_EQ(echo.read(one, 5), "<one>");
   EXPECT_EQ(echo.read(two, 5), "<two>");
-  echo.connections.write(door, kAllClients, "all");
+  echo.connections.write(interface, kAllClients, "all");
   EXPECT_EQ(echo.read(one, 3), "all");
   EXPECT_EQ(echo.read(two, 3), "all");
   one.close();
@@ -140,8 +140,8 @@ TEST(Connections, OnlyASymbolicLinkIsReplaced) {
 
 TEST(Connections, AHostThatIsDisconnectedIsReportedAsClosed) {
   Echo echo;
-  const auto door = echo.add("tcp:0");
-  Host host(echo.connections.place_of(door));
+  const auto interface = echo.add("tcp:0");
+  Host host(echo.connections.place_of(interface));
   ASSERT_TRUE(work_until([&] { echo.work(); }, [&] { return echo.opened == 1; }));
   echo.connections.disconnect(1);
   EXPECT_TRUE(
@@ -150,12 +150,12 @@ TEST(Connections, AHostThatIsDisconnectedIsReportedAsClosed) {
 
 TEST(Connections, AHostThatNeverReadsLosesWholeWritesAndNobodyElseAny) {
   Echo echo;
-  const auto door = echo.add("tcp:0"), other = echo.add("tcp:0");
-  const Host deaf(echo.connections.place_of(door));
+  const auto interface = echo.add("tcp:0"), other = echo.add("tcp:0");
+  const Host deaf(echo.connections.place_of(interface));
   Host host(echo.connections.place_of(other));
   ASSERT_TRUE(work_until([&] { echo.work(); }, [&] { return echo.opened == 2; }));
   for (int i = 0; i < 20'000 && echo.connections.counters().writes_dropped == 0; ++i)
-    echo.connections.write(door, kAllClients, std::string(1024, 'x'));
+    echo.connections.write(interface, kAllClients, std::string(1024, 'x'));
   EXPECT_GT(echo.connections.counters().writes_dropped, 0);
   host.write("still here");
   EXPECT_EQ(echo.read(host, 12), "<still here>");
@@ -163,10 +163,10 @@ TEST(Connections, AHostThatNeverReadsLosesWholeWritesAndNobodyElseAny) {
 
 TEST(Connections, TurnsAwayMoreHostsThanItHolds) {
   Echo echo;
-  const auto door = echo.add("tcp:0");
+  const auto interface = echo.add("tcp:0");
   std::vector<std::unique_ptr<Host>> hosts;
   for (std::size_t i = 0; i < 500; ++i) {
-    hosts.push_back(std::make_unique<Host>(echo.connections.place_of(door)));
+    hosts.push_back(std::make_unique<Host>(echo.connections.place_of(interface)));
     echo.work();
   }
   ASSERT_TRUE(
@@ -181,8 +181,8 @@ TEST(Connections, TurnsAwayMoreHostsThanItHolds) {
 TEST(Connections, AFloodOfOneHostComesInPieces) {
   Echo echo;
   echo.is_silent = true;
-  const auto door = echo.add("tcp:0");
-  const Host host(echo.connections.place_of(door));
+  const auto interface = echo.add("tcp:0");
+  const Host host(echo.connections.place_of(interface));
   for (int i = 0; i < 64; ++i) {
     host.write(std::string(16 * 1024, 'x'));
     for (const auto& input : echo.connections.take(bus::steady_now()))
@@ -192,8 +192,8 @@ TEST(Connections, AFloodOfOneHostComesInPieces) {
 
 TEST(Connections, APlaceThatIsTakenIsRefused) {
   Connections connections;
-  const auto door = connections.add(place_of("tcp:0"));
-  EXPECT_THROW(connections.add(place_of(connections.place_of(door))), InvalidArgument);
+  const auto interface = connections.add(place_of("tcp:0"));
+  EXPECT_THROW(connections.add(place_of(connections.place_of(interface))), InvalidArgument);
   EXPECT_THROW(connections.add(place_of("pty:/nowhere/at/all")), InvalidArgument);
 }
 

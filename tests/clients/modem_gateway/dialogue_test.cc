@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "clients/modem_gateway/protocols/fields.h"
-#include "tests/clients/modem_gateway/door_dialogue.h"
+#include "tests/clients/modem_gateway/interface_dialogue.h"
 
 namespace halocline::modem_gateway {
 namespace {
@@ -21,14 +21,14 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 // 1500 m/s: 1000 m are 0.6667 s, 750 m 0.5 s.
-class Dialogue : public ::testing::Test, public testing::DoorDialogue {
+class Dialogue : public ::testing::Test, public testing::InterfaceDialogue {
  protected:
   Dialogue()
-      : DoorDialogue({{"one", 1, "micromodem-psk-1", 0, 0, "micromodem", "lbl=3"},
-                      {"two", 2, "micromodem-psk-1", 1000, 0, "micromodem"},
-                      {"transponder", 3, "micromodem-psk-1", 0, 750, "", "", testing::kTransponder},
-                      {"four", 4, "s2c-im", 0, 300, "evologics"},
-                      {"five", 5, "s2c-im", 750, 300, "evologics"}}) {}
+      : InterfaceDialogue({{"one", 1, "micromodem-psk-1", 0, 0, "micromodem", "lbl=3"},
+                           {"two", 2, "micromodem-psk-1", 1000, 0, "micromodem"},
+                           {"transponder", 3, "micromodem-psk-1", 0, 750, "", "", testing::kTransponder},
+                           {"four", 4, "s2c-im", 0, 300, "evologics"},
+                           {"five", 5, "s2c-im", 750, 300, "evologics"}}) {}
 };
 
 TEST_F(Dialogue, APingTellsTheOneWayTime) {
@@ -51,23 +51,23 @@ TEST_F(Dialogue, ATransponderAnswersWithItsTravelTime) {
 
 // Four at unequal ranges, and a modem that is none. Answers of more than half a second overlap.
 TEST(LongBaseline, FourTranspondersAnswerOnePingAndEachHasItsTravelTime) {
-  std::vector<testing::DoorVehicle> fleet{
+  std::vector<testing::InterfaceVehicle> fleet{
       {"auv", 1, "micromodem-psk-1", 0, 0, "micromodem", "lbl=11/12/13/14"},
       {"other", 2, "micromodem-psk-1", 200, 200, "micromodem"}};
   const double ranges_m[] = {1000, 431.7, 1013.3, 777.7};
   for (int i = 0; i < 4; ++i)
     fleet.push_back({"t" + std::to_string(i), 11 + i, "micromodem-psk-1", i % 2 == 0 ? ranges_m[i] : 0,
                      i % 2 == 0 ? 0 : ranges_m[i], "", "", testing::kTransponder});
-  testing::DoorDialogue lbl(fleet);
+  testing::InterfaceDialogue lbl(fleet);
   for (const auto* command : {"$CCPDT,1,1,0,0,3000,1,1,1,1\r\n", "$CCPNT,9000,5,5,3000,1,1,1,1,1\r\n"}) {
-    lbl.mission.outcomes.clear();
+    lbl.run.outcomes.clear();
     lbl.say(0, command, 8);
     const std::size_t at = lbl.heard[0].find("$SNTTA,");
     ASSERT_NE(at, std::string::npos) << lbl.heard[0];
     const auto times = fields_of(std::string_view(lbl.heard[0]).substr(at), ',');
     int answers = 0;
     std::vector<double> begins_s;
-    for (const packet_outcome_t& outcome : lbl.mission.outcomes) {
+    for (const packet_outcome_t& outcome : lbl.run.outcomes) {
       if (outcome.packet_kind != modem_receive_t::PING_REPLY || outcome.receiver_id != 1) continue;
       ++answers;
       begins_s.push_back(1e-6 * static_cast<double>(outcome.departure_utime) + outcome.travel_time_s);
@@ -157,7 +157,7 @@ TEST_F(Dialogue, InstantMessagesOfEveryKindArriveAsWhatTheyAre) {
 // Three of ten packets are lost, data and acknowledgements: then a message is repeated, and none is reported
 // twice.
 TEST(Repetitions, BurstsAndInstantMessagesThroughLossyWaterArriveOnceAndInTheirOrder) {
-  testing::DoorDialogue lossy(
+  testing::InterfaceDialogue lossy(
       {{"one", 1, "s2c-im", 0, 0, "evologics"}, {"two", 2, "s2c-im", 750, 0, "evologics"}}, 0.3);
   std::string all;
   for (char name = 'a'; name < 'k'; ++name) all += "AT*SEND,4,2,000" + std::string(1, name) + "\n";
@@ -175,7 +175,7 @@ TEST(Repetitions, BurstsAndInstantMessagesThroughLossyWaterArriveOnceAndInTheirO
   while ((at = lossy.heard[1].find("RECV,", at)) != std::string::npos) ++received, ++at;
   EXPECT_EQ(received, 10u);
   const auto sent = std::count_if(
-      lossy.mission.outcomes.begin(), lossy.mission.outcomes.end(), [](const packet_outcome_t& outcome) {
+      lossy.run.outcomes.begin(), lossy.run.outcomes.end(), [](const packet_outcome_t& outcome) {
         return outcome.packet_kind == modem_receive_t::DATA && outcome.receiver_id == 2;
       });
   EXPECT_GT(sent, 10) << "nothing was repeated";

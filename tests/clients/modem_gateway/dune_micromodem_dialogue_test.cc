@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DUNE's Micromodem tasks at a door: lines without checksums, data before its cycle, times as the first
-// fields of SNTTA.
+// DUNE's Micromodem tasks at an emulated Micromodem: lines without checksums, data before its cycle, times as
+// the first fields of SNTTA.
 //
 // Formats and order: LSTS/dune, src/Sensors/MLBLTracker/Task.cpp of 2025 and the LBL navigation task.
 #include <string>
@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/clients/modem_gateway/door_dialogue.h"
+#include "tests/clients/modem_gateway/interface_dialogue.h"
 
 namespace halocline::modem_gateway {
 namespace {
@@ -17,12 +17,12 @@ using testing::has_in_turn;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class DuneMicromodem : public ::testing::Test, public testing::DoorDialogue {
+class DuneMicromodem : public ::testing::Test, public testing::InterfaceDialogue {
  protected:
   // The host of the first is a console, of the second a vehicle. Transponders have the frequencies of their
   // answers.
   DuneMicromodem()
-      : DoorDialogue(
+      : InterfaceDialogue(
             {{"console", 1, "micromodem-psk-1", 0, 0, "micromodem", "revision=0.94.0.00 lbl=3:26000/4:27000"},
              {"vehicle", 2, "micromodem-psk-1", 1000, 0, "micromodem", "revision=0.94.0.00"},
              {"north", 3, "micromodem-psk-1", 0, 750, "", "", testing::kTransponder},

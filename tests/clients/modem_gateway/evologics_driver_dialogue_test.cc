@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// DUNE's EvoLogics driver and EvoLogics' own driver for ROS, dmac, at doors half a second apart.
+// DUNE's EvoLogics driver and EvoLogics' own driver for ROS, dmac, at emulated modems half a second apart.
 //
 // Formats and order: LSTS/dune, src/Transports/Evologics at 0431bb19 and src/DUNE/Hardware/BasicModem at
 // 0431bb19; EvoLogics/dmac at 52ee50c5 and 339ecf31.
@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "clients/modem_gateway/protocols/fields.h"
-#include "tests/clients/modem_gateway/door_dialogue.h"
+#include "tests/clients/modem_gateway/interface_dialogue.h"
 
 namespace halocline::modem_gateway {
 namespace {
@@ -25,12 +25,12 @@ using testing::has_in_turn;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-class EvologicsDriver : public ::testing::Test, public testing::DoorDialogue {
+class EvologicsDriver : public ::testing::Test, public testing::InterfaceDialogue {
  protected:
   EvologicsDriver()
-      : DoorDialogue({{"one", 1, "s2c-im", 0, 0, "evologics"},
-                      {"two", 2, "s2c-im", 750, 0, "evologics"},
-                      {"serial", 3, "s2c-im", 0, 900, "evologics", "mode=data"}}) {}
+      : InterfaceDialogue({{"one", 1, "s2c-im", 0, 0, "evologics"},
+                           {"two", 2, "s2c-im", 750, 0, "evologics"},
+                           {"serial", 3, "s2c-im", 0, 900, "evologics", "mode=data"}}) {}
 
   // Lines that came, without their ends. A payload may hold one: none does here.
   std::vector<std::string> lines(std::size_t host) {

@@ -14,8 +14,8 @@
 
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/address_book.h"
-#include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/interface_options.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
@@ -84,19 +84,20 @@ class FakePort : public ProtocolPort {
   std::vector<std::int32_t> paths_asked;
 };
 
-// The door of vehicle 1, and messages for it.
+// The modem interface of vehicle 1, and messages for it.
 class ProtocolBench {
  public:
   static constexpr std::int32_t kVehicle = 1;
   static constexpr ClientId kHost = 5;
 
   explicit ProtocolBench(std::string_view kind, std::string_view options = "", SoundField* sound = nullptr)
-      : protocol(make_protocol(kind, {port, addresses, kVehicle, DoorOptions(options), {}, 0, 0, sound})) {
+      : protocol(
+            make_protocol(kind, {port, addresses, kVehicle, InterfaceOptions(options), {}, 0, 0, sound})) {
     protocol->on_opened(kHost);
     port.take();
   }
 
-  // What the door answers at once.
+  // What the modem interface answers at once.
   std::string ask(std::string_view bytes) {
     protocol->on_bytes(kHost, bytes);
     return port.take();

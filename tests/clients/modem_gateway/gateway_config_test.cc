@@ -24,8 +24,8 @@ name = "buoy"
 id = 9
 )";
 
-GatewayConfig read(const std::string& doors) {
-  auto file = bus::ConfigFile::parse(kVehicles + doors, "test.toml", {});
+GatewayConfig read(const std::string& interfaces) {
+  auto file = bus::ConfigFile::parse(kVehicles + interfaces, "test.toml", {});
   GatewayConfig config;
   file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
   file.check(/*whole_file=*/false);
@@ -45,67 +45,69 @@ TEST(GatewayConfig, KnowsTheClocksOfVehicles) {
   EXPECT_EQ(config.clocks.fix_lag, SimDuration::from_milliseconds(125));
 }
 
-std::string errors_of(const std::string& doors) {
+std::string errors_of(const std::string& interfaces) {
   try {
-    read(doors);
+    read(interfaces);
   } catch (const bus::ConfigErrors& errors) {
     return errors.what();
   }
   return "";
 }
 
-TEST(GatewayConfig, ADoorNamesVehicleKindAndPlace) {
+TEST(GatewayConfig, AModemInterfaceNamesVehicleKindAndPlace) {
   const GatewayConfig config = read(R"(
-[[door]]
+[[modem_interface]]
 vehicle = "buoy"
 kind = "nm3"
 place = "tcp:9600"
 addresses = "auv-1=7"
 options = "timestamps=yes"
 )");
-  ASSERT_EQ(config.doors.size(), 1u);
-  EXPECT_EQ(config.doors[0].vehicle_id, 9);
-  EXPECT_EQ(config.doors[0].place.port, 9600);
-  EXPECT_EQ(config.doors[0].place.host, "127.0.0.1");
+  ASSERT_EQ(config.interfaces.size(), 1u);
+  EXPECT_EQ(config.interfaces[0].vehicle_id, 9);
+  EXPECT_EQ(config.interfaces[0].place.port, 9600);
+  EXPECT_EQ(config.interfaces[0].place.host, "127.0.0.1");
 }
 
 TEST(GatewayConfig, EachMistakeIsNamedWithItsLineAndWhatIsAllowed) {
   const std::string errors = errors_of(R"(
-[[door]]
+[[modem_interface]]
 vehicle = "nobody"
 kind = "nm3"
 place = "udp:1"
 options = "colour=red"
 addresses = "auv-1=x"
 )");
-  EXPECT_THAT(errors, HasSubstr("test.toml:12: door[0].place"));
+  EXPECT_THAT(errors, HasSubstr("test.toml:12: modem_interface[0].place"));
   EXPECT_THAT(errors, HasSubstr("name of a vehicle of the scenario"));
   EXPECT_THAT(errors, HasSubstr("allowed are tcp:PORT"));
   EXPECT_THAT(errors, HasSubstr("allowed are timestamps"));
   EXPECT_THAT(errors, HasSubstr("VEHICLE=ADDRESS"));
-  EXPECT_THAT(errors_of("[[door]]\nvehicle = \"buoy\"\nkind = \"fax\"\n"), HasSubstr("nm3"));
-  EXPECT_THAT(errors_of("[[door]]\nvehicle = \"buoy\"\n"), HasSubstr("must be given"));
+  EXPECT_THAT(errors_of("[[modem_interface]]\nvehicle = \"buoy\"\nkind = \"fax\"\n"), HasSubstr("nm3"));
+  EXPECT_THAT(errors_of("[[modem_interface]]\nvehicle = \"buoy\"\n"), HasSubstr("must be given"));
 }
 
-TEST(GatewayConfig, TranspondersOfADoorAreVehiclesThatAnswerPingsToAll) {
-  const std::string door =
-      "[[door]]\nvehicle = \"buoy\"\nkind = \"micromodem\"\nplace = \"tcp:9600\"\naddresses = \"auv-1=3\"\n"
+TEST(GatewayConfig, TranspondersOfAModemInterfaceAreVehiclesThatAnswerPingsToAll) {
+  const std::string interface =
+      "[[modem_interface]]\nvehicle = \"buoy\"\nkind = \"micromodem\"\nplace = \"tcp:9600\"\naddresses = "
+      "\"auv-1=3\"\n"
       "options = \"lbl=3/4\"\n";
   const std::string vehicle = "[[vehicle]]\nname = \"beacon\"\nid = 4\n";
-  EXPECT_THAT(errors_of(vehicle + door),
-              HasSubstr("door[0].options is 'lbl=3/4'; they name auv-1 as a transponder"));
-  std::string answering = door;
+  EXPECT_THAT(errors_of(vehicle + interface),
+              HasSubstr("modem_interface[0].options is 'lbl=3/4'; they name auv-1 as a transponder"));
+  std::string answering = interface;
   answering.replace(answering.find("auv-1=3"), 7, "first=3");
   EXPECT_EQ(errors_of("[[vehicle]]\nname = \"first\"\nid = 5\ntransponder = true\n" + vehicle +
                       "transponder = true\n" + answering),
             "");
-  EXPECT_THAT(errors_of(vehicle + "transponder = true\n" + door),
+  EXPECT_THAT(errors_of(vehicle + "transponder = true\n" + interface),
               HasSubstr("allowed is a vehicle with transponder = true"));
 }
 
-TEST(GatewayConfig, TwoDoorsHaveTwoPlaces) {
-  const std::string door = "[[door]]\nvehicle = \"buoy\"\nkind = \"nm3\"\nplace = \"tcp:9600\"\n";
-  EXPECT_THAT(errors_of(door + door), HasSubstr("another door has this place"));
+TEST(GatewayConfig, TwoHaveTwoPlaces) {
+  const std::string interface =
+      "[[modem_interface]]\nvehicle = \"buoy\"\nkind = \"nm3\"\nplace = \"tcp:9600\"\n";
+  EXPECT_THAT(errors_of(interface + interface), HasSubstr("another modem interface has this place"));
 }
 
 TEST(GatewayConfig, PlacesSurviveTheRoundTrip) {
@@ -115,16 +117,16 @@ TEST(GatewayConfig, PlacesSurviveTheRoundTrip) {
     EXPECT_THROW(place_of(wrong), InvalidArgument) << wrong;
 }
 
-TEST(GatewayConfig, TheCommandLineAddsDoors) {
+TEST(GatewayConfig, TheCommandLineAddsModemInterfaces) {
   GatewayConfig config = read("");
-  add_door(config, "auv-1=nm3:tcp:9600");
-  add_door(config, "buoy=nm3:pty:/tmp/modem");
-  ASSERT_EQ(config.doors.size(), 2u);
-  EXPECT_EQ(config.doors[0].vehicle_id, 1);
-  EXPECT_EQ(config.doors[1].place.path, "/tmp/modem");
+  add_interface(config, "auv-1=nm3:tcp:9600");
+  add_interface(config, "buoy=nm3:pty:/tmp/modem");
+  ASSERT_EQ(config.interfaces.size(), 2u);
+  EXPECT_EQ(config.interfaces[0].vehicle_id, 1);
+  EXPECT_EQ(config.interfaces[1].place.path, "/tmp/modem");
   for (const auto* wrong :
        {"auv-1", "auv-1=nm3", "auv-2=nm3:tcp:9600", "auv-1=fax:tcp:9600", "auv-1=nm3:tcp:x"})
-    EXPECT_THROW(add_door(config, wrong), InvalidArgument) << wrong;
+    EXPECT_THROW(add_interface(config, wrong), InvalidArgument) << wrong;
 }
 
 }  // namespace

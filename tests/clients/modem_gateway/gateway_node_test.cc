@@ -18,14 +18,14 @@ namespace {
 using testing::Host;
 using testing::work_until;
 
-// A gateway with two doors on one bus, and the channel server's side of the first by hand.
+// A gateway with two modem interfaces on one bus, and the channel server's side of the first by hand.
 class GatewayNodeTest : public ::testing::Test {
  protected:
-  static GatewayConfig two_doors() {
+  static GatewayConfig two_interfaces() {
     GatewayConfig config;
     config.vehicles = {{"auv-1", 1}, {"auv-2", 2}};
-    add_door(config, "auv-1=nm3:tcp:0");
-    add_door(config, "auv-2=nm3:tcp:0");
+    add_interface(config, "auv-1=nm3:tcp:0");
+    add_interface(config, "auv-2=nm3:tcp:0");
     return config;
   }
   void work() {
@@ -44,7 +44,7 @@ class GatewayNodeTest : public ::testing::Test {
   double sim_s_ = 10;
   lcm::LCM lcm_{"memq://"};
   clients::testing::FakeServer server_{lcm_, "auv-1"};
-  GatewayNode node_{lcm_, {"modem-gateway", 5}, two_doors(), SimDuration()};
+  GatewayNode node_{lcm_, {"modem-gateway", 5}, two_interfaces(), SimDuration()};
 };
 
 TEST_F(GatewayNodeTest, WhatAHostAsksForGoesOutAsASend) {
@@ -68,7 +68,7 @@ TEST_F(GatewayNodeTest, WhatAModemReceivesGoesToItsHostsAlone) {
   EXPECT_EQ(two.read(), "");
 }
 
-TEST_F(GatewayNodeTest, AnAddressThatAHostSetsHoldsAtTheOtherDoors) {
+TEST_F(GatewayNodeTest, AnAddressThatAHostSetsHoldsAtTheOtherModemInterfaces) {
   Host one(node_.place_of(0)), two(node_.place_of(1));
   two.write("$A077");
   EXPECT_EQ(read(two, 7), "#A077\r\n");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program by itself, on a private bus (scripts/isolated): doors of its command line, its trace, its end.
+// The program by itself, on a private bus (scripts/isolated): modem interfaces of its command line, its
+// trace, its end.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -41,11 +42,11 @@ std::string answer_of(Host& host, std::size_t size) {
   return text;
 }
 
-TEST(GatewayProgram, ServesDoorsOfItsCommandLineBeforeASimulationRuns) {
+TEST(GatewayProgram, ServesModemInterfacesOfItsCommandLineBeforeASimulationRuns) {
   const halocline::testing::TemporaryFolder folder;
   std::ofstream("s.toml") << "[[vehicle]]\nname = \"auv-1\"\nid = 1\n[[vehicle]]\nname = \"auv-2\"\nid = 2\n";
-  halocline::testing::Process gateway({kProgram, "s.toml", "--door", "auv-1=nm3:tcp:9601", "--door",
-                                       "auv-2=nm3:pty:line", "--trace", "trace.txt"});
+  halocline::testing::Process gateway({kProgram, "s.toml", "--modem-interface", "auv-1=nm3:tcp:9601",
+                                       "--modem-interface", "auv-2=nm3:pty:line", "--trace", "trace.txt"});
   ASSERT_TRUE(work_until([] { std::this_thread::sleep_for(std::chrono::milliseconds(10)); },
                          [] { return Host("tcp:9601").is_open(); }));
   Host tcp("tcp:9601"), line("pty:line");
@@ -60,14 +61,14 @@ TEST(GatewayProgram, ServesDoorsOfItsCommandLineBeforeASimulationRuns) {
   EXPECT_THAT(trace.str(), HasSubstr("0.000000 auv-1 nm3 < $?\n0.000000 auv-1 nm3 > #A001V52429\\r\\n\n"));
 }
 
-TEST(GatewayProgram, NamesWhatIsWrongWithADoor) {
+TEST(GatewayProgram, NamesWhatIsWrongWithAModemInterface) {
   const halocline::testing::TemporaryFolder folder;
   std::ofstream("s.toml") << "[[vehicle]]\nname = \"auv-1\"\nid = 1\n";
-  for (const auto& [door, problem] : {std::pair("auv-9=nm3:tcp:9601", "there is no vehicle 'auv-9'"),
-                                      {"auv-1=fax:tcp:9601", "kind of door 'fax'"},
-                                      {"auv-1=nm3:udp:9601", "allowed are tcp:PORT"}}) {
-    halocline::testing::Process gateway({kProgram, "s.toml", "--door", door});
-    EXPECT_EQ(gateway.wait(), 2) << door;
+  for (const auto& [interface, problem] : {std::pair("auv-9=nm3:tcp:9601", "there is no vehicle 'auv-9'"),
+                                           {"auv-1=fax:tcp:9601", "kind of modem interface 'fax'"},
+                                           {"auv-1=nm3:udp:9601", "allowed are tcp:PORT"}}) {
+    halocline::testing::Process gateway({kProgram, "s.toml", "--modem-interface", interface});
+    EXPECT_EQ(gateway.wait(), 2) << interface;
     EXPECT_THAT(gateway.output(), HasSubstr(problem));
   }
 }
@@ -80,12 +81,18 @@ constexpr auto kFour =
 TEST(GatewayProgram, AModemHasItsSettingsAfterItsGatewayWasKilled) {
   const halocline::testing::TemporaryFolder folder;
   std::ofstream("s.toml") << kFour;
-  const std::vector<std::string> command{kProgram,    "s.toml",
-                                         "--journal", "journal",
-                                         "--door",    "a=nm3:tcp:9611",
-                                         "--door",    "b=evologics:tcp:9612",
-                                         "--door",    "c=micromodem:tcp:9613",
-                                         "--door",    "d=ahoi:tcp:9614"};
+  const std::vector<std::string> command{kProgram,
+                                         "s.toml",
+                                         "--journal",
+                                         "journal",
+                                         "--modem-interface",
+                                         "a=nm3:tcp:9611",
+                                         "--modem-interface",
+                                         "b=evologics:tcp:9612",
+                                         "--modem-interface",
+                                         "c=micromodem:tcp:9613",
+                                         "--modem-interface",
+                                         "d=ahoi:tcp:9614"};
   const auto wait_for_start = [] {
     return work_until([] { std::this_thread::sleep_for(std::chrono::milliseconds(10)); },
                       [] { return Host("tcp:9614").is_open(); });
@@ -123,21 +130,21 @@ TEST(GatewayProgram, TheLinkOfASerialLineIsGoneAfterEachEnd) {
   std::ofstream("s.toml") << kFour;
   const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(10)); };
   for (const int number : {SIGTERM, SIGINT, SIGHUP}) {
-    halocline::testing::Process gateway({kProgram, "s.toml", "--door", "a=nm3:pty:line"});
+    halocline::testing::Process gateway({kProgram, "s.toml", "--modem-interface", "a=nm3:pty:line"});
     ASSERT_TRUE(work_until(pause, [] { return std::filesystem::exists("line"); }));
     gateway.signal(number);
     EXPECT_EQ(gateway.wait(), 0) << gateway.output();
     EXPECT_FALSE(std::filesystem::is_symlink("line")) << number;
   }
-  halocline::testing::Process refused(
-      {kProgram, "s.toml", "--door", "a=nm3:pty:line", "--door", "b=nm3:pty:/nowhere/at/all"});
+  halocline::testing::Process refused({kProgram, "s.toml", "--modem-interface", "a=nm3:pty:line",
+                                       "--modem-interface", "b=nm3:pty:/nowhere/at/all"});
   EXPECT_EQ(refused.wait(), 2) << refused.output();
   EXPECT_FALSE(std::filesystem::is_symlink("line"));
 }
 
 // A buoy and a lander 750 m apart: the sound that one plays at an instant comes to the other half a second
 // later.
-TEST(GatewayProgram, CarriesSoundFromADoorOfWaveformsToAnother) {
+TEST(GatewayProgram, CarriesSoundFromAModemOfWaveformsToAnother) {
   const halocline::testing::TemporaryFolder folder;
   std::ofstream("s.toml") << R"(
 [scenario]
@@ -156,11 +163,11 @@ name = "lander"
 id = 2
 model = "fixed"
 start_ned_m = [750.0, 0.0, 50.0]
-[[door]]
+[[modem_interface]]
 vehicle = "buoy"
 kind = "uasp2"
 place = "tcp:9701"
-[[door]]
+[[modem_interface]]
 vehicle = "lander"
 kind = "uasp2"
 place = "tcp:9702"

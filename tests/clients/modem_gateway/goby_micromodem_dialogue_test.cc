@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Goby's Micromodem driver at two doors a kilometre apart: how it starts, and what its own test asks of two
-// modems.
+// Goby's Micromodem driver at two emulated modems a kilometre apart: how it starts, and what its own test
+// asks of two modems.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/clients/modem_gateway/door_dialogue.h"
 #include "tests/clients/modem_gateway/goby_driver.h"
+#include "tests/clients/modem_gateway/interface_dialogue.h"
 
 namespace halocline::modem_gateway {
 namespace {
@@ -18,10 +18,10 @@ using ::testing::ElementsAre;
 using testing::GobyDriver;
 using testing::GobyReception;
 
-class Goby : public ::testing::TestWithParam<const char*>, public testing::DoorDialogue {
+class Goby : public ::testing::TestWithParam<const char*>, public testing::InterfaceDialogue {
  protected:
   Goby()
-      : DoorDialogue(
+      : InterfaceDialogue(
             {{"one", 1, "micromodem-psk-1", 0, 0, "micromodem", "lbl=3 pps=yes " + std::string(GetParam())},
              {"two", 2, "micromodem-psk-1", 1000, 0, "micromodem", "pps=yes " + std::string(GetParam())},
              {"transponder", 3, "micromodem-psk-1", 0, 750, "", "", testing::kTransponder}}) {

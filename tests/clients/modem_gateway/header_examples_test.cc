@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include "clients/modem_gateway/protocols/door_options.h"
+#include "clients/modem_gateway/protocols/interface_options.h"
 
 namespace halocline::modem_gateway {
 namespace {
 
-TEST(HeaderExamples, DoorOptions) {
-  DoorOptions options("revision=0.94.0.00");
+TEST(HeaderExamples, InterfaceOptions) {
+  InterfaceOptions options("revision=0.94.0.00");
   const std::string revision = options.take("revision", "2.0.31000");
   options.require_all_taken();
   EXPECT_EQ(revision, "0.94.0.00");

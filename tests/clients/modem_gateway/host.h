@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host's side of a door: a TCP connection on loopback, or a file, that never waits longer than a few
-// seconds.
+// A host's side of a modem interface: a TCP connection on loopback, or a file, that never waits longer than a
+// few seconds.
 #pragma once
 
 #include <array>

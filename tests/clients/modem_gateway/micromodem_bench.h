@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A Micromodem's door and the sentences that it writes.
+// An emulated Micromodem and the sentences that it writes.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace halocline::modem_gateway::testing {
 
-// Bodies of the sentences in what a door wrote; each must have its checksum and line end.
+// Bodies of the sentences in what it wrote; each must have its checksum and line end.
 inline std::vector<std::string> bodies(const std::string& written) {
   std::vector<std::string> bodies;
   for (std::size_t begin = 0; begin < written.size();) {

@@ -149,7 +149,7 @@ TEST(Micromodem, FlexiblePacketsAreSentAndReportedAsTriplets) {
   EXPECT_THAT(newer.hear(packet)[0], "CARFP,1970-01-01T00:01:39.750000,0,2,1,1,1,0,0,,,0;2;0A0B;1;1;0C");
   bench.say("CCCFG,recv.base64data,1");
   EXPECT_THAT(bench.hear(packet)[0], "CARDP,2,1,1,0,0,,0;2;Cgs=;1;1;DA==");
-  // What stands for 0 may be a word.
+  // A word may take the place of 0.
   EXPECT_THAT(bench.say("CCTDP,2,1,0,False,0A"), ElementsAre("CATDP,0,2,1,0,False,1"));
 }
 

@@ -67,7 +67,7 @@ TEST(Micromodem, EchoesSettingsAsTheyWereSentAndReportsThem) {
   EXPECT_THAT(bench.say("CCCFQ,NEW"), ElementsAre("CACFG,NEW,0"));
 }
 
-TEST(Micromodem, TakesAnAddressThatHoldsForAllDoors) {
+TEST(Micromodem, TakesAnAddressThatHoldsForAllModemInterfaces) {
   Bench bench;
   EXPECT_THAT(bench.say("CCCFG,SRC,9"), ElementsAre("CACFG,SRC,9"));
   EXPECT_THAT(bench.say("CCCFQ,SRC"), ElementsAre("CACFG,SRC,9"));

@@ -19,7 +19,7 @@ TEST(Nm3, AnswersItsStatusWithAddressAndSupply) {
   EXPECT_EQ(bench.ask("$?"), "#A001V52429\r\n");  // 12 V of 15 V in 65536 steps
 }
 
-TEST(Nm3, TakesAnotherAddressWhichHoldsForAllDoors) {
+TEST(Nm3, TakesAnotherAddressWhichHoldsForAllModemInterfaces) {
   ProtocolBench bench("nm3");
   EXPECT_EQ(bench.ask("$A007"), "#A007\r\n");
   EXPECT_EQ(bench.ask("$?"), "#A007V52429\r\n");

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "clients/modem_gateway/protocols/address_book.h"
-#include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/interface_options.h"
 #include "clients/modem_gateway/protocols/line_reader.h"
 #include "core/check.h"
 #include "tests/clients/modem_gateway/fake_port.h"
@@ -53,16 +53,16 @@ TEST(AddressBook, TakesAddressesFromAText) {
     EXPECT_THROW(assign_addresses(book, wrong, vehicles), InvalidArgument) << wrong;
 }
 
-TEST(DoorOptions, AreTakenByName) {
-  DoorOptions options("a=1.5 b=yes");
+TEST(InterfaceOptions, AreTakenByName) {
+  InterfaceOptions options("a=1.5 b=yes");
   EXPECT_EQ(options.take_number("a", 0, 0, 2), 1.5);
   EXPECT_THROW(options.require_all_taken(), InvalidArgument);
   EXPECT_TRUE(options.take_flag("b", false));
   EXPECT_EQ(options.take("c", "other"), "other");
   EXPECT_NO_THROW(options.require_all_taken());
-  EXPECT_THROW(DoorOptions("a=3").take_number("a", 0, 0, 2), InvalidArgument);
-  EXPECT_THROW(DoorOptions("a=maybe").take_flag("a", false), InvalidArgument);
-  EXPECT_THROW(DoorOptions("a"), InvalidArgument);
+  EXPECT_THROW(InterfaceOptions("a=3").take_number("a", 0, 0, 2), InvalidArgument);
+  EXPECT_THROW(InterfaceOptions("a=maybe").take_flag("a", false), InvalidArgument);
+  EXPECT_THROW(InterfaceOptions("a"), InvalidArgument);
 }
 
 TEST(Fields, AreSplitWithTheEmptyOnes) {

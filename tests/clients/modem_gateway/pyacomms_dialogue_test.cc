@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A Micromodem's door and WHOI's Python driver, pyacomms, and the node of ros_acomms on it: what it waits
+// An emulated Micromodem and WHOI's Python driver, pyacomms, and the node of ros_acomms on it: what it waits
 // for, in its order.
 //
 // Formats and order: patel999jay/pyacomms at 34e0c69b (micromodem.py, commstate.py, messageparser.py,
@@ -15,7 +15,7 @@
 
 #include "clients/modem_gateway/protocols/fields.h"
 #include "clients/modem_gateway/protocols/micromodem/nmea.h"
-#include "tests/clients/modem_gateway/door_dialogue.h"
+#include "tests/clients/modem_gateway/interface_dialogue.h"
 
 namespace halocline::modem_gateway {
 namespace {
@@ -24,12 +24,12 @@ using ::testing::ElementsAre;
 using testing::has_in_turn;
 using ::testing::HasSubstr;
 
-class Pyacomms : public ::testing::TestWithParam<const char*>, public testing::DoorDialogue {
+class Pyacomms : public ::testing::TestWithParam<const char*>, public testing::InterfaceDialogue {
  protected:
   Pyacomms()
-      : DoorDialogue({{"one", 1, "micromodem-psk-1", 0, 0, "micromodem", GetParam()},
-                      {"two", 2, "micromodem-psk-1", 1000, 0, "micromodem", GetParam()},
-                      {"transponder", 3, "micromodem-psk-1", 0, 750, "", "", testing::kTransponder}}) {}
+      : InterfaceDialogue({{"one", 1, "micromodem-psk-1", 0, 0, "micromodem", GetParam()},
+                           {"two", 2, "micromodem-psk-1", 1000, 0, "micromodem", GetParam()},
+                           {"transponder", 3, "micromodem-psk-1", 0, 750, "", "", testing::kTransponder}}) {}
 
   bool is_newest() const { return std::string_view(GetParam()).find("revision=3") != std::string_view::npos; }
   void ask(std::size_t host, const std::string& body, double seconds) { say(host, nmea_line(body), seconds); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An EvoLogics modem's door, and messages that arrive at it.
+// An emulated EvoLogics modem, and messages that arrive at it.
 #pragma once
 
 #include <cstdint>

@@ -333,7 +333,7 @@ TEST(Unet, NamesOfVehiclesAreResolved) {
   testing::FakePort port;
   AddressBook addresses;
   const auto protocol =
-      make_protocol("unet", {port, addresses, 1, DoorOptions(), {{"auv-1", 1}, {"buoy", 9}}});
+      make_protocol("unet", {port, addresses, 1, InterfaceOptions(), {{"auv-1", 1}, {"buoy", 9}}});
   const auto resolve = [&](const std::string& name) {
     const json data{{"msgID", "m"}, {"sender", "g"}, {"recipient", "arp"}, {"name", name}};
     const json message{{"clazz", "org.arl.unet.addr.AddressResolutionReq"}, {"data", data}};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host of a door of waveforms (UASP2): what it plays, and what the door streams to it.
+// A host of a modem that plays and records waveforms (UASP2): what it plays, and what the modem streams to
+// it.
 #pragma once
 
 #include <algorithm>

@@ -80,7 +80,7 @@ TEST_F(AttackedProcesses, OldHeartbeatsOfAKilledServerDoNotKeepItsName) {
     publish(status);
     const std::int64_t before = rivals();
     monitor_.dispatch_for(2);
-    return rivals() == before;  // traffic believes the new one
+    return rivals() == before;  // traffic accepts the new one
   }));
 }
 
@@ -167,8 +167,8 @@ TEST_F(AttackedProcesses, AServerThatWasStoppedSaysSoAndDecidesAsIfItHadNotBeen)
            status.lateness_p99_s <= status.lateness_max_s && status.lateness_p50_s <= status.lateness_p99_s;
   }));
   const std::string output = at("halocline-channel-server").output();
-  EXPECT_THAT(output, HasSubstr("real-time-not-held"));
-  EXPECT_EQ(output.find("real-time-not-held"), output.rfind("real-time-not-held"));  // once a minute
+  EXPECT_THAT(output, HasSubstr("real-time-not-kept"));
+  EXPECT_EQ(output.find("real-time-not-kept"), output.rfind("real-time-not-kept"));  // once a minute
   expect_all_running();
 }
 

@@ -96,7 +96,7 @@ TEST(RunSummary, CountsWhatWasTransmittedReceivedRefusedAndLost) {
   EXPECT_EQ(text_of(store),
             "a: stayed at 0 m of depth\nb: stayed at 0 m of depth\n"
             "packets: 2 transmitted, received 1 of 2 (50 %) times at other vehicles; 1 refused busy\n"
-            "received: a and b of each other: 1 of 2 (50 %)\nlost: 1 shadow\n");
+            "received: between a and b: 1 of 2 (50 %)\nlost: 1 shadow\n");
 }
 
 TEST(RunSummary, ALargeFleetIsAFewRows) {

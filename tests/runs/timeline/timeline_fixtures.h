@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of a small mission, made by hand.
+// Messages of a small run, made by hand.
 #pragma once
 
 #include <cstdint>

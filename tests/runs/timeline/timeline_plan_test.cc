@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SCENARIO, TERRAIN, PLAN and AUTOPILOT in the mission, and their texts.
+// SCENARIO, TERRAIN, PLAN and AUTOPILOT in the timeline, and their texts.
 #include <cmath>
 #include <set>
 #include <utility>

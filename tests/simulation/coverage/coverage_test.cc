@@ -124,7 +124,7 @@ TEST(Coverage, ByAFanThatRangesShareLooksLikeThatOfLinks) {
   LinkSurveyEnd from = link_end(config, "buoy");
   from.modem.modem.source_level = Decibels{136};  // reaches to the middle of the map
   const Coverage links = compute_coverage(config, terrain, from, area, kAll, 2),
-                 rays = compute_coverage(config, terrain, from, area, kAll, 2, RaySharing::kBearings);
+                 rays = compute_coverage(config, terrain, from, area, kAll, 2, RaySharing::kRanges);
   std::vector<double> off_db, off_delivery;
   for (std::size_t depth = 0; depth < area.depths_m.size(); ++depth) {
     ASSERT_TRUE(links.mean_delivery(depth));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Doors of waveforms in a run, against `halocline waveform` of the same run.
+// Modems of waveforms (UASP2) in a run, against `halocline waveform` of the same run.
 #include "simulation/waveform/live_sea.h"
 
 #include <algorithm>
@@ -67,15 +67,15 @@ name = "buoy"
 id = 3
 model = "fixed"
 start_ned_m = [600.0, 200.0, 20.0]
-[[door]]
+[[modem_interface]]
 vehicle = "alpha"
 kind = "uasp2"
 place = "tcp:0"
-[[door]]
+[[modem_interface]]
 vehicle = "bravo"
 kind = "uasp2"
 place = "tcp:0"
-[[door]]
+[[modem_interface]]
 vehicle = "buoy"
 kind = "uasp2"
 place = "tcp:0"
@@ -174,7 +174,7 @@ TEST_F(LiveSeaTest, SoundsOfSeveralHostsAddUpAndRatesMayDiffer) {
   EXPECT_LT(rms(difference), 0.02 * rms(common));
 }
 
-TEST(LiveSea, AGatewayWithoutTheWaterRefusesTheDoor) {
+TEST(LiveSea, AGatewayWithoutTheWaterRefusesTheModemInterface) {
   const ScenarioConfig config = load();
   lcm::LCM lcm("memq://");
   EXPECT_THROW(Composition(lcm, config, Composition::kRun), InvalidArgument);

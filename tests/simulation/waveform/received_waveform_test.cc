@@ -156,8 +156,8 @@ TEST_F(WaveformTest, SendersAddUp) {
         << n;
 }
 
-// 10 log10 of the power that absorption takes: alpha times the range. Half way between the ends stands for
-// the depths between them.
+// 10 log10 of the power that absorption takes: alpha times the range. Half way between the ends
+// represents the depths between them.
 TEST_F(WaveformTest, AbsorptionTakesMoreOfAHigherFrequency) {
   const ScenarioConfig config =
       load("scenarios/ranging.toml", {"propagation.model=\"straight\"", "propagation.fading=\"none\""});

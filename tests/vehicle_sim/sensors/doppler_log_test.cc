@@ -62,7 +62,7 @@ TEST(DopplerLog, BeamsLeanOutByTheirAngleTowardsTheQuarters) {
   EXPECT_TRUE(beams[3].x() > 0 && beams[3].y() < 0);
 }
 
-// Level over ground that falls away by `slope` towards north, h above it: along a beam the range is
+// Level over a seabed that falls away by `slope` towards north, h above it: along a beam the range is
 // h / (cos J - slope sin J cos(azimuth)).
 TEST(DopplerLog, RangesOverASlopeAreThoseOfTheBeamsAndThePlane) {
   const DvlSettings dvl;
@@ -153,9 +153,9 @@ TEST(Sonar, RaysFanOutEvenlyAboutTheBow) {
   EXPECT_EQ(sonar_azimuths_rad({.rays = 1}), std::vector<double>{0});
 }
 
-// A fan tilted by t below the bow, d above flat ground: its middle ray is d / sin t long, one at azimuth a
+// A fan tilted by t below the bow, d above a flat seabed: its middle ray is d / sin t long, one at azimuth a
 // d / (sin t cos a).
-TEST(Sonar, TiltedFanMeetsFlatGroundWhereItShould) {
+TEST(Sonar, TiltedFanMeetsAFlatSeabedWhereItShould) {
   const SonarSettings sonar{.rays = 9, .sector_rad = 1, .tilt_rad = 0.5, .range_m = 100};
   VehicleState level;
   const auto echoes = echoes_of_plane(sonar_beams(sonar, level), {0, 0, 10}, -Vec3::UnitZ());

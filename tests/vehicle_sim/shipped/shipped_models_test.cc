@@ -15,7 +15,7 @@
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/dynamics/mechanical_energy.h"
 #include "tests/vehicle_sim/shipped/shipped_model.h"
-#include "tests/vehicle_sim/world/grounds.h"
+#include "tests/vehicle_sim/world/formula_seabed.h"
 #include "vehicle_sim/dynamics/actuators.h"
 #include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/currents.h"
@@ -153,7 +153,7 @@ TEST(Lander, RisesAtTheTerminalSpeedWithoutItsWeight) {
   EXPECT_LT(relative_error(-s.velocity_body[2], terminal_speed(net)), tolerance(1e-6));
 }
 
-// Sinks 60 m, lies on the ground by its net weight, drops the weight at the command, rises, and floats by
+// Sinks 60 m, lies on the seabed by its net weight, drops the weight at the command, rises, and floats by
 // Archimedes.
 TEST(Lander, SinksRestsReleasesAndFloats) {
   const auto model = shipped("lander");

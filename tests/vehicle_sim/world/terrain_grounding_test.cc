@@ -14,7 +14,7 @@
 #include "core/frames.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
-#include "tests/vehicle_sim/world/grounds.h"
+#include "tests/vehicle_sim/world/formula_seabed.h"
 #include "vehicle_sim/dynamics/submergence.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
@@ -51,13 +51,13 @@ std::shared_ptr<const Model> torpedo(double buoyancy_ratio) {
 struct Outcome {
   VehicleState end;
   double deepest_m = -1e9;
-  Vec3 mean_force = Vec3::Zero();  // of the ground over the last second
+  Vec3 mean_force = Vec3::Zero();  // of the seabed over the last second
 };
 
-Outcome run(const TerrainPointer& ground, double buoyancy_ratio, const VehicleState& start,
+Outcome run(const TerrainPointer& seabed, double buoyancy_ratio, const VehicleState& start,
             const ActuatorValues& command, double duration_s, double step_s) {
-  const auto ground_z = [&](double north, double east) { return ground->depth_at(north, east).z_m; };
-  VehicleWorld world(std::make_shared<TerrainSeabed>(ground));
+  const auto seabed_z = [&](double north, double east) { return seabed->depth_at(north, east).z_m; };
+  VehicleWorld world(std::make_shared<TerrainSeabed>(seabed));
   world.add(torpedo(buoyancy_ratio), start);
   world.set_command(0, command);
   Outcome result;
@@ -67,7 +67,7 @@ Outcome run(const TerrainPointer& ground, double buoyancy_ratio, const VehicleSt
     EXPECT_FALSE(world.has_diverged(0));
     if (i % std::lround(0.04 / step_s) == 0)
       result.deepest_m =
-          std::max(result.deepest_m, deepest_in(ground_z, world.state(0), world.model(0).parameters().hull));
+          std::max(result.deepest_m, deepest_in(seabed_z, world.state(0), world.model(0).parameters().hull));
     if (i >= steps - last_second) result.mean_force += world.seabed_force_ned_n(0) / last_second;
   }
   result.end = world.state(0);
@@ -115,9 +115,9 @@ TEST_P(TerrainGrounding, AVehicleRestsOnASlopeOfTenDegrees) {
 TEST_P(TerrainGrounding, AVehicleDroppedAlongOrAcrossASharpRidgeIsNotCutByIt) {
   for (const double angle_deg : {20.0, 45.0}) {
     const double fall = std::tan(to_radians(angle_deg));
-    const auto ground = terrain([=](double x, double) { return 20 + fall * std::abs(x); });
+    const auto seabed = terrain([=](double x, double) { return 20 + fall * std::abs(x); });
     for (const double yaw : {0.0, 0.5, std::numbers::pi / 2}) {
-      const Outcome r = run(ground, 0.95, at({0.02, 0, 19.5}, {0, 0, yaw}), {}, 12, GetParam());
+      const Outcome r = run(seabed, 0.95, at({0.02, 0, 19.5}, {0, 0, yaw}), {}, 12, GetParam());
       EXPECT_LT(r.deepest_m, tolerance(kMaxPenetration)) << angle_deg << " degrees, yaw " << yaw;
     }
   }

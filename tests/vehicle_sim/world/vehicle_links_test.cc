@@ -15,7 +15,7 @@
 #include "core/frames.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
-#include "tests/vehicle_sim/world/grounds.h"
+#include "tests/vehicle_sim/world/formula_seabed.h"
 #include "vehicle_sim/dynamics/body_motion.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
@@ -204,7 +204,7 @@ TEST_P(Meeting, TwoThatMeetDoNotPassThroughEachOther) {
   }
 }
 
-TEST_P(Meeting, AVehicleThatSinksOntoOneOnTheGroundIsHeldByIt) {
+TEST_P(Meeting, AVehicleThatSinksOntoOneOnTheSeabedIsHeldByIt) {
   ModelParameters heavy = programmed_model("torpedo").value();
   heavy.buoyancy_n *= 0.97;
   const auto model = std::make_shared<const Model>(heavy);

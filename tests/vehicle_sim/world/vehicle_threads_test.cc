@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/for_each.h"
-#include "tests/vehicle_sim/world/grounds.h"
+#include "tests/vehicle_sim/world/formula_seabed.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/model_library.h"

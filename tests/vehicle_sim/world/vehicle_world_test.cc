@@ -16,7 +16,7 @@
 #include "core/units.h"
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/dynamics/reference_motion.h"
-#include "tests/vehicle_sim/world/grounds.h"
+#include "tests/vehicle_sim/world/formula_seabed.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
@@ -28,7 +28,7 @@ using halocline::testing::tolerance;
 using testing::at;
 using testing::deepest_in;
 using testing::flat;
-using testing::GroundPointer;
+using testing::SeabedPointer;
 
 constexpr ActuatorValues kFullAhead{0, 0, 1525.0 / 60};
 constexpr double kMaxPenetration = 0.02;  // m, the project's bound
@@ -42,13 +42,13 @@ std::shared_ptr<const Model> remus(double buoyancy_ratio) {
 struct Outcome {
   VehicleState end;
   double deepest_m = -std::numeric_limits<double>::infinity();
-  Vec3 mean_force = Vec3::Zero();  // of the ground over the last second
+  Vec3 mean_force = Vec3::Zero();  // of the seabed over the last second
   double peak_speed = 0;
 };
 
-Outcome run(const GroundPointer& ground, double buoyancy_ratio, const VehicleState& start,
+Outcome run(const SeabedPointer& seabed, double buoyancy_ratio, const VehicleState& start,
             const ActuatorValues& command, double duration_s, double step_s) {
-  VehicleWorld world(ground);
+  VehicleWorld world(seabed);
   world.add(remus(buoyancy_ratio), start);
   world.set_command(0, command);
   Outcome result;
@@ -57,7 +57,7 @@ Outcome run(const GroundPointer& ground, double buoyancy_ratio, const VehicleSta
     world.step(step_s);
     EXPECT_FALSE(world.has_diverged(0));
     if (i % std::lround(0.04 / step_s) == 0) {
-      const double depth = deepest_in(*ground, world.state(0), world.model(0).parameters().hull);
+      const double depth = deepest_in(*seabed, world.state(0), world.model(0).parameters().hull);
       result.deepest_m = std::max(result.deepest_m, depth);
     }
     result.peak_speed = std::max(result.peak_speed, world.state(0).velocity_body.head<3>().norm());
@@ -94,8 +94,8 @@ TEST_P(Grounding, AVerticalDiveIsStopped) {
 }
 
 TEST_P(Grounding, AVehicleRunsUpASlopeOfThirtyDegrees) {
-  const auto ground = testing::ramp(10, 5, to_radians(30));
-  const Outcome r = run(ground, 1, at({0, 0, 9}, {}, 2.5), kFullAhead, 20, GetParam());
+  const auto seabed = testing::ramp(10, 5, to_radians(30));
+  const Outcome r = run(seabed, 1, at({0, 0, 9}, {}, 2.5), kFullAhead, 20, GetParam());
   EXPECT_LT(r.deepest_m, tolerance(kMaxPenetration));
   EXPECT_GT(r.end.position_ned_m.x(), 6);
 }
@@ -103,8 +103,8 @@ TEST_P(Grounding, AVehicleRunsUpASlopeOfThirtyDegrees) {
 TEST_P(Grounding, AVehicleRestsOnASlopeOfTenDegrees) {
   for (const double yaw :
        {0.0, std::numbers::pi / 2}) {  // a hull at another heading pivots on its one contact
-    const auto ground = testing::slope(10, to_radians(10));
-    const Outcome r = run(ground, 0.98, at({0, 0, 9.7}, {0, 0, yaw}), {}, 40, GetParam());
+    const auto seabed = testing::slope(10, to_radians(10));
+    const Outcome r = run(seabed, 0.98, at({0, 0, 9.7}, {0, 0, yaw}), {}, 40, GetParam());
     const double expected = 0.02 * remus(1)->weight_n();
     EXPECT_LT(r.deepest_m, tolerance(kMaxPenetration)) << yaw;
     EXPECT_NEAR(-r.mean_force.z(), expected, tolerance(0.01) * expected) << yaw;
@@ -122,8 +122,8 @@ TEST_P(Grounding, AVehicleDroppedOnASharpRidgeIsNotCutByIt) {
                         {45, 0.4, 0.03},
                         {20, std::numbers::pi / 2, 0.03},
                         {60, std::numbers::pi / 2, 0}}) {
-    const auto ground = testing::ridge(10, to_radians(d.angle_deg));
-    const Outcome r = run(ground, 0.95, at({d.off_m, 0, 9.5}, {0, 0, d.yaw}), {}, 12, GetParam());
+    const auto seabed = testing::ridge(10, to_radians(d.angle_deg));
+    const Outcome r = run(seabed, 0.95, at({d.off_m, 0, 9.5}, {0, 0, d.yaw}), {}, 12, GetParam());
     EXPECT_LT(r.deepest_m, tolerance(kMaxPenetration)) << d.angle_deg << " degrees, yaw " << d.yaw;
   }
 }
@@ -216,13 +216,13 @@ TEST(VehicleWorld, AVehicleWhoseEquationsFailHasDivergedAndTheOthersGoOn) {
   EXPECT_GT(world.state(1).position_ned_m.x(), 0.5);
 }
 
-TEST(VehicleWorld, AVehiclePlacedInTheGroundIsMovedOutSlowly) {
+TEST(VehicleWorld, AVehiclePlacedInTheSeabedIsMovedOutSlowly) {
   const Outcome r = run(flat(10), 0.98, at({0, 0, 10.5}), {}, 30, 0.01);
   EXPECT_LT(r.peak_speed, 0.5);
   EXPECT_LT(deepest_in(*flat(10), r.end, remus(1)->parameters().hull), tolerance(kMaxPenetration));
 }
 
-TEST(VehicleWorld, BeyondTheMapThereIsNoGround) {
+TEST(VehicleWorld, BeyondTheMapThereIsNoSeabed) {
   class Nowhere : public Seabed {
     std::optional<SeabedPlane> plane_at(double, double) const override { return {}; }
   };

@@ -31,7 +31,7 @@ using testing::receipt;
 using testing::send;
 using testing::state;
 
-constexpr std::size_t kLargestPage = 3'000'000;  // bytes, of any mission
+constexpr std::size_t kLargestPage = 3'000'000;  // bytes, of any run
 
 // For the test's time there is no gnuplot.
 class WithoutGnuplot {
@@ -93,7 +93,7 @@ TEST(ReportPage, EveryColourOfGnuplotIsOneOfThePage) {
   const std::string page = report_page({"run.lcm", store});
   EXPECT_EQ(count(page, "01fe") + count(page, "01FE"), 0u);
   EXPECT_EQ(count(page, "rgb(  1, 254"), 0u);
-  EXPECT_THAT(page, HasSubstr("var(--ground)"));
+  EXPECT_THAT(page, HasSubstr("var(--seabed)"));
   EXPECT_THAT(page, HasSubstr("data:image/png"));
 }
 
@@ -229,7 +229,7 @@ TEST(ReportPage, CommandedDepthAndSeabedStandBesideTheDepth) {
   const std::string depth = page.substr(from, page.find("</section>", from) - from);
   const std::string strip = depth.substr(0, depth.find("</svg>"));
   EXPECT_THAT(strip,
-              AllOf(HasSubstr("var(--v-0)"), HasSubstr("var(--ground)"), HasSubstr("stroke-dasharray"),
+              AllOf(HasSubstr("var(--v-0)"), HasSubstr("var(--seabed)"), HasSubstr("stroke-dasharray"),
                     HasSubstr("var(--ink)"), HasSubstr("30 to 30 m deep"), HasSubstr("seabed 140 to 142 m")));
   EXPECT_THAT(depth, AllOf(HasSubstr("depth of the vehicle"), HasSubstr("commanded depth"),
                            HasSubstr("seabed below the vehicle")));

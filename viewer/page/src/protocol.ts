@@ -76,8 +76,8 @@ export interface Profile {
   sound_speed_mps: number[];
 }
 
-export interface Mission {
-  type: "mission";
+export interface Run {
+  type: "run";
   name: string;
   description: string;
   seed: number | null;
@@ -298,7 +298,7 @@ export interface Asks {
 
 export type ServerText =
   | Hello
-  | Mission
+  | Run
   | ServerState
   | { type: "packets"; items: Packet[] }
   | ({ type: "reply"; id: number; ok: boolean; error?: string } & Record<string, unknown>);
@@ -326,7 +326,7 @@ export interface TerrainTile {
   spacing_m: number;
   rows: number;
   columns: number;
-  /** Row by row from the south, each from the west; NaN is no ground known. */
+  /** Row by row from the south, each from the west; NaN where the seabed is unknown. */
   depth_m: Float32Array;
 }
 

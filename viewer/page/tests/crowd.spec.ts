@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // 100 vehicles at 10 Hz with packets under way: 30 frames a second, or the page says what it leaves out. The server is made up.
 import { chart, expect, test } from "./fixtures";
-import { COLLIDED, RECEIVED, hello, mission, state, vehicle } from "./made_up";
+import { COLLIDED, RECEIVED, hello, run, state, vehicle } from "./made_up";
 
 const VEHICLES = 100;
 const POSTS = 97;
@@ -74,7 +74,7 @@ test("100 vehicles at 10 Hz hold 30 frames a second, or the page says what it sh
     });
     json({ ...hello, name: "crowd" });
     json({
-      ...mission,
+      ...run,
       name: "crowd",
       vehicles,
       terrain: {

@@ -28,7 +28,7 @@ test("shows the vehicles of a run as they move", async ({ page }) => {
   await expect(vehicles(page)).toHaveCount(5);
   await expect(chart(page)).toHaveAttribute("data-vehicles", "5");
   await expect(condition(page)).toBeHidden();
-  await expect(chart(page)).toHaveAttribute("data-ground", /^[1-9]\d\d/);
+  await expect(chart(page)).toHaveAttribute("data-seabed", /^[1-9]\d\d/);
   const [before, begin_s] = [await vehicle(page, "scout-1").textContent(), await seconds(page)];
   await expect.poll(() => vehicle(page, "scout-1").textContent()).not.toBe(before);
   await expect.poll(() => seconds(page)).toBeGreaterThan(begin_s + 2);
@@ -63,7 +63,7 @@ test("says that the bathymetry service ended, and recovers with it", async ({ pa
   await programs.kill(bathymetry);
   await expect(condition(page)).toContainText("The bathymetry service does not answer");
   await show(page, "Chart");
-  await expect(chart(page)).toHaveAttribute("data-ground", /^[1-9]\d\d/); // what was received stays
+  await expect(chart(page)).toHaveAttribute("data-seabed", /^[1-9]\d\d/); // what was received stays
   // A channel server that begins now knows no seabed, neither does a monitor.
   await programs.kill(channel_server);
   channel_server = node("channel-server");
@@ -74,11 +74,11 @@ test("says that the bathymetry service ended, and recovers with it", async ({ pa
   await later.goto(await programs.monitor());
   await expect(condition(later)).toContainText("The bathymetry service does not answer");
   await expect(chart(later)).toContainText("No seabed is drawn: the bathymetry service does not answer");
-  await expect(chart(later)).toHaveAttribute("data-ground", "0");
+  await expect(chart(later)).toHaveAttribute("data-seabed", "0");
 
   bathymetry = node("bathymetry");
   await expect(condition(later)).toBeHidden();
-  await expect(chart(later)).toHaveAttribute("data-ground", /^[1-9]\d\d/);
+  await expect(chart(later)).toHaveAttribute("data-seabed", /^[1-9]\d\d/);
   await expect(chart(later)).not.toContainText("No seabed is drawn");
   await expect(condition(page)).toBeHidden();
   await expect.poll(() => rays(page).count()).toBeGreaterThan(3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A server that is made up: its messages as the page gets them when all is well. Tests change what they are about.
-import type { Hello, Mission, OutcomeKind, ServerState, VehicleInfo } from "../src/protocol";
+import type { Hello, OutcomeKind, Run, ServerState, VehicleInfo } from "../src/protocol";
 
 export const RECEIVED: OutcomeKind = {
   code: 0,
@@ -44,8 +44,8 @@ export const vehicle = (index: number): VehicleInfo => ({
   plan: null,
 });
 
-export const mission: Mission = {
-  type: "mission",
+export const run: Run = {
+  type: "run",
   name: "",
   description: "",
   seed: null,

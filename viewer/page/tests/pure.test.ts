@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 import { describe, expect, it } from "vitest";
 import { squareAround } from "../src/chart/framing";
-import { depthAt, depthRange, exaggeration } from "../src/chart/ground";
+import { depthAt, depthRange, exaggeration } from "../src/chart/seabed";
 import { bearing, clock, csv, distance, number, roundStep } from "../src/parts/format";
 import { aroundMean, axis, centred, colourOf, digitsOf, inkOn, shareOf, ticks, timeTicks } from "../src/parts/scales";
 import { STEPS, Shedding } from "../src/parts/shedding";
@@ -41,7 +41,7 @@ describe("binary messages", () => {
     expect([...frame.values]).toEqual([100, -200, 30, 1, 0.5, -0.25, 2, NaN]);
   });
 
-  it("hold terrain row by row from the south-west, NaN without ground", () => {
+  it("hold terrain row by row from the south-west, NaN without a seabed", () => {
     const view = new DataView(new ArrayBuffer(20 + 4 * 6));
     view.setUint8(0, 2);
     view.setUint8(1, 1);
@@ -222,7 +222,7 @@ describe("packets", () => {
   });
 });
 
-describe("the ground", () => {
+describe("the seabed", () => {
   const tile: TerrainTile = {
     kind: "terrain",
     id: 0,

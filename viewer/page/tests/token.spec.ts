@@ -48,5 +48,5 @@ test.describe("without the token", () => {
 test("the URL with the token opens the page", async ({ page }) => {
   await page.goto(url.href);
   await expect(vehicles(page)).toHaveCount(5);
-  await expect(chart(page)).toHaveAttribute("data-ground", /^[1-9]\d\d/);
+  await expect(chart(page)).toHaveAttribute("data-seabed", /^[1-9]\d\d/);
 });

@@ -26,7 +26,7 @@ MicromodemCore::MicromodemCore(ProtocolContext& context, std::function<void()> o
       delivered_address_(own_address()),
       on_stored_(std::move(on_stored)),
       clock_(context.options.take_flag("pps", false)) {
-  DoorOptions& options = context.options;
+  InterfaceOptions& options = context.options;
   revision_ = options.take("revision", "2.0.31000");
   std::vector<std::int64_t> parts;
   for (const std::string_view part : fields_of(revision_, '.'))

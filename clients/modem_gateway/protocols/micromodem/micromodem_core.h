@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "clients/modem_gateway/protocols/address_book.h"
-#include "clients/modem_gateway/protocols/door_options.h"
+#include "clients/modem_gateway/protocols/interface_options.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_receptions.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_reports.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_settings.h"

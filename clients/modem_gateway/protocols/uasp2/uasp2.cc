@@ -31,7 +31,7 @@
 
 #include "bus/messages/message_codec.h"
 #include "bus/version.h"
-#include "clients/modem_gateway/protocols/door_options.h"
+#include "clients/modem_gateway/protocols/interface_options.h"
 #include "clients/modem_gateway/protocols/line_reader.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
@@ -132,7 +132,7 @@ class Uasp2 : public Protocol {
     json text;
   };
 
-  static int rate_option(DoorOptions& options, const std::string& name) {
+  static int rate_option(InterfaceOptions& options, const std::string& name) {
     const double rate = options.take_number(name, 96'000, kRates.front(), kRates.back());
     const auto found = std::find(kRates.begin(), kRates.end(), rate);
     require(found != kRates.end(), "option " + name + " is no rate; allowed are 24000, 48000, 96000, 192000");

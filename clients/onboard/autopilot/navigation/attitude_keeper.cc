@@ -30,7 +30,7 @@ void AttitudeKeeper::add(const AttitudeReading& reading) {
     attitude_ = *reading.attitude;
     heading_deviation_rad_ = 0;
   } else if (last_s_) {
-    carry_on(reading);
+    integrate_gyro(reading);
   }
   if (reading.rates_radps) {
     rates_radps_ = *reading.rates_radps;
@@ -40,7 +40,7 @@ void AttitudeKeeper::add(const AttitudeReading& reading) {
 }
 
 // Integrates the mean of the latest two rates over the interval: q <- q exp(dt omega / 2).
-void AttitudeKeeper::carry_on(const AttitudeReading& reading) {
+void AttitudeKeeper::integrate_gyro(const AttitudeReading& reading) {
   const double dt_s = reading.time_s - *last_s_;
   if (!reading.rates_radps && (!rates_s_ || reading.time_s - *rates_s_ > kRatesHold_s)) {
     heading_deviation_rad_ = kUnknown;

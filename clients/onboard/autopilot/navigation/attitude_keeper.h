@@ -44,7 +44,7 @@ class AttitudeKeeper {
   void archive(Archive& a) { a(attitude_, heading_deviation_rad_, last_s_, rates_s_, rates_radps_); }
 
  private:
-  void carry_on(const AttitudeReading& reading);
+  void integrate_gyro(const AttitudeReading& reading);
 
   double gyro_bias_radps_;
   EulerAngles attitude_;

@@ -19,7 +19,7 @@ Vec3 velocity_of(const NavigationSample& sample) {
 
 Navigator::Navigator(const Vec3& start_ned_m, NavigatorRules rules)
     : rules_(rules), position_ned_m_(start_ned_m), deviation_m_(rules.start_deviation_m) {
-  require(rules.log_drift_mps >= 0 && rules.ground_drift >= 0 && rules.start_deviation_m >= 0,
+  require(rules.log_drift_mps >= 0 && rules.dvl_drift >= 0 && rules.start_deviation_m >= 0,
           "drifts and the deviation at the start are 0 or above");
 }
 
@@ -30,7 +30,7 @@ void Navigator::add(const NavigationSample& sample) {
     const double dt_s = sample.time_s - last_->time_s;
     const Vec3 step = 0.5 * dt_s * (velocity_ned_mps_ + velocity);
     position_ned_m_ += step;
-    deviation_m_ += sample.ground_velocity_body_mps ? rules_.ground_drift * step.head<2>().norm()
+    deviation_m_ += sample.ground_velocity_body_mps ? rules_.dvl_drift * step.head<2>().norm()
                                                     : rules_.log_drift_mps * dt_s;
     deviation_m_ += std::min(sample.heading_deviation_rad, 1.0) * step.head<2>().norm();
   }

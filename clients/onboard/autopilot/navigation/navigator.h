@@ -9,7 +9,7 @@
 // dt and length ds by
 //
 //   log_drift_mps dt     with the speed through the water (unknown current)
-//   ground_drift ds      with the velocity over ground (scale error of the Doppler log, compass error)
+//   dvl_drift ds         with the velocity over ground (scale error of the Doppler log, compass error)
 //   min(heading_deviation, 1) ds    in addition, while the gyro replaces the compass (attitude_keeper.h)
 //
 // These are systematic errors, so deviations add up, not variances. A fix of variance R moves the position by
@@ -32,7 +32,7 @@ namespace halocline::clients {
 
 struct NavigatorRules {
   double log_drift_mps = 0.1;    // metres per second by unknown currents, 0 or above
-  double ground_drift = 0.01;    // metres per metre travelled over ground, 0 or above
+  double dvl_drift = 0.01;       // metres per metre travelled over ground, 0 or above
   double start_deviation_m = 1;  // deviation of the starting position, 0 or above
   // Maximum bias of the gyro that replaces the compass: 36 degrees per hour; 0 or above.
   double gyro_bias_radps = 1.7453292519943296e-4;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The JavaScript gateway of fjage against two UnetStack doors of a running simulation: ports in HALOCLINE_DOORS ("1101 1102"), the vehicles
-// HALOCLINE_RANGE_M apart in water of 1500 m/s. scripts/door_test runs it.
+// The JavaScript gateway of fjage against two emulated UnetStack modems of a running simulation: ports in HALOCLINE_INTERFACES
+// ("1101 1102"), the vehicles HALOCLINE_RANGE_M apart in water of 1500 m/s. scripts/modem_interface_test runs it.
 import assert from 'node:assert/strict';
 import { webcrypto } from 'node:crypto';
 import { after, before, test } from 'node:test';
@@ -9,7 +9,7 @@ import { Gateway, MessageClass, Performative } from 'fjage';
 
 globalThis.crypto ??= webcrypto; // fjage needs it, and Node.js before 20 (Debian 12 has 18) does not set it
 
-const ports = process.env.HALOCLINE_DOORS.split(' ').map(Number);
+const ports = process.env.HALOCLINE_INTERFACES.split(' ').map(Number);
 const range_m = Number(process.env.HALOCLINE_RANGE_M);
 const DatagramReq = MessageClass('org.arl.unet.DatagramReq');
 const TxFrameReq = MessageClass('org.arl.unet.phy.TxFrameReq');

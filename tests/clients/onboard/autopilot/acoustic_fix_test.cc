@@ -57,7 +57,7 @@ TEST(AcousticFix, ABeaconStraightBelowGivesNoPlace) {
 
 // North at 2 m/s, a sample each second for 20 s.
 Navigator northwards() {
-  Navigator navigator(Vec3::Zero(), {.log_drift_mps = 0.1, .ground_drift = 0, .start_deviation_m = 10});
+  Navigator navigator(Vec3::Zero(), {.log_drift_mps = 0.1, .dvl_drift = 0, .start_deviation_m = 10});
   for (int i = 0; i <= 20; ++i) navigator.add({1.0 * i, {0, 0, i % 2 == 0 ? pi : -pi}, 5, -2});
   return navigator;
 }

@@ -64,7 +64,7 @@ TEST_F(AutopilotNodeTest, ThePlanComesAgainAtItsEndAndEachMinute) {
 
 TEST_F(AutopilotNodeTest, TheSeabedIsNamedWhereItRulesTheDepth) {
   publish_state(0);
-  publish_sensors(0, 1.5, 10);  // the plan is 20 m deep, the ground 10 m
+  publish_sensors(0, 1.5, 10);  // the plan is 20 m deep, the seabed 10 m
   step(0);
   ASSERT_EQ(reports_.size(), 1u);
   EXPECT_EQ(reports_[0].depth_rule, autopilot_status_t::DEPTH_AVOIDING_SEABED);

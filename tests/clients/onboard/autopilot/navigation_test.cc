@@ -58,7 +58,7 @@ Fleet torpedo() {
   return Fleet(settings, {{"auv", model, start}}, nullptr, SimTime());
 }
 
-// Even ground at 90 m.
+// Even seabed at 90 m.
 void answer(SensorTick& tick) {
   for (std::size_t i = 0; i < tick.beams.size(); ++i) {
     const auto& beam = tick.beams[i];

@@ -21,7 +21,7 @@ const double kNavigatorRounding = tolerance(1e-9);  // of some thousand sums
 
 // Straight and level at 2 m/s towards `heading` for `seconds`.
 Navigator after(double seconds, double heading, std::optional<Vec3> over_ground = {}) {
-  Navigator navigator({10, 20, 0}, {.log_drift_mps = 0.1, .ground_drift = 0.01, .start_deviation_m = 1});
+  Navigator navigator({10, 20, 0}, {.log_drift_mps = 0.1, .dvl_drift = 0.01, .start_deviation_m = 1});
   const int steps = static_cast<int>(std::lround(seconds / 0.2));
   for (int i = 0; i <= steps; ++i) navigator.add({0.2 * i, {0, 0, heading}, 30, 2, over_ground});
   return navigator;

@@ -14,7 +14,7 @@ using ::halocline::testing::tolerance;
 
 const double kSeabedAheadRounding = tolerance(1e-9);
 
-// A vehicle goes north at z over ground of z = depth + slope * north, and looks every 0.4 m.
+// A vehicle goes north at z over a seabed of z = depth + slope * north, and looks every 0.4 m.
 SeabedAhead over_slope(double z, double depth, double slope, double pitch, double until_m) {
   SeabedAhead seabed;
   for (int i = 0; i * 0.4 <= until_m; ++i) {
@@ -28,72 +28,72 @@ SeabedAhead over_slope(double z, double depth, double slope, double pitch, doubl
 
 TEST(SeabedAhead, PlaneIsSeenAsItIsAtAnyPitch) {
   for (const double pitch : {-0.3, 0.0, 0.3}) {
-    const auto ground = over_slope(10, 20, 0.1, pitch, 40).ground(20);
-    ASSERT_TRUE(ground);
-    EXPECT_NEAR(ground->slope, 0.1, kSeabedAheadRounding) << pitch;
-    EXPECT_NEAR(ground->z_ned_m, 20 + 0.1 * 40, kSeabedAheadRounding) << pitch;
+    const auto line = over_slope(10, 20, 0.1, pitch, 40).line(20);
+    ASSERT_TRUE(line);
+    EXPECT_NEAR(line->slope, 0.1, kSeabedAheadRounding) << pitch;
+    EXPECT_NEAR(line->z_ned_m, 20 + 0.1 * 40, kSeabedAheadRounding) << pitch;
   }
 }
 
-TEST(SeabedAhead, RollDoesNotDeepenTheGround) {
+TEST(SeabedAhead, RollDoesNotDeepenTheSeabed) {
   SeabedAhead seabed;
   seabed.add({0, {0, 0, 10}, {0.5, 0, 0}, true, 10 / std::cos(0.5)});
-  EXPECT_NEAR(seabed.ground(0)->z_ned_m, 20, kSeabedAheadRounding);
+  EXPECT_NEAR(seabed.line(0)->z_ned_m, 20, kSeabedAheadRounding);
 }
 
 TEST(SeabedAhead, StandingStillDeterminesNoSlope) {
   SeabedAhead seabed;
   for (int i = 0; i < 50; ++i) seabed.add({0.2 * i, {0, 0, 10}, {}, true, 10 + 0.01 * (i % 2)});
-  EXPECT_EQ(seabed.ground(10)->slope, 0);
+  EXPECT_EQ(seabed.line(10)->slope, 0);
 }
 
-TEST(SeabedAhead, OldEchoesAreNoGround) {
+TEST(SeabedAhead, OldEchoesAreNoSeabed) {
   SeabedAhead seabed;
   seabed.add({0, {0, 0, 10}, {}, true, 10});
-  EXPECT_TRUE(seabed.ground(SeabedAhead::kOldestS));
-  EXPECT_FALSE(seabed.ground(SeabedAhead::kOldestS + 0.1));
+  EXPECT_TRUE(seabed.line(SeabedAhead::kOldestS));
+  EXPECT_FALSE(seabed.line(SeabedAhead::kOldestS + 0.1));
 }
 
-TEST(AboveGround, KeepsTheHeightAlongASlopeThatFallsAway) {
+TEST(AboveSeabed, KeepsTheHeightAlongASlopeThatFallsAway) {
   const SetPoints points =
-      above_ground({3, 4}, over_slope(10, 20, 0.1, 0, 40), 20, 10, {.altitude_m = 5, .max_z_ned_m = 1e3});
+      above_seabed({3, 4}, over_slope(10, 20, 0.1, 0, 40), 20, 10, {.altitude_m = 5, .max_z_ned_m = 1e3});
   EXPECT_NEAR(points.z_ned_m, 20 + 4 - 5, kSeabedAheadRounding);
   EXPECT_NEAR(points.climb_rad, -std::atan(0.1), kSeabedAheadRounding);
 }
 
-TEST(AboveGround, ClimbsBeforeGroundThatRises) {
+TEST(AboveSeabed, ClimbsBeforeASeabedThatRises) {
   const SetPoints points =
-      above_ground({3, 4}, over_slope(0, 20, -0.2, 0, 40), 20, 0, {.altitude_m = 5, .max_z_ned_m = 1e3});
-  EXPECT_NEAR(points.z_ned_m, 20 - 0.2 * 44 - 5, kSeabedAheadRounding);  // that of the ground 4 m ahead
+      above_seabed({3, 4}, over_slope(0, 20, -0.2, 0, 40), 20, 0, {.altitude_m = 5, .max_z_ned_m = 1e3});
+  EXPECT_NEAR(points.z_ned_m, 20 - 0.2 * 44 - 5, kSeabedAheadRounding);  // that of the seabed 4 m ahead
   EXPECT_NEAR(points.climb_rad, std::atan(0.2), kSeabedAheadRounding);
 }
 
-TEST(AboveGround, DepthIsLeftAloneHighAboveTheGround) {
-  const SetPoints points = above_ground({3, 4}, over_slope(10, 50, 0.1, 0, 40), 20, 10, {.z_ned_m = 25});
+TEST(AboveSeabed, DepthIsLeftAloneHighAboveTheSeabed) {
+  const SetPoints points = above_seabed({3, 4}, over_slope(10, 50, 0.1, 0, 40), 20, 10, {.z_ned_m = 25});
   EXPECT_EQ(points.z_ned_m, 25);
   EXPECT_EQ(points.climb_rad, 0);
 }
 
-TEST(AboveGround, DepthBelowTheLeastHeightIsCut) {
-  EXPECT_NEAR(above_ground({3, 4}, over_slope(10, 20, 0, 0, 40), 20, 10, {.z_ned_m = 25}).z_ned_m, 17,
+TEST(AboveSeabed, DepthBelowTheLeastHeightIsCut) {
+  EXPECT_NEAR(above_seabed({3, 4}, over_slope(10, 20, 0, 0, 40), 20, 10, {.z_ned_m = 25}).z_ned_m, 17,
               kSeabedAheadRounding);
 }
 
-TEST(AboveGround, BelowTheLeastHeightTheVehicleIsPulledUp) {
-  const SetPoints points = above_ground({3, 4}, over_slope(18, 20, 0, 0, 40), 20, 18, {.z_ned_m = 25});
+TEST(AboveSeabed, BelowTheLeastHeightTheVehicleIsPulledUp) {
+  const SetPoints points = above_seabed({3, 4}, over_slope(18, 20, 0, 0, 40), 20, 18, {.z_ned_m = 25});
   EXPECT_NEAR(points.z_ned_m, 17, kSeabedAheadRounding);
   EXPECT_GT(points.climb_rad, 0.2);
 }
 
-TEST(AboveGround, GoesDownWhereNoBottomIsSeenButNotForEver) {
+TEST(AboveSeabed, GoesDownWhereNoBottomIsSeenButNotForEver) {
   SeabedAhead seabed;
   seabed.add({0, {0, 0, 10}, {}, false, 0});
-  EXPECT_GT(above_ground({3, 4}, seabed, 0, 10, {.altitude_m = 5, .max_z_ned_m = 1e3}).z_ned_m, 10);
-  EXPECT_EQ(above_ground({3, 4}, seabed, 0, 10, {.altitude_m = 5, .max_z_ned_m = 11}).z_ned_m, 11);
+  EXPECT_GT(above_seabed({3, 4}, seabed, 0, 10, {.altitude_m = 5, .max_z_ned_m = 1e3}).z_ned_m, 10);
+  EXPECT_EQ(above_seabed({3, 4}, seabed, 0, 10, {.altitude_m = 5, .max_z_ned_m = 11}).z_ned_m, 11);
 }
 
-TEST(AboveGround, WithoutAnAltimeterTheHeightIsNotGuessed) {
-  EXPECT_EQ(above_ground({3, 4}, {}, 0, 10, {.altitude_m = 5, .max_z_ned_m = 1e3}).z_ned_m, 10);
+TEST(AboveSeabed, WithoutAnAltimeterTheHeightIsNotGuessed) {
+  EXPECT_EQ(above_seabed({3, 4}, {}, 0, 10, {.altitude_m = 5, .max_z_ned_m = 1e3}).z_ned_m, 10);
 }
 
 }  // namespace

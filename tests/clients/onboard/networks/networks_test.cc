@@ -141,7 +141,7 @@ TEST(Maca, APacketTakesThreeOfModemsAndTheirTravelTimes) {
                            .packets = 20});
   ASSERT_GT(one.delivered, 10);
   EXPECT_EQ(one.delivered * 3, one.sent);
-  // A byte lasts 8 ms; request, leave and the data's first byte have one each. Sound travels 0.5 s, three
+  // A byte lasts 8 ms; RTS, CTS and the data's first byte have one each. Sound travels 0.5 s, three
   // times.
   EXPECT_NEAR(*std::min_element(one.delays_s.begin(), one.delays_s.end()), 10 + 3 * 0.008 + 3 * 0.5, 1e-5);
 }

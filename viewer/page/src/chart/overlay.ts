@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Everything on the chart but the ground: wavefronts, trails, vehicles (motion.ts), links, plans, receptions with their outcomes, names,
+// Everything on the chart but the seabed: wavefronts, trails, vehicles (motion.ts), links, plans, receptions with their outcomes, names,
 // contour labels, scale bar, north. What is drawn can be pointed at: `things` holds where each lies.
 import { distance, number, roundStep } from "../parts/format";
 import { drawMark } from "../parts/marks";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The chart in 3-D: camera, seabed and contours. These are drawn again only when the camera or the ground changed; whatever moves is
-// drawn by overlay.ts above them. So a computer without a graphics processor keeps up as well. Drawing space as in ground.ts.
+// The chart in 3-D: camera, seabed and contours. These are drawn again only when the camera or the seabed changed; whatever moves is
+// drawn by overlay.ts above them. So a computer without a graphics processor keeps up as well. Drawing space as in seabed.ts.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -17,9 +17,9 @@ import {
 } from "three";
 import { MapControls } from "three/examples/jsm/controls/MapControls.js";
 import type { TerrainTile } from "../protocol";
-import { type Contours, type DepthRange, contourLines, depthRange, exaggeration, groundGeometry, groundPicture } from "./ground";
+import { type Contours, type DepthRange, contourLines, depthRange, exaggeration, seabedGeometry, seabedPicture } from "./seabed";
 
-/** Camera and what it looks at. */
+/** Camera and its target. */
 export interface View3d {
   position: Vector3;
   target: Vector3;
@@ -53,7 +53,7 @@ export class ChartScene {
   readonly software: boolean;
   private renderer: WebGLRenderer;
   private scene = new Scene();
-  private ground: Mesh<BufferGeometry, MeshBasicMaterial> | null = null;
+  private seabed: Mesh<BufferGeometry, MeshBasicMaterial> | null = null;
   private lines: LineSegments<BufferGeometry, LineBasicMaterial> | null = null;
   private range: DepthRange | null = null;
   private width = 1;
@@ -93,13 +93,13 @@ export class ChartScene {
     this.changed = true;
   }
 
-  setGround(tile: TerrainTile | null, dark: boolean) {
+  setSeabed(tile: TerrainTile | null, dark: boolean) {
     this.changed = true;
-    if (this.ground) {
-      this.scene.remove(this.ground);
-      this.ground.geometry.dispose();
-      this.ground.material.map?.dispose();
-      this.ground = null;
+    if (this.seabed) {
+      this.scene.remove(this.seabed);
+      this.seabed.geometry.dispose();
+      this.seabed.material.map?.dispose();
+      this.seabed = null;
     }
     if (this.lines) {
       this.scene.remove(this.lines);
@@ -113,15 +113,15 @@ export class ChartScene {
     this.extent_m = Math.max(tile.rows - 1, tile.columns - 1) * tile.spacing_m;
     this.stretch = exaggeration(this.extent_m, this.range.high);
     const material = new MeshBasicMaterial({
-      map: groundPicture(tile, this.range, this.stretch, dark),
+      map: seabedPicture(tile, this.range, this.stretch, dark),
       side: DoubleSide,
       polygonOffset: true,
       polygonOffsetFactor: 2,
       polygonOffsetUnits: 4,
     });
     if (material.map && !this.software) material.map.anisotropy = 8;
-    this.ground = new Mesh(groundGeometry(tile, this.stretch), material);
-    this.scene.add(this.ground);
+    this.seabed = new Mesh(seabedGeometry(tile, this.stretch), material);
+    this.scene.add(this.seabed);
     this.contours = contourLines(tile, this.range);
     const { segments } = this.contours;
     const vertices = new Float32Array(segments.length);
@@ -144,12 +144,12 @@ export class ChartScene {
     const fov = (this.camera.fov * Math.PI) / 360;
     const narrow = Math.min(1.25, this.camera.aspect);
     const away = (1.06 * half_m) / Math.tan(fov) / narrow;
-    const ground = this.range ? -0.5 * (this.range.low + this.range.high) * this.stretch : 0;
-    this.controls.target.set(east_m, ground, -north_m + 0.13 * half_m);
+    const seabed = this.range ? -0.5 * (this.range.low + this.range.high) * this.stretch : 0;
+    this.controls.target.set(east_m, seabed, -north_m + 0.13 * half_m);
     const flat = away * Math.sin(polar);
     this.camera.position.set(
       east_m + flat * Math.sin(azimuth),
-      ground + away * Math.cos(polar),
+      seabed + away * Math.cos(polar),
       this.controls.target.z + flat * Math.cos(azimuth),
     );
     this.controls.minDistance = half_m / 40;
@@ -212,8 +212,8 @@ export class ChartScene {
     return this.onScreen(this.clip(north_m, east_m, down_m));
   }
 
-  /** Where the line of sight through a pixel meets the ground, or the depth given where no ground is; null above the horizon. */
-  groundUnder(
+  /** Where the line of sight through a pixel meets the seabed, or the depth given where no seabed is; null above the horizon. */
+  seabedUnder(
     px: number,
     py: number,
     depthAt: (north: number, east: number) => number,

@@ -13,7 +13,7 @@ export interface Address {
   /** Vehicles by name. */
   vehicle: string | null;
   packet: string | null;
-  /** The receiver at which the packet is looked at. */
+  /** The receiver whose reception of the packet is shown. */
   at: string | null;
   link: [string, string] | null;
   column: string | null;

@@ -6,10 +6,10 @@ import {
   type Hello,
   type LinkColumn,
   type LinkTable,
-  type Mission,
   type OutcomeKind,
   type Packet,
   PROTOCOL_VERSION,
+  type Run,
   type ServerBinary,
   type ServerState,
   type ServerText,
@@ -46,7 +46,7 @@ export class Monitor {
   /** Wall time of the next attempt to connect, milliseconds. */
   retry_at = $state(0);
   hello = $state.raw<Hello | null>(null);
-  mission = $state.raw<Mission | null>(null);
+  run = $state.raw<Run | null>(null);
   state = $state.raw<ServerState | null>(null);
   terrain = $state.raw<TerrainTile | null>(null);
   terrain_problem = $state<string | null>(null);
@@ -67,7 +67,7 @@ export class Monitor {
   readonly instant = new Instant();
   shown_s = 0;
 
-  // --- what is looked at
+  // --- what is shown
   view = $state<View>("chart");
   vehicle = $state<number | null>(null);
   packet = $state<string | null>(null);
@@ -95,9 +95,9 @@ export class Monitor {
   private written = "";
   private prefersDark = matchMedia("(prefers-color-scheme: dark)");
 
-  vehicles = $derived<VehicleInfo[]>(this.mission?.vehicles ?? []);
+  vehicles = $derived<VehicleInfo[]>(this.run?.vehicles ?? []);
   outcome_kinds = $derived(new Map((this.hello?.outcomes ?? []).map((kind) => [kind.code, kind])));
-  threshold_db = $derived(this.mission?.threshold_db ?? null);
+  threshold_db = $derived(this.run?.threshold_db ?? null);
   columns = $derived<LinkColumn[]>((this.hello?.link_columns ?? []).map((column) => centred(column, this.threshold_db)));
   link_column = $derived<LinkColumn | undefined>(this.columns.find(({ key }) => key === this.column) ?? this.columns[0]);
   table = $derived<LinkTable | undefined>(this.link_column && this.links.get(this.link_column.key));
@@ -271,16 +271,16 @@ export class Monitor {
         document.title = `${message.name.split("?")[0].split("/").pop()} · Halocline`;
         this.watch();
         return;
-      case "mission":
-        if (message.terrain && message.terrain.revision !== this.mission?.terrain?.revision) this.fetchTerrain();
+      case "run":
+        if (message.terrain && message.terrain.revision !== this.run?.terrain?.revision) this.fetchTerrain();
         if (!message.terrain) this.terrain = null;
-        this.mission = message;
+        this.run = message;
         this.goToWanted();
         return;
       case "state": {
         const back = message.bathymetry && this.state?.bathymetry === false;
         this.state = message;
-        if (this.mission?.terrain && (back || (!this.terrain && message.bathymetry))) this.fetchTerrain();
+        if (this.run?.terrain && (back || (!this.terrain && message.bathymetry))) this.fetchTerrain();
         return;
       }
       case "packets":
@@ -354,7 +354,7 @@ export class Monitor {
   // --- the URL
 
   private goToWanted() {
-    if (!this.place_pending || !this.mission) return;
+    if (!this.place_pending || !this.run) return;
     const index = (name: string | null) => {
       const at = this.vehicles.findIndex((vehicle) => vehicle.name === name);
       return at < 0 ? null : at;

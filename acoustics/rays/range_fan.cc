@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/bearings/range_fan.h"
+#include "acoustics/rays/range_fan.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Options of a modem interface, "name=value name=value", which its protocol reads one by one:
 //
-//   DoorOptions options("revision=0.94.0.00");
+//   InterfaceOptions options("revision=0.94.0.00");
 //   const std::string revision = options.take("revision", "2.0.31000");
 //   options.require_all_taken();
 #pragma once
@@ -12,11 +12,11 @@
 
 namespace halocline::modem_gateway {
 
-class DoorOptions {
+class InterfaceOptions {
  public:
-  DoorOptions() = default;
+  InterfaceOptions() = default;
   // Parses the options. Throws InvalidArgument for a malformed text.
-  explicit DoorOptions(std::string_view text);
+  explicit InterfaceOptions(std::string_view text);
 
   // Returns the value of an option and marks it as known; `otherwise` when it is not given.
   std::string take(const std::string& name, std::string_view otherwise);

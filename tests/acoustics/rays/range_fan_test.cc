@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rays of one bearing to receivers at many ranges and depths, against searches of each by itself.
-#include "acoustics/rays/bearings/range_fan.h"
+#include "acoustics/rays/range_fan.h"
 
 #include <algorithm>
 #include <cmath>

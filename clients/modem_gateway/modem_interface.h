@@ -33,7 +33,7 @@
 
 namespace halocline::modem_gateway {
 
-class Door : private ProtocolPort {
+class ModemInterface : private ProtocolPort {
  public:
   // Writes bytes to a host of this modem interface, or to all (by way of Connections).
   using Writer = std::function<void(ClientId client, std::string_view bytes)>;
@@ -45,9 +45,9 @@ class Door : private ProtocolPort {
 
   // Subscribes on the bus. `clocks` must outlive it, and so must `sound`, which may be null for a kind that
   // needs none. Throws InvalidArgument for an invalid configuration.
-  Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway,
-       const clients::VehicleTime& clocks, AddressBook& addresses, SoundField* sound, Writer writer,
-       DatagramWriter datagram_writer, Disconnect disconnect, Trace trace);
+  ModemInterface(bus::Bus& bus, const ModemInterfaceConfig& config, const GatewayConfig& gateway,
+                 const clients::VehicleTime& clocks, AddressBook& addresses, SoundField* sound, Writer writer,
+                 DatagramWriter datagram_writer, Disconnect disconnect, Trace trace);
 
   const std::string& vehicle() const { return modem_.address().vehicle; }
   std::int32_t vehicle_id() const { return modem_.address().vehicle_id; }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "clients/modem_gateway/protocols/door_options.h"
+#include "clients/modem_gateway/protocols/interface_options.h"
 
 #include "clients/modem_gateway/protocols/fields.h"
 #include "core/check.h"
 
 namespace halocline::modem_gateway {
 
-DoorOptions::DoorOptions(std::string_view text) {
+InterfaceOptions::InterfaceOptions(std::string_view text) {
   for (const std::string_view word : words_of(text)) {
     const auto equals = word.find('=');
     require(equals != std::string_view::npos && equals > 0,
@@ -15,18 +15,19 @@ DoorOptions::DoorOptions(std::string_view text) {
   }
 }
 
-std::string DoorOptions::take(const std::string& name, std::string_view otherwise) {
+std::string InterfaceOptions::take(const std::string& name, std::string_view otherwise) {
   const auto found = given_.find(name);
   return known_[name] = found == given_.end() ? std::string(otherwise) : found->second;
 }
 
-bool DoorOptions::take_flag(const std::string& name, bool otherwise) {
+bool InterfaceOptions::take_flag(const std::string& name, bool otherwise) {
   const std::string value = take(name, otherwise ? "yes" : "no");
   require(value == "yes" || value == "no", "option " + name + " is '" + value + "'; allowed are yes and no");
   return value == "yes";
 }
 
-double DoorOptions::take_number(const std::string& name, double otherwise, double lowest, double highest) {
+double InterfaceOptions::take_number(const std::string& name, double otherwise, double lowest,
+                                     double highest) {
   const std::string text = take(name, "");
   if (text.empty()) return otherwise;
   const auto value = number_in(text, lowest, highest);
@@ -35,13 +36,13 @@ double DoorOptions::take_number(const std::string& name, double otherwise, doubl
   return *value;
 }
 
-void DoorOptions::require_all_taken() const {
+void InterfaceOptions::require_all_taken() const {
   std::string known;
   for (const auto& [name, value] : known_) known += (known.empty() ? "" : ", ") + name;
   for (const auto& [name, value] : given_) {
     require(known_.contains(name),
             "option '" + name + "' is unknown; " +
-                (known.empty() ? "this kind of door has none" : "allowed are " + known));
+                (known.empty() ? "this kind of modem interface has none" : "allowed are " + known));
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Doors of a mission in quiet water without losses, and their hosts, in steps of a twentieth of a second.
+// Modem interfaces of a run in quiet water without losses, and their hosts, in steps of a twentieth of a
+// second.
 #pragma once
 
 #include <cstddef>
@@ -11,27 +12,28 @@
 #include <gmock/gmock.h>
 
 #include "core/sim_time.h"
-#include "tests/clients/modem_gateway/door_mission.h"
 #include "tests/clients/modem_gateway/host.h"
+#include "tests/clients/modem_gateway/interface_run.h"
 
 namespace halocline::modem_gateway::testing {
 
-class DoorDialogue {
+class InterfaceDialogue {
  public:
-  // A host for each vehicle with a door, in their order. `lost`: share of the packets.
-  explicit DoorDialogue(const std::vector<DoorVehicle>& vehicles, double lost = 0) : mission(vehicles, lost) {
+  // A host for each vehicle with a modem interface, in their order. `lost`: share of the packets.
+  explicit InterfaceDialogue(const std::vector<InterfaceVehicle>& vehicles, double lost = 0)
+      : run(vehicles, lost) {
     wait(1);
-    std::size_t doors = 0;
-    for (const DoorVehicle& vehicle : vehicles) doors += vehicle.kind.empty() ? 0 : 1;
-    for (std::size_t i = 0; i < doors; ++i)
-      hosts.push_back(std::make_unique<Host>(mission.gateway().place_of(i)));
+    std::size_t interfaces = 0;
+    for (const InterfaceVehicle& vehicle : vehicles) interfaces += vehicle.kind.empty() ? 0 : 1;
+    for (std::size_t i = 0; i < interfaces; ++i)
+      hosts.push_back(std::make_unique<Host>(run.gateway().place_of(i)));
     heard.resize(hosts.size());
   }
   // `work` is called after each step.
   void wait(double seconds, const std::function<void()>& work = {}) {
     for (int i = 0; i < 20 * seconds; ++i) {
       now_s += 0.05;
-      mission.run_until(SimTime::from_seconds(now_s));
+      run.run_until(SimTime::from_seconds(now_s));
       for (std::size_t k = 0; k < hosts.size(); ++k) heard[k] += hosts[k]->read();
       if (work) work();
     }
@@ -43,7 +45,7 @@ class DoorDialogue {
     wait(seconds);
   }
 
-  DoorMission mission;
+  InterfaceRun run;
   std::vector<std::unique_ptr<Host>> hosts;
   std::vector<std::string> heard;
   double now_s = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "clients/modem_gateway/door.h"
+#include "clients/modem_gateway/modem_interface.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "bus/config/scenario.h"
 #include "bus/messages/channels.h"
 #include "bus/transport/subscription.h"
-#include "clients/modem_gateway/protocols/door_options.h"
+#include "clients/modem_gateway/protocols/interface_options.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "clients/modem_gateway/protocols/sound_field.h"
 #include "core/check.h"
@@ -26,17 +26,18 @@ void keep(std::deque<Message>& kept, const Message& message) {
   if (kept.size() > kMaxUnpaired) kept.pop_front();
 }
 
-clients::ModemAddress address_of(const bus::Bus& bus, const DoorConfig& door) {
+clients::ModemAddress address_of(const bus::Bus& bus, const ModemInterfaceConfig& interface) {
   const auto entropy = static_cast<std::uint64_t>(bus.identity().session);
-  return {door.vehicle, door.vehicle_id,
-          bus::session_of(entropy, door.vehicle + "=" + door.kind + ":" + door.place.text())};
+  return {interface.vehicle, interface.vehicle_id,
+          bus::session_of(entropy, interface.vehicle + "=" + interface.kind + ":" + interface.place.text())};
 }
 
 }  // namespace
 
-Door::Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway,
-           const clients::VehicleTime& clocks, AddressBook& addresses, SoundField* sound, Writer writer,
-           DatagramWriter datagram_writer, Disconnect disconnect, Trace trace)
+ModemInterface::ModemInterface(bus::Bus& bus, const ModemInterfaceConfig& config,
+                               const GatewayConfig& gateway, const clients::VehicleTime& clocks,
+                               AddressBook& addresses, SoundField* sound, Writer writer,
+                               DatagramWriter datagram_writer, Disconnect disconnect, Trace trace)
     : bus_(bus),
       clocks_(clocks),
       writer_(std::move(writer)),
@@ -46,11 +47,11 @@ Door::Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway
       modem_(bus, address_of(bus, config)),
       queue_(modem_),
       vehicles_(gateway.vehicles),
-      client_name_("door-" +
+      client_name_("interface-" +
                    std::to_string(static_cast<std::uint64_t>(modem_.address().session) % 1'000'000'000'000)) {
   make_protocol_ = [this, config, &addresses, sound, latitude_deg = gateway.origin_latitude_deg,
                     longitude_deg = gateway.origin_longitude_deg] {
-    return make_protocol(config.kind, {*this, addresses, config.vehicle_id, DoorOptions(config.options),
+    return make_protocol(config.kind, {*this, addresses, config.vehicle_id, InterfaceOptions(config.options),
                                        vehicles_, latitude_deg, longitude_deg, sound});
   };
   make_modem();
@@ -76,13 +77,13 @@ Door::Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway
       bus::Wakeup::kStoreOnly);
 }
 
-void Door::make_modem() {
+void ModemInterface::make_modem() {
   protocol_ = make_protocol_();
   listens_ = protocol_->listening();
   next_listen_ = listens_ ? SimTime() : SimTime::never();
 }
 
-bool Door::ask_paths(std::int32_t from_vehicle) {
+bool ModemInterface::ask_paths(std::int32_t from_vehicle) {
   const auto from = std::find_if(vehicles_.begin(), vehicles_.end(),
                                  [&](const NamedVehicle& vehicle) { return vehicle.id == from_vehicle; });
   if (from == vehicles_.end()) return false;
@@ -100,22 +101,22 @@ bool Door::ask_paths(std::int32_t from_vehicle) {
   return true;
 }
 
-void Door::sleep_until(SimTime wakes) {
+void ModemInterface::sleep_until(SimTime wakes) {
   if (!listens_) return;
   listens_->wakes = wakes;
   next_listen_ = now_.sim;
 }
 
-void Door::store(const packet_outcome_t& outcome) {
+void ModemInterface::store(const packet_outcome_t& outcome) {
   if (outcome.outcome != packet_outcome_t::RECEIVED) happenings_.emplace_back(outcome);
 }
 
-bus::Due Door::due() const {
+bus::Due ModemInterface::due() const {
   if (!happenings_.empty()) return {.sim = SimTime::at_once()};
   return {.sim = std::min({next_listen_, protocol_->next(), queue_.next()}), .steady = modem_.next_resend()};
 }
 
-void Door::begin_step(const bus::Now& now) {
+void ModemInterface::begin_step(const bus::Now& now) {
   now_ = now;
   if (now.sim_known && now.sim >= next_listen_) {
     listens_->asleep = now.sim < listens_->wakes;
@@ -127,17 +128,17 @@ void Door::begin_step(const bus::Now& now) {
   send_due();
 }
 
-void Door::send_due() {
+void ModemInterface::send_due() {
   if (const auto refusal = queue_.step(now_)) protocol_->on_receipt(*refusal);
 }
 
-void Door::hand_over_receipt(const modem_receipt_t& receipt) {
+void ModemInterface::hand_over_receipt(const modem_receipt_t& receipt) {
   trace('*', "receipt packet=" + std::to_string(receipt.packet_sequence) +
                  " result=" + std::to_string(receipt.receipt_result));
   if (const auto of_protocol = queue_.take(receipt, now_)) protocol_->on_receipt(*of_protocol);
 }
 
-void Door::hand_over(const Happening& happening) {
+void ModemInterface::hand_over(const Happening& happening) {
   if (const auto* receipt = std::get_if<modem_receipt_t>(&happening)) {
     hand_over_receipt(*receipt);
   } else if (const auto* packet = std::get_if<modem_receive_t>(&happening)) {
@@ -162,7 +163,7 @@ void Door::hand_over(const Happening& happening) {
 
 // Matches losses that a MODEM_EVENT reports with those that an OUTCOME reports. They concern one packet when
 // time and cause agree, because a modem receives one packet at a time.
-void Door::pair_losses() {
+void ModemInterface::pair_losses() {
   for (auto event = lost_events_.begin(); event != lost_events_.end();) {
     const auto outcome =
         std::find_if(lost_outcomes_.begin(), lost_outcomes_.end(), [&](const packet_outcome_t& o) {
@@ -181,28 +182,28 @@ void Door::pair_losses() {
   }
 }
 
-void Door::on_opened(ClientId client) {
+void ModemInterface::on_opened(ClientId client) {
   hosts_.insert(client);
   protocol_->on_opened(client);
 }
 
-void Door::on_bytes(ClientId client, std::string_view bytes) {
+void ModemInterface::on_bytes(ClientId client, std::string_view bytes) {
   trace('<', bytes);
   protocol_->on_bytes(client, bytes);
 }
 
-void Door::on_closed(ClientId client) {
+void ModemInterface::on_closed(ClientId client) {
   hosts_.erase(client);
   protocol_->on_closed(client);
 }
 
-void Door::end_step() {
+void ModemInterface::end_step() {
   if (now_.sim_known && now_.sim >= protocol_->next()) protocol_->step();
   modem_.resend(now_.steady);
   send_due();
 }
 
-void Door::restart() {
+void ModemInterface::restart() {
   happenings_.clear();
   lost_events_.clear();
   lost_outcomes_.clear();
@@ -212,26 +213,26 @@ void Door::restart() {
   for (const ClientId host : hosts_) protocol_->on_opened(host);
 }
 
-void Door::archive(Archive& a) {
+void ModemInterface::archive(Archive& a) {
   std::string name = client_name_;  // made of the vehicle, the kind and the place
   a(name);
-  require(name == client_name_, "the journal is of another door than that of " + vehicle());
+  require(name == client_name_, "the journal is of another modem interface than that of " + vehicle());
   a(modem_);
   protocol_->archive(a);
 }
 
-bool Door::take_stored() {
+bool ModemInterface::take_stored() {
   const std::int64_t before = std::exchange(stored_changes_, protocol_->stored_changes());
   return stored_changes_ != before;
 }
 
-void Door::write(ClientId client, std::string_view bytes) {
+void ModemInterface::write(ClientId client, std::string_view bytes) {
   trace('>', bytes);
   writer_(client, bytes);
 }
 
-std::int64_t Door::send(StartRule start, std::int32_t destination, std::span<const std::uint8_t> payload,
-                        clients::SendOptions options) {
+std::int64_t ModemInterface::send(StartRule start, std::int32_t destination,
+                                  std::span<const std::uint8_t> payload, clients::SendOptions options) {
   if (unsent() >= kMaxUnsent) {
     note("too-many-sends", "unsent=" + std::to_string(unsent()));
     return kNotSent;
@@ -244,7 +245,7 @@ std::int64_t Door::send(StartRule start, std::int32_t destination, std::span<con
                     now_);
 }
 
-void Door::note(std::string_view event, std::string_view details) {
+void ModemInterface::note(std::string_view event, std::string_view details) {
   const std::int64_t count = ++noted_[std::string(event)];
   if (!bus::worth_a_report(count)) return;
   bus_.log().info(event,

@@ -20,7 +20,7 @@ namespace halocline::monitor {
 nlohmann::json hello_json(const Source& source, bool may_command);
 
 // Returns the scenario, its vehicles and the water at one time.
-nlohmann::json mission_json(const Source& source, SimTime at);
+nlohmann::json run_json(const Source& source, SimTime at);
 
 // Returns the overview of the terrain; nothing when none is known.
 std::optional<DepthGrid> overview_grid(const clients::RunTimeline& timeline);

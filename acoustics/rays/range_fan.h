@@ -13,7 +13,7 @@
 //
 // Neglected: paths between rays further apart, diffuse windows, wave fields beyond folds. Links through water
 // that changes along them are searched one by one, as are links at other ranges than those given. Error
-// relative to profile_rays(): tests/acoustics/rays/bearings/range_fan_test.cc.
+// relative to profile_rays(): tests/acoustics/rays/range_fan_test.cc.
 #pragma once
 
 #include <cstddef>

@@ -30,7 +30,7 @@ export function depthRange(tile: TerrainTile): DepthRange | null {
   return high >= low ? { low, high } : null;
 }
 
-/** Depth at a place, bilinear; NaN where no ground is known. */
+/** Depth at a place, bilinear; NaN where no seabed is known. */
 export function depthAt(tile: TerrainTile, north_m: number, east_m: number): number {
   const y = (north_m - tile.south_m) / tile.spacing_m;
   const x = (east_m - tile.west_m) / tile.spacing_m;
@@ -49,7 +49,7 @@ export function exaggeration(extent_m: number, deepest_m: number): number {
   return [20, 10, 5, 3, 2].find((factor) => wanted >= 0.8 * factor) ?? 1;
 }
 
-export function groundGeometry(tile: TerrainTile, stretch: number): BufferGeometry {
+export function seabedGeometry(tile: TerrainTile, stretch: number): BufferGeometry {
   const { rows, columns, spacing_m, south_m, west_m, depth_m } = tile;
   const position = new Float32Array(3 * rows * columns);
   const uv = new Float32Array(2 * rows * columns);
@@ -76,16 +76,16 @@ export function groundGeometry(tile: TerrainTile, stretch: number): BufferGeomet
   return geometry;
 }
 
-/** Light from the north-west, 45 degrees high, on the stretched relief; 1 is level ground. */
+/** Light from the north-west, 45 degrees high, on the stretched relief; 1 is a level seabed. */
 function hillShade(north_slope: number, east_slope: number, stretch: number): number {
-  // The ground's height falls by depth: its upward normal is (east slope, north slope, 1) of depth.
+  // The seabed's height falls by depth: its upward normal is (east slope, north slope, 1) of depth.
   const nx = east_slope * stretch;
   const ny = north_slope * stretch;
   const light = Math.SQRT1_2 * (0.5 * Math.SQRT2 * (ny - nx) + 1);
   return light / Math.hypot(nx, ny, 1) / Math.SQRT1_2;
 }
 
-export function groundPicture(tile: TerrainTile, range: DepthRange, stretch: number, dark: boolean): DataTexture {
+export function seabedPicture(tile: TerrainTile, range: DepthRange, stretch: number, dark: boolean): DataTexture {
   const fine = Math.max(1, Math.min(8, Math.floor(768 / Math.max(tile.rows, tile.columns))));
   const height = (tile.rows - 1) * fine;
   const width = (tile.columns - 1) * fine;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viewer/pages/mission_json.h"
+#include "viewer/pages/run_json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -232,7 +232,7 @@ std::optional<DepthGrid> overview_grid(const clients::RunTimeline& timeline) {
                    .depth_m = terrain->depth_m};
 }
 
-json mission_json(const Source& source, SimTime at) {
+json run_json(const Source& source, SimTime at) {
   const clients::RunTimeline& timeline = source.timeline();
   const clients::RunScenario& scenario = timeline.scenario();
   json vehicles = json::array();
@@ -242,7 +242,7 @@ json mission_json(const Source& source, SimTime at) {
   if (scenario.origin)
     origin = {{"latitude_deg", scenario.origin->latitude_deg},
               {"longitude_deg", scenario.origin->longitude_deg}};
-  return {{"type", "mission"},
+  return {{"type", "run"},
           {"name", scenario.name},
           {"description", scenario.description},
           {"seed", scenario.seed},

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Doors of three kinds over ten simulated minutes: what they report is what the channel decided.
+// Modem interfaces of three kinds over ten simulated minutes: what they report is what the channel decided.
+#include "tests/clients/modem_gateway/interface_run.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -11,22 +13,22 @@
 #include <gtest/gtest.h>
 
 #include "clients/modem_gateway/protocols/fields.h"
-#include "tests/clients/modem_gateway/door_mission.h"
 #include "tests/clients/modem_gateway/host.h"
 
 namespace halocline::modem_gateway {
 namespace {
 
-using testing::DoorMission;
-using testing::DoorVehicle;
 using testing::Host;
+using testing::InterfaceRun;
+using testing::InterfaceVehicle;
 
-const std::vector<DoorVehicle> kFleet{{"micro-1", 1, "micromodem-psk-1", 0, 0, "micromodem", "pps=yes"},
-                                      {"micro-2", 2, "micromodem-psk-1", 1000, 0, "micromodem", "pps=yes"},
-                                      {"s2c-1", 3, "s2c-im", 0, 300, "evologics"},
-                                      {"s2c-2", 4, "s2c-im", 700, 300, "evologics"},
-                                      {"unet-1", 5, "unet-data", 0, 600, "unet"},
-                                      {"unet-2", 6, "unet-data", 900, 600, "unet"}};
+const std::vector<InterfaceVehicle> kFleet{
+    {"micro-1", 1, "micromodem-psk-1", 0, 0, "micromodem", "pps=yes"},
+    {"micro-2", 2, "micromodem-psk-1", 1000, 0, "micromodem", "pps=yes"},
+    {"s2c-1", 3, "s2c-im", 0, 300, "evologics"},
+    {"s2c-2", 4, "s2c-im", 700, 300, "evologics"},
+    {"unet-1", 5, "unet-data", 0, 600, "unet"},
+    {"unet-2", 6, "unet-data", 900, 600, "unet"}};
 
 // What a host has read, line by line.
 class Conversation {
@@ -57,13 +59,13 @@ class Conversation {
   std::string text_;
 };
 
-class DoorsOfAMission : public ::testing::Test {
+class ModemInterfacesInARun : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    mission = std::make_unique<DoorMission>(kFleet);
-    mission->run_until(SimTime::from_seconds(1));
+    run = std::make_unique<InterfaceRun>(kFleet);
+    run->run_until(SimTime::from_seconds(1));
     for (std::size_t i = 0; i < kFleet.size(); ++i)
-      hosts.push_back(std::make_unique<Conversation>(mission->gateway().place_of(i)));
+      hosts.push_back(std::make_unique<Conversation>(run->gateway().place_of(i)));
     for (const std::size_t i : {0, 1}) hosts[i]->write("$CCCFG,SNV,1\r\n$CCCLK,2026,11,24,10,30,00\r\n");
     for (const std::size_t i : {2, 3}) hosts[i]->write("AT@ZX1\nAT!RI0\n");
     for (int tick = 20; tick <= 600 * 20; ++tick) step(tick);
@@ -71,12 +73,12 @@ class DoorsOfAMission : public ::testing::Test {
   }
   static void TearDownTestSuite() {
     hosts.clear();
-    mission.reset();
+    run.reset();
   }
 
   // A twentieth of a second.
   static void step(int tick) {
-    mission->run_until(SimTime::from_nanoseconds(std::int64_t{tick} * 50'000'000));
+    run->run_until(SimTime::from_nanoseconds(std::int64_t{tick} * 50'000'000));
     const int second = tick % 20 == 0 ? tick / 20 : -1;
     for (std::size_t i = 0; i < hosts.size(); ++i) {
       for (const std::string& line : hosts[i]->read()) {
@@ -111,7 +113,7 @@ class DoorsOfAMission : public ::testing::Test {
   // Outcomes of packets that this vehicle's modem had detected and lost.
   static std::size_t losses_at(std::size_t i) {
     std::size_t losses = 0;
-    for (const auto& [vehicle, event] : mission->events) {
+    for (const auto& [vehicle, event] : run->events) {
       if (vehicle != kFleet[i].name || event.modem_event != modem_event_t::PACKET_ENDED) continue;
       losses += event.packet_outcome == packet_outcome_t::RECEIVED ? 0 : 1;
     }
@@ -120,13 +122,13 @@ class DoorsOfAMission : public ::testing::Test {
   // Outcomes at this vehicle of packets that its modem followed to their end, received or lost.
   static std::vector<packet_outcome_t> followed_at(std::size_t i) {
     std::set<std::int64_t> lost_at;
-    for (const auto& [vehicle, event] : mission->events) {
+    for (const auto& [vehicle, event] : run->events) {
       const bool is_loss = vehicle == kFleet[i].name && event.modem_event == modem_event_t::PACKET_ENDED &&
                            event.packet_outcome != packet_outcome_t::RECEIVED;
       if (is_loss) lost_at.insert(event.utime);
     }
     std::vector<packet_outcome_t> followed;
-    for (const packet_outcome_t& outcome : mission->outcomes) {
+    for (const packet_outcome_t& outcome : run->outcomes) {
       const bool is_here = outcome.receiver_id == kFleet[i].id;
       if (is_here && (outcome.outcome == packet_outcome_t::RECEIVED || lost_at.contains(outcome.utime)))
         followed.push_back(outcome);
@@ -140,13 +142,13 @@ class DoorsOfAMission : public ::testing::Test {
                       [](const packet_outcome_t& o) { return o.outcome == packet_outcome_t::RECEIVED; }));
   }
 
-  static std::unique_ptr<DoorMission> mission;
+  static std::unique_ptr<InterfaceRun> run;
   static std::vector<std::unique_ptr<Conversation>> hosts;
 };
-std::unique_ptr<DoorMission> DoorsOfAMission::mission;
-std::vector<std::unique_ptr<Conversation>> DoorsOfAMission::hosts;
+std::unique_ptr<InterfaceRun> ModemInterfacesInARun::run;
+std::vector<std::unique_ptr<Conversation>> ModemInterfacesInARun::hosts;
 
-TEST_F(DoorsOfAMission, MicromodemsReportEachReceptionOnceAndEachLossOnce) {
+TEST_F(ModemInterfacesInARun, MicromodemsReportEachReceptionOnceAndEachLossOnce) {
   for (const std::size_t i : {0, 1}) {
     EXPECT_GT(received_at(i), 20u);
     EXPECT_GT(losses_at(i), 5u);
@@ -168,7 +170,7 @@ TEST_F(DoorsOfAMission, MicromodemsReportEachReceptionOnceAndEachLossOnce) {
   }
 }
 
-TEST_F(DoorsOfAMission, MicromodemsDeliverThreeFramesAndAcknowledgeThem) {
+TEST_F(ModemInterfacesInARun, MicromodemsDeliverThreeFramesAndAcknowledgeThem) {
   EXPECT_GT(hosts[1]->count("$CARXD,1,2,1,3,000A0D2B2CFF"), 5u);
   EXPECT_GT(hosts[0]->count("$CAACK,2,1,3,1"), 5u);
   EXPECT_GT(hosts[1]->count("$CAMUA,1,2,1ABC"), 1u);
@@ -176,7 +178,7 @@ TEST_F(DoorsOfAMission, MicromodemsDeliverThreeFramesAndAcknowledgeThem) {
 }
 
 // The clocks were set, pulses are whole seconds, and transmissions start on them. 1000 m are 0.66667 s.
-TEST_F(DoorsOfAMission, TheFractionOfASecondOfAnArrivalIsTheTravelTime) {
+TEST_F(ModemInterfacesInARun, TheFractionOfASecondOfAnArrivalIsTheTravelTime) {
   constexpr double kBound_s = 1e-4;
   std::size_t checked = 0;
   for (std::size_t at = 0; at < hosts[1]->lines.size(); ++at) {
@@ -189,14 +191,14 @@ TEST_F(DoorsOfAMission, TheFractionOfASecondOfAnArrivalIsTheTravelTime) {
     ++checked;
   }
   EXPECT_GT(checked, 5u);
-  for (const packet_outcome_t& outcome : mission->outcomes) {
+  for (const packet_outcome_t& outcome : run->outcomes) {
     if (outcome.receiver_id == 2 && outcome.source_id == 1) {
       EXPECT_NEAR(outcome.travel_time_s, 1000.0 / 1500.0, kBound_s);
     }
   }
 }
 
-TEST_F(DoorsOfAMission, EvologicsModemsReportEachReceptionAndEachLossOnce) {
+TEST_F(ModemInterfacesInARun, EvologicsModemsReportEachReceptionAndEachLossOnce) {
   for (const std::size_t i : {2, 3}) {
     EXPECT_GT(losses_at(i), 5u);
     EXPECT_EQ(hosts[i]->count("RECVFAILED,"), losses_at(i));
@@ -208,7 +210,7 @@ TEST_F(DoorsOfAMission, EvologicsModemsReportEachReceptionAndEachLossOnce) {
   }
 }
 
-TEST_F(DoorsOfAMission, UnetGatewaysReportEachFrameAndEachLossOnce) {
+TEST_F(ModemInterfacesInARun, UnetGatewaysReportEachFrameAndEachLossOnce) {
   for (const std::size_t i : {4, 5}) {
     EXPECT_GT(received_at(i), 50u);
     EXPECT_GT(losses_at(i), 5u);
@@ -219,18 +221,18 @@ TEST_F(DoorsOfAMission, UnetGatewaysReportEachFrameAndEachLossOnce) {
 
 // Transmissions start on whole seconds of the sender's clock, which is 4 ms ahead; the receiver's is 3 ms
 // late.
-TEST(DoorClocks, AMeasuredTravelTimeIsOffByWhatTheClocksDiffer) {
-  std::vector<DoorVehicle> fleet{kFleet[0], kFleet[1]};
+TEST(ModemInterfaceClocks, AMeasuredTravelTimeIsOffByWhatTheClocksDiffer) {
+  std::vector<InterfaceVehicle> fleet{kFleet[0], kFleet[1]};
   fleet[0].more = "[vehicle.clock]\noffset_s = 0.004\n";
   fleet[1].more = "[vehicle.clock]\noffset_s = -0.003\n";
-  DoorMission mission(fleet);
-  mission.run_until(SimTime::from_seconds(1));
-  Conversation sender(mission.gateway().place_of(0)), receiver(mission.gateway().place_of(1));
+  InterfaceRun run(fleet);
+  run.run_until(SimTime::from_seconds(1));
+  Conversation sender(run.gateway().place_of(0)), receiver(run.gateway().place_of(1));
   for (Conversation* host : {&sender, &receiver})
     host->write("$CCCFG,SNV,1\r\n$CCCLK,2026,11,24,10,30,00\r\n");
   for (int second = 2; second < 40; ++second) {
     if (second % 4 == 0) sender.write("$CCMUC,1,2,0001\r\n");
-    mission.run_until(SimTime::from_seconds(second));
+    run.run_until(SimTime::from_seconds(second));
   }
   receiver.read();
   std::size_t checked = 0;
@@ -241,23 +243,23 @@ TEST(DoorClocks, AMeasuredTravelTimeIsOffByWhatTheClocksDiffer) {
     ++checked;
   }
   EXPECT_GT(checked, 3u);
-  for (const packet_outcome_t& outcome : mission.outcomes)
+  for (const packet_outcome_t& outcome : run.outcomes)
     EXPECT_EQ(outcome.departure_utime % 1'000'000, 996'000) << "4 ms before a second of the simulation";
 }
 
-TEST(DoorSleep, AModemThatSleepsHearsNothingUntilItReboots) {
-  DoorMission mission({kFleet[0], kFleet[1]});
-  mission.run_until(SimTime::from_seconds(1));
-  Conversation sender(mission.gateway().place_of(0)), sleeper(mission.gateway().place_of(1));
+TEST(ModemInterfaceSleep, AModemThatSleepsHearsNothingUntilItReboots) {
+  InterfaceRun run({kFleet[0], kFleet[1]});
+  run.run_until(SimTime::from_seconds(1));
+  Conversation sender(run.gateway().place_of(0)), sleeper(run.gateway().place_of(1));
   sleeper.write("$CCMSC,2,2,1\r\n");
   for (int second = 2; second < 100; ++second) {
-    mission.run_until(SimTime::from_seconds(second));
+    run.run_until(SimTime::from_seconds(second));
     if (second % 7 == 0) sender.write("$CCMUC,1,2,0001\r\n");
   }
   sleeper.read();
   EXPECT_EQ(sleeper.count(",INIT,"), 1u);
   std::size_t received = 0;
-  for (const packet_outcome_t& outcome : mission.outcomes) {
+  for (const packet_outcome_t& outcome : run.outcomes) {
     if (outcome.receiver_id != 2) continue;
     const bool sleeps = outcome.utime < 61'000'000;
     EXPECT_EQ(outcome.outcome == packet_outcome_t::ASLEEP, sleeps) << outcome.utime;
@@ -267,17 +269,17 @@ TEST(DoorSleep, AModemThatSleepsHearsNothingUntilItReboots) {
   EXPECT_EQ(sleeper.count("$CAMUA,1,2,0001"), received);
 }
 
-// Hosts of one door that do what none should; everybody else's packets fare as if nobody had.
+// Hosts of one modem interface that do what none should; everybody else's packets fare as if nobody had.
 std::vector<std::string> outcomes_with(bool has_bad_hosts) {
-  std::vector<DoorVehicle> fleet = kFleet;
-  for (DoorVehicle& vehicle : fleet) vehicle.more = "";
+  std::vector<InterfaceVehicle> fleet = kFleet;
+  for (InterfaceVehicle& vehicle : fleet) vehicle.more = "";
   fleet[1].kind = "";
   fleet.push_back({"talker", 7, "micromodem-psk-1", 500, 0, "", "", ""});
-  DoorMission mission(fleet);
-  mission.run_until(SimTime::from_seconds(1));
-  Conversation good(mission.gateway().place_of(1));
+  InterfaceRun run(fleet);
+  run.run_until(SimTime::from_seconds(1));
+  Conversation good(run.gateway().place_of(1));
   std::vector<std::unique_ptr<Host>> bad;
-  const std::string place = mission.gateway().place_of(0);
+  const std::string place = run.gateway().place_of(0);
   for (int tick = 11; tick <= 600; ++tick) {
     if (has_bad_hosts) {
       if (bad.size() < 500) bad.push_back(std::make_unique<Host>(place));
@@ -289,17 +291,17 @@ std::vector<std::string> outcomes_with(bool has_bad_hosts) {
       bad[bad.size() / 2]->write("$CCCFQ,ALL\r\n");  // and reads none of it
     }
     if (tick % 40 == 0) good.write("AT*SENDIM,5,4,ack,hello\n");
-    mission.run_until(SimTime::from_nanoseconds(std::int64_t{tick} * 100'000'000));
+    run.run_until(SimTime::from_nanoseconds(std::int64_t{tick} * 100'000'000));
   }
   std::vector<std::string> all;
-  for (const packet_outcome_t& outcome : mission.outcomes) {
+  for (const packet_outcome_t& outcome : run.outcomes) {
     const bus::Bytes bytes = bus::encoded(outcome);
     all.emplace_back(bytes.begin(), bytes.end());
   }
   return all;
 }
 
-TEST(DoorHosts, ThatMisbehaveChangeNoOutcomeOfOthers) {
+TEST(ModemInterfaceHosts, ThatMisbehaveChangeNoOutcomeOfOthers) {
   const auto quiet = outcomes_with(false);
   EXPECT_GT(quiet.size(), 50u);
   EXPECT_EQ(outcomes_with(true), quiet);

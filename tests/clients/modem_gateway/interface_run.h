@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scenario with doors in lockstep in this process, and hosts that talk to it between its instants.
+// A scenario with modem interfaces in lockstep in this process, and hosts that talk to it between its
+// instants.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,7 @@
 namespace halocline::modem_gateway::testing {
 
 // Shallow straight water, still and isovelocity: travel times are ranges over 1500 m/s.
-inline constexpr const char* kDoorWater = R"(
+inline constexpr const char* kStillWater = R"(
 [scenario]
 duration_s = 600
 [terrain]
@@ -47,37 +48,38 @@ model = "straight"
 link_rate_hz = 0.1
 )";
 
-struct DoorVehicle {
+struct InterfaceVehicle {
   std::string name;
   int id;
   std::string profile;
   double north_m, east_m;
-  std::string kind;          // of its door; empty: none
-  std::string options = {};  // of the door
+  std::string kind;          // of its modem interface; empty: none
+  std::string options = {};  // of the modem interface
   std::string more = {};     // keys of the vehicle, besides
 };
 
 // Key of a vehicle whose modem answers pings to all.
 inline constexpr const char* kTransponder = "transponder = true\n";
 
-class DoorMission {
+class InterfaceRun {
  public:
   // `lost`: share of what would be received that is lost.
-  explicit DoorMission(const std::vector<DoorVehicle>& vehicles, double lost = 0.2) {
+  explicit InterfaceRun(const std::vector<InterfaceVehicle>& vehicles, double lost = 0.2) {
     bus::set_log_level(bus::LogLevel::kError);
-    const std::string path = ::testing::TempDir() + "halocline-doors-" + std::to_string(getpid()) + ".toml";
-    std::string text = kDoorWater, doors;
+    const std::string path =
+        ::testing::TempDir() + "halocline-interfaces-" + std::to_string(getpid()) + ".toml";
+    std::string text = kStillWater, interfaces;
     if (lost > 0) text += "[[extra_loss]]\nshare = " + std::to_string(lost) + "\n";
-    for (const DoorVehicle& v : vehicles) {
+    for (const InterfaceVehicle& v : vehicles) {
       text += "[[vehicle]]\nname = \"" + v.name + "\"\nid = " + std::to_string(v.id) +
               "\nmodel = \"fixed\"\nstart_ned_m = [" + std::to_string(v.north_m) + ", " +
               std::to_string(v.east_m) + ", 60.0]\n" + v.more + "[vehicle.modem]\nprofile = \"" + v.profile +
               "\"\n";
       if (v.kind.empty()) continue;
-      doors += "[[door]]\nvehicle = \"" + v.name + "\"\nkind = \"" + v.kind +
-               "\"\nplace = \"tcp:0\"\noptions = \"" + v.options + "\"\n";
+      interfaces += "[[modem_interface]]\nvehicle = \"" + v.name + "\"\nkind = \"" + v.kind +
+                    "\"\nplace = \"tcp:0\"\noptions = \"" + v.options + "\"\n";
     }
-    std::ofstream(path) << text << doors;
+    std::ofstream(path) << text << interfaces;
     config_ = clients::load_scenario(path, {});
     std::filesystem::remove(path);
     nodes_ = std::make_unique<clients::Composition>(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grounds given by formulas, hulls put down somewhere, and how deep they lie in a ground: for contact tests.
+// Seabeds given by formulas, hulls put down somewhere, and how deep they lie in a seabed: for contact tests.
 #pragma once
 
 #include <algorithm>
@@ -19,10 +19,10 @@
 namespace halocline::vehicle_sim::testing {
 
 // z (positive down) as a function of north and east; the tangent plane by central differences.
-class FormulaGround : public Seabed {
+class FormulaSeabed : public Seabed {
  public:
   using Formula = std::function<double(double, double)>;
-  explicit FormulaGround(Formula z) : z_(std::move(z)) {}
+  explicit FormulaSeabed(Formula z) : z_(std::move(z)) {}
 
   std::optional<SeabedPlane> plane_at(double north, double east) const override {
     constexpr double kReach = 1e-6;
@@ -36,29 +36,29 @@ class FormulaGround : public Seabed {
   Formula z_;
 };
 
-using GroundPointer = std::shared_ptr<const FormulaGround>;
+using SeabedPointer = std::shared_ptr<const FormulaSeabed>;
 
-inline GroundPointer flat(double z) {
-  return std::make_shared<FormulaGround>([z](double, double) { return z; });
+inline SeabedPointer flat(double z) {
+  return std::make_shared<FormulaSeabed>([z](double, double) { return z; });
 }
 
 // Flat at `z` south of `foot`, rising by `angle` to the north of it.
-inline GroundPointer ramp(double z, double foot_north, double angle_rad) {
+inline SeabedPointer ramp(double z, double foot_north, double angle_rad) {
   const double slope = std::tan(angle_rad);
-  return std::make_shared<FormulaGround>(
+  return std::make_shared<FormulaSeabed>(
       [=](double north, double) { return z - slope * std::max(0.0, north - foot_north); });
 }
 
 // An endless slope that rises to the north, at `z` at the origin.
-inline GroundPointer slope(double z, double angle_rad) {
+inline SeabedPointer slope(double z, double angle_rad) {
   const double rise = std::tan(angle_rad);
-  return std::make_shared<FormulaGround>([=](double north, double) { return z - rise * north; });
+  return std::make_shared<FormulaSeabed>([=](double north, double) { return z - rise * north; });
 }
 
 // A sharp edge that runs east at north = 0, its crest at `crest_z`, both sides falling at `angle`.
-inline GroundPointer ridge(double crest_z, double angle_rad) {
+inline SeabedPointer ridge(double crest_z, double angle_rad) {
   const double fall = std::tan(angle_rad);
-  return std::make_shared<FormulaGround>(
+  return std::make_shared<FormulaSeabed>(
       [=](double north, double) { return crest_z + fall * std::abs(north); });
 }
 
@@ -71,10 +71,10 @@ inline VehicleState at(const Vec3& position, const EulerAngles& attitude = {}, d
   return s;
 }
 
-// How deep the hull, a spheroid, lies in the ground: over points of its whole surface, measured vertically,
-// so never less than the true depth. `ground_z`(north, east) is the ground's z, positive down.
-template <class Ground>
-double deepest_in(const Ground& ground_z, const VehicleState& s, const HullShape& hull) {
+// How deep the hull, a spheroid, lies in the seabed: over points of its whole surface, measured vertically,
+// so never less than the true depth. `seabed_z`(north, east) is the seabed's z, positive down.
+template <class SeabedDepth>
+double deepest_in(const SeabedDepth& seabed_z, const VehicleState& s, const HullShape& hull) {
   double deepest = -std::numeric_limits<double>::infinity();
   for (int i = 0; i <= 40; ++i) {
     const double along = i / 20.0 - 1,
@@ -84,7 +84,7 @@ double deepest_in(const Ground& ground_z, const VehicleState& s, const HullShape
       const Vec3 point =
           s.position_ned_m +
           s.orientation * Vec3(along * hull.length_m / 2, radius * std::cos(angle), radius * std::sin(angle));
-      deepest = std::max(deepest, point.z() - ground_z(point.x(), point.y()));
+      deepest = std::max(deepest, point.z() - seabed_z(point.x(), point.y()));
     }
   }
   return deepest;
