@@ -121,6 +121,8 @@ std::string key_list(bus::KeyClass key_class) {
   config.channel_server.rules.medium.extra_loss.resize(1);
   config.channel_server.vehicles[0].clock.emplace();
   config.channel_server.vehicles[0].noise.emplace();
+  config.vehicle_sim.vehicles.resize(1);
+  config.vehicle_sim.vehicles[0].own = true;
   config.vehicle_sim.tethers.resize(1);
   config.vehicle_sim.tethers[0].vehicle = "auv-1";
   config.vehicle_sim.faults.resize(1);
