@@ -13,6 +13,7 @@
 #include "core/units.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/command_schedule.h"
+#include "vehicle_sim/moving_ocean.h"
 #include "vehicle_sim/sensors/sensor_errors.h"
 
 namespace halocline::vehicle_sim {
@@ -317,6 +318,13 @@ TEST(VehicleSimConfig, ImpossibleSensorsAndFaultsAreReportedWithLineAndRange) {
 TEST(VehicleSimConfig, AFaultOfAnUnknownVehicleIsRefused) {
   const Read r = read("[[vehicle]]\nname = \"a\"\nid = 1\n[[fault]]\nvehicle = \"b\"\n");
   EXPECT_THROW(faults_of(members_of(r.scenario, r.config), r.config), InvalidArgument);
+}
+
+TEST(VehicleSimConfig, TheCurrentsOfAnOceanMoveNobodyWhereTheyAreNotToMoveVehicles) {
+  const std::string ocean = "[ocean]\nfile = \"" HALOCLINE_SOURCE_DIR "/scenarios/front.nc\"\n";
+  const std::string origin = "[scenario]\norigin_latitude_deg = 39.9\norigin_longitude_deg = -71.2\n";
+  EXPECT_NE(moving_ocean(read(origin + ocean).scenario), nullptr);
+  EXPECT_EQ(moving_ocean(read(origin + ocean + "moves_vehicles = false\n").scenario), nullptr);
 }
 
 TEST(VehicleSimConfig, TheEffectiveConfigurationReadsBackAsItself) {
