@@ -286,6 +286,7 @@ class Writer : public ConfigVisitor {
 std::string written(const std::function<void(ConfigVisitor&)>& body, bool with_comments,
                     CarriedFiles::Which which, std::optional<KeyClass> only = std::nullopt) {
   Table document;
+  document.is_listed = true;
   CarriedFiles files(which);
   Writer writer(document, "", with_comments, only, files);
   body(writer);
