@@ -16,6 +16,7 @@
 #include "clients/onboard/traffic/traffic_node.h"
 #include "conductor/conductor_node.h"
 #include "core/check.h"
+#include "core/frames.h"
 #include "simulation/scenario_checks.h"
 #include "vehicle_sim/vehicle_block.h"
 #include "vehicle_sim/vehicle_sim_node.h"

@@ -71,8 +71,8 @@ std::string effective_toml(const ScenarioConfig& config);
 // that it can be used on any machine.
 std::string portable_toml(const ScenarioConfig& config);
 
-// Returns the keys of one class with their defaults and meanings, for one vehicle. The common keys are a valid
-// scenario file.
+// Returns the keys of one class with their defaults and meanings, for one vehicle. The common keys are a
+// valid scenario file.
 std::string key_list(bus::KeyClass key_class);
 
 // Prepares the terrain of a scenario; throws InvalidArgument when a raster cannot be read.
