@@ -21,10 +21,8 @@ const std::vector<std::string> kKinds{"flat", "slope", "ridge", "seamount", "ras
 void visit_domain(ConfigVisitor& v, DomainRecipe& d) {
   v.number("center_north_m", d.center_north_m, {-1e6, 1e6, "m", "centre of the grid, north of the origin"});
   v.number("center_east_m", d.center_east_m, {-1e6, 1e6, "m", "centre of the grid, east of the origin"});
-  v.number("size_north_m", d.size_north_m,
-           {0.1, 1e6, "m", "extent north-south, a whole multiple of the spacing"});
-  v.number("size_east_m", d.size_east_m,
-           {0.1, 1e6, "m", "extent east-west, a whole multiple of the spacing"});
+  v.number("size_north_m", d.size_north_m, {0.1, 1e6, "m", "north-south extent, a multiple of the spacing"});
+  v.number("size_east_m", d.size_east_m, {0.1, 1e6, "m", "east-west extent, a multiple of the spacing"});
   v.number("spacing_m", d.spacing_m, {0.01, 1e5, "m", "distance between grid points"});
 }
 
@@ -43,7 +41,7 @@ void visit_bounds(ConfigVisitor& v, RasterOptions& r) {
       {-1e8, 1e8, "", "west, south, east, north of the pixel edges of a raster without a geotransform"});
   v.when(!numbers.empty(), "bounds", [&] {
     bus::choice(v, "row_order", bounds.row_order, {"north_first", "south_first"},
-                "order of the file's rows, with bounds");
+                "order of rows, with bounds");
   });
   if (numbers.empty()) return;
   if (numbers.size() != 4 || !(numbers[0] < numbers[2] && numbers[1] < numbers[3])) {
@@ -65,8 +63,7 @@ void visit_raster(ConfigVisitor& v, RasterOptions& r) {
   if (no_data.size() > 1) v.problem("no_data", "allowed is an array of no or one number");
   if (no_data.size() == 1) r.no_data = no_data.front();
   v.advanced([&] {
-    v.boolean("trust_every_value", r.trust_every_value,
-              "true: no value is suspected of being undeclared no data");
+    v.boolean("trust_every_value", r.trust_every_value, "true: no value is suspected to be no data");
     bus::choice(v, "registration", r.registration, {"as_declared", "node"},
                 "place of the outermost points; node: on the file's bounds, not half a pixel inside");
   });
@@ -102,27 +99,24 @@ void visit_shapes(ConfigVisitor& v, TerrainRecipe& t) {
     bus::degrees(s, "azimuth_deg", t.slope.azimuth_rad,
                  {-360, 360, "deg", "direction in which it falls, clockwise from north"});
   });
-  shape(
-      "ridge", "Ridge, Gaussian across and endless along (kind = ridge)", TerrainKind::kRidge,
-      [&](ConfigVisitor& s) {
-        s.number("depth_m", t.ridge.depth_m, {-kDeep, kDeep, "m", "z of the bottom far from it"});
-        s.number("height_m", t.ridge.height_m,
-                 {-kDeep, kDeep, "m", "height of the crest above depth_m; negative: a trench"});
-        s.number("half_width_m", t.ridge.half_width_m,
-                 {0.001, 1e6, "m", "half-width across, the Gaussian's standard deviation"});
-        s.number("crest_north_m", t.ridge.crest_x_m,
-                 {-1e6, 1e6, "m", "place of a point of the crest, north"});
-        s.number("crest_east_m", t.ridge.crest_y_m, {-1e6, 1e6, "m", "place of a point of the crest, east"});
-        bus::degrees(s, "azimuth_deg", t.ridge.azimuth_rad,
-                     {-360, 360, "deg", "direction of the crest, clockwise from north"});
-      });
+  shape("ridge", "Ridge, Gaussian across and endless along (kind = ridge)", TerrainKind::kRidge,
+        [&](ConfigVisitor& s) {
+          s.number("depth_m", t.ridge.depth_m, {-kDeep, kDeep, "m", "z of the bottom far from it"});
+          s.number("height_m", t.ridge.height_m,
+                   {-kDeep, kDeep, "m", "height of the crest above depth_m; negative: a trench"});
+          s.number("half_width_m", t.ridge.half_width_m,
+                   {0.001, 1e6, "m", "standard deviation of the Gaussian across"});
+          s.number("crest_north_m", t.ridge.crest_x_m, {-1e6, 1e6, "m", "point of the crest, north"});
+          s.number("crest_east_m", t.ridge.crest_y_m, {-1e6, 1e6, "m", "point of the crest, east"});
+          bus::degrees(s, "azimuth_deg", t.ridge.azimuth_rad,
+                       {-360, 360, "deg", "direction of the crest, clockwise from north"});
+        });
   shape("seamount", "Seamount, a round Gaussian (kind = seamount)", TerrainKind::kSeamount,
         [&](ConfigVisitor& s) {
           s.number("depth_m", t.seamount.depth_m, {-kDeep, kDeep, "m", "z of the bottom far from it"});
           s.number("height_m", t.seamount.height_m,
                    {-kDeep, kDeep, "m", "height of the summit above depth_m; negative: a basin"});
-          s.number("radius_m", t.seamount.radius_m,
-                   {0.001, 1e6, "m", "radius, the Gaussian's standard deviation"});
+          s.number("radius_m", t.seamount.radius_m, {0.001, 1e6, "m", "standard deviation of the Gaussian"});
           s.number("summit_north_m", t.seamount.summit_x_m, {-1e6, 1e6, "m", "place of the summit, north"});
           s.number("summit_east_m", t.seamount.summit_y_m, {-1e6, 1e6, "m", "place of the summit, east"});
         });
@@ -131,10 +125,9 @@ void visit_shapes(ConfigVisitor& v, TerrainRecipe& t) {
 void visit_relief(ConfigVisitor& v, FractalRelief& r) {
   v.number("rms_m", r.rms_m, {0, 5000, "m", "standard deviation; 0: no relief"});
   v.when(r.rms_m > 0, "rms_m above 0", [&] {
-    v.number("longest_wavelength_m", r.longest_wavelength_m,
-             {0.01, 1e6, "m", "wavelength of the largest features"});
+    v.number("longest_wavelength_m", r.longest_wavelength_m, {0.01, 1e6, "m", "largest wavelength"});
     v.number("shortest_wavelength_m", r.shortest_wavelength_m,
-             {0.01, 1e6, "m", "wavelength of the smallest features; cut below two grid points"});
+             {0.01, 1e6, "m", "smallest wavelength; cut below two grid points"});
     v.number("hurst", r.hurst,
              {0, 1, "", "Hurst exponent; smaller is rougher at small scale; the sea floor has about 0.9"});
     bus::integer_as(v, "seed", r.seed, {0, 9e15, "", "seed of the relief"});
@@ -149,8 +142,7 @@ void visit_nested(ConfigVisitor& v, NestedRecipe& n) {
   check_domain(v, n.domain);
   v.number("blend_width_m", n.blend_width_m,
            {0, 1e5, "m", "width inside its border over which it is blended into the grid around it"});
-  bus::choice(v, "holes", n.holes, {"keep", "fill_from_around"},
-              "treatment of points without data in the finer raster");
+  bus::choice(v, "holes", n.holes, {"keep", "fill_from_around"}, "points without data in the finer raster");
   v.section("raster", "Finer raster file", [&](ConfigVisitor& s) {
     visit_raster(s, n.raster);
     require_raster(s, n.raster.path);

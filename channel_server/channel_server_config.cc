@@ -74,8 +74,7 @@ void visit_vehicle_noise(bus::ConfigVisitor& v, NoiseSource& noise) {
   });
   noise.reference = noise.driver == NoiseDriver::kPropeller ? turns_per_min / 60 : speed_mps;
   v.advanced([&] {
-    v.number("own_loss_db", noise.own_loss.value,
-             {0, 200, "dB", "loss from 1 m to the vehicle's own hydrophone"});
+    v.number("own_loss_db", noise.own_loss.value, {0, 200, "dB", "loss from 1 m to the own hydrophone"});
   });
   bus::report_refusal(v, "level_db", [&] {
     std::vector<double> frequencies_hz;
@@ -103,8 +102,7 @@ void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicl
   v.boolean("has_modem", vehicle.carries_modem,
             "false: a ship or a jammer, which sends and receives nothing");
   v.when(vehicle.carries_modem, "has_modem = true", [&] {
-    v.boolean("transponder", vehicle.is_transponder,
-              "true: the modem answers pings to all, for long-baseline ranging");
+    v.boolean("transponder", vehicle.is_transponder, "true: the modem answers pings to all (long baseline)");
     vehicle.has_modem = v.given("modem");
     if (!vehicle.has_modem) return;
     if (vehicle.modem == VehicleModem()) vehicle.modem = standard;
@@ -188,9 +186,8 @@ void visit_extra_loss(bus::ConfigVisitor& v, ExtraLoss& loss) {
   loss.kind = kind == 0 ? std::nullopt : std::optional(static_cast<PacketKind>(kind - 1));
   v.number("share", loss.share, {0, 1, "", "share of the packets that would have been received"});
   double at_s = loss.begin.seconds(), until_s = loss.end == SimTime::never() ? 0 : loss.end.seconds();
-  v.number("at_s", at_s, {0, 1e7, "s", "simulation time of departure from which packets are lost"});
-  v.number("until_s", until_s,
-           {0, 1e7, "s", "simulation time of departure until which packets are lost; 0: no end"});
+  v.number("at_s", at_s, {0, 1e7, "s", "time of departure from which packets are lost"});
+  v.number("until_s", until_s, {0, 1e7, "s", "time of departure until which packets are lost; 0: no end"});
   loss.begin = SimTime::from_seconds(at_s);
   loss.end = until_s > 0 ? SimTime::from_seconds(until_s) : SimTime::never();
 }

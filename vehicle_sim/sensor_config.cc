@@ -70,17 +70,14 @@ void visit_beams(ConfigVisitor& v, DvlSettings& dvl) {
                {1, 80, "deg", "angle of each beam from the instrument's down axis"});
   v.number("range_noise_m", dvl.range_noise_m, {0, 1e3, "m", "standard deviation of a beam's range"});
   v.vector3("place_m", dvl.place_m, kPlace);
-  bus::degrees(v, "mounting_yaw_deg", dvl.mounting_yaw_rad,
-               {-360, 360, "deg", "rotation of the instrument about down, which it corrects"});
   bus::degrees(v, "misalignment_deg", dvl.misalignment_rad,
-               {-90, 90, "deg", "rotation of the instrument about down, which it does not correct"});
+               {-90, 90, "deg", "uncorrected rotation of the instrument about down"});
 }
 
 void visit_working_dvl(ConfigVisitor& v, DvlSettings& dvl) {
   v.number("range_m", dvl.range_m, {0.1, 1e4, "m", "maximum range along a beam"});
   visit_errors(v, dvl.errors, kMetresPerSecond);
-  v.number("scale_error", dvl.scale_error,
-           {-0.5, 0.5, "", "relative error of all speeds: 0.01 measures 1 % too much"});
+  v.number("scale_error", dvl.scale_error, {-0.5, 0.5, "", "relative error of speeds; 0.01: 1 % too much"});
   v.advanced([&] { visit_beams(v, dvl); });
 }
 
@@ -92,8 +89,7 @@ void visit_dvl(ConfigVisitor& v, DvlSettings& dvl) {
 void visit_gps(ConfigVisitor& v, GpsSettings& gps) {
   visit_rate(v, gps.period, 50, "fixes a second at the surface; 0: no GPS");
   v.when(gps.period > SimDuration(), kWorking, [&] {
-    v.number("max_depth_m", gps.max_depth_m,
-             {-10, 10, "m", "maximum depth of the antenna below the surface for a fix"});
+    v.number("max_depth_m", gps.max_depth_m, {-10, 10, "m", "maximum depth of the antenna for a fix"});
     visit_noise(v, gps.errors, kMetres);
     v.advanced([&] { v.vector3("place_m", gps.place_m, kPlace); });
   });
@@ -128,7 +124,7 @@ void visit_damage(ConfigVisitor& v, Fault& f) {
     if (v.writing() ? !f.angle_rad.has_value() : !v.given("angle_deg")) return;
     double angle_rad = f.angle_rad.value_or(0);
     bus::degrees(v, "angle_deg", angle_rad,
-                 {-90, 90, "deg", "angle of stuck fins; not given: the angle at that time"});
+                 {-90, 90, "deg", "angle of stuck fins; not given: the present one"});
     f.angle_rad = angle_rad;
   });
   with({FaultKind::kLeak}, [&] {
@@ -170,8 +166,7 @@ void visit(ConfigVisitor& v, SensorSettings& s) {
     });
   });
   basic("gyro", "Gyro: angular rates about the vehicle's axes", s.gyro, kDegreesPerSecond);
-  v.section("dvl", "Doppler log of four beams to the seabed",
-            [&](ConfigVisitor& section) { visit_dvl(section, s.dvl); });
+  v.section("dvl", "Doppler log of four beams", [&](ConfigVisitor& section) { visit_dvl(section, s.dvl); });
   v.section("gps", "GPS: fixes at the surface", [&](ConfigVisitor& section) { visit_gps(section, s.gps); });
   v.section("sonar", "Forward sonar: a fan of rays to the seabed",
             [&](ConfigVisitor& section) { visit_sonar(section, s.sonar); });

@@ -59,10 +59,8 @@ void visit_current(ConfigVisitor& v, CurrentSettings& c) {
   v.number("tide_amplitude_mps", c.tide.amplitude_mps,
            {0, kFastestCurrent, "m/s", "amplitude of a tide to and fro; 0: none"});
   v.when(c.tide.amplitude_mps > 0, "tide_amplitude_mps above 0", [&] {
-    v.number("tide_period_s", c.tide.period_s,
-             {1, 1e9, "s", "period of the tide; 44714 s is the principal lunar one"});
-    bus::degrees(v, "tide_phase_deg", c.tide.phase_rad,
-                 {-360, 360, "deg", "phase of the tide at time 0; 0: full speed"});
+    v.number("tide_period_s", c.tide.period_s, {1, 1e9, "s", "period of the tide; 44714 s: the lunar tide"});
+    bus::degrees(v, "tide_phase_deg", c.tide.phase_rad, {-360, 360, "deg", "phase at time 0; 0: full speed"});
     bus::degrees(v, "tide_toward_deg", c.tide.toward_rad,
                  {-360, 360, "deg", "direction towards which the tide flows, clockwise from north"});
   });
@@ -70,8 +68,7 @@ void visit_current(ConfigVisitor& v, CurrentSettings& c) {
            {0, kFastestCurrent, "m/s",
             "standard deviation of a Gauss-Markov current, north and east each; 0: none"});
   v.when(c.random.deviation_mps > 0, "random_deviation_mps above 0", [&] {
-    v.number("random_time_s", c.random.time_s,
-             {0.1, 1e6, "s", "correlation time of the Gauss-Markov current"});
+    v.number("random_time_s", c.random.time_s, {0.1, 1e6, "s", "correlation time of that current"});
   });
 }
 
@@ -82,8 +79,7 @@ void visit_waves(ConfigVisitor& v, WaveSettings& w) {
   };
   bus::choice(v, "sea", w.kind, kSeas, "kind of sea");
   with_sea({SeaKind::kRegular, SeaKind::kPiersonMoskowitz, SeaKind::kJonswap}, [&] {
-    v.number("height_m", w.height_m,
-             {0, 40, "m", "crest to trough of regular waves, significant height of a sea"});
+    v.number("height_m", w.height_m, {0, 40, "m", "height of regular waves, significant height of a sea"});
     v.number("period_s", w.period_s, {1, 30, "s", "period of regular waves, peak period of a sea"});
     bus::degrees(v, "toward_deg", w.toward_rad,
                  {-360, 360, "deg", "direction towards which the waves run, clockwise from north"});
@@ -145,8 +141,6 @@ void visit_tuning(ConfigVisitor& v, VehicleSimConfig& c, SimDuration allowed_sil
   visit_state_rule(v, c.states, allowed_silence);
   bus::seconds(v, "command_timeout_s", c.command_timeout,
                {0.05, 3600, "s", "age at which a command is void: propeller stops, fins amidships"});
-  bus::choice(v, "current_treatment", c.current_treatment, {"model", "upstream", "galilean"},
-              "action of a current: as in each model, or for all as published with remus100-pvs, or exactly");
   v.number("buoyancy_over_weight", c.buoyancy_over_weight,
            {0.5, 2, "", "buoyancy over weight of every vehicle; above 1 they rise"});
   visit_block(v, c.block);
@@ -157,12 +151,10 @@ void visit_section(ConfigVisitor& v, VehicleSimConfig& c, SimDuration allowed_si
              {0.1, 100, "Hz", "STATE messages of each vehicle a second: its ticks"});
   visit_rate(v, "sensor_rate_hz", c.sensor_period,
              {0.1, 50, "Hz", "SENSORS messages of each vehicle a second"});
-  v.number("altimeter_range_m", c.altimeter_range_m,
-           {0.1, 10'000, "m", "maximum height that altimeters measure"});
+  v.number("altimeter_range_m", c.altimeter_range_m, {0.1, 10'000, "m", "maximum range of altimeters"});
   v.vector3("current_ned_mps", c.current.uniform_ned_mps,
             {-kFastestCurrent, kFastestCurrent, "m/s", "steady current everywhere: north, east, down"});
-  bus::integer_as(v, "threads", c.threads,
-                  {1, 64, "", "number of threads that move vehicles; results are the same"});
+  bus::integer_as(v, "threads", c.threads, {1, 64, "", "threads that move vehicles; results are the same"});
   v.advanced([&] { visit_tuning(v, c, allowed_silence); });
   v.section("current", "Parts of the current that are added to current_ned_mps",
             [&](ConfigVisitor& section) { visit_current(section, c.current); });
@@ -184,8 +176,7 @@ void visit_tethers(ConfigVisitor& v, std::vector<TetherEntry>& tethers) {
         item.vector3("attached_at_m", t.attached_at_m, place);
         item.text("to_vehicle", t.to_vehicle, {}, "name of another vehicle; empty: a fixed point");
         item.vector3("to_attached_at_m", t.to_attached_at_m, other);
-        item.number("length_m", t.length_m,
-                    {0.01, 1e5, "m", "length, which its ends do not exceed; it pulls only"});
+        item.number("length_m", t.length_m, {0.01, 1e5, "m", "greatest distance of its ends; it only pulls"});
       });
 }
 
@@ -293,10 +284,6 @@ VehicleState start_of(const bus::VehicleEntry& entry, const Vec3& current_ned) {
 std::shared_ptr<const Model> model_for(const FilePath& name, const VehicleSimConfig& config) {
   ModelParameters parameters = load_model(name).parameters;
   parameters.buoyancy_n *= config.buoyancy_over_weight;
-  if (config.current_treatment == TreatmentChoice::kUpstream)
-    parameters.current_treatment = CurrentTreatment::kUpstream;
-  if (config.current_treatment == TreatmentChoice::kGalilean)
-    parameters.current_treatment = CurrentTreatment::kGalilean;
   return std::make_shared<const Model>(parameters);
 }
 

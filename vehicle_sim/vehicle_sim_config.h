@@ -34,9 +34,6 @@
 
 namespace halocline::vehicle_sim {
 
-// Treatment of the current: each model's own, or one for all models.
-enum class TreatmentChoice { kModel, kUpstream, kGalilean };
-
 // Tether in a scenario, with its ends by name.
 struct TetherEntry {
   std::string vehicle;                   // must be one that the simulator moves
@@ -78,7 +75,6 @@ struct VehicleSimConfig {
   double altimeter_range_m = 100;
   CurrentSettings current;
   WaveSettings waves;
-  TreatmentChoice current_treatment = TreatmentChoice::kModel;
   double buoyancy_over_weight = 1;
   int threads = 1;  // number of threads; the motion does not depend on it
   VehicleBlock block;

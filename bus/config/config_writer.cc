@@ -159,21 +159,14 @@ struct Table {
     }
     lines.emplace_back(key, std::move(line));
   }
-  [[nodiscard]] bool has_keys() const {
-    const auto any_has_keys = [](const auto& list) {
-      return std::any_of(list.second.begin(), list.second.end(),
-                         [](const auto& table) { return table->has_keys(); });
-    };
-    return !lines.empty() || std::any_of(tables.begin(), tables.end(), any_has_keys);
-  }
   // TOML requires a table's own keys before its sub-tables.
-  void print(std::ostream& out) const {
-    if (!is_listed && !has_keys()) return;
-    out << header;
-    for (const auto& [key, line] : lines) out << line;
+  std::string text() const {
+    std::string body;
+    for (const auto& [key, line] : lines) body += line;
     for (const std::string& key : order) {
-      for (const auto& table : tables.find(key)->second) table->print(out);
+      for (const auto& table : tables.find(key)->second) body += table->text();
     }
+    return body.empty() && !is_listed ? "" : header + body;
   }
 };
 
@@ -286,13 +279,10 @@ class Writer : public ConfigVisitor {
 std::string written(const std::function<void(ConfigVisitor&)>& body, bool with_comments,
                     CarriedFiles::Which which, std::optional<KeyClass> only = std::nullopt) {
   Table document;
-  document.is_listed = true;
   CarriedFiles files(which);
   Writer writer(document, "", with_comments, only, files);
   body(writer);
-  std::ostringstream out;
-  document.print(out);
-  return out.str() + files.to_toml();
+  return document.text() + files.to_toml();
 }
 
 }  // namespace

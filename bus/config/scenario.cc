@@ -22,12 +22,11 @@ void visit_battery(ConfigVisitor& v, VehicleBattery& battery) {
   double capacity_wh = battery.capacity_j / 3600;
   v.number("capacity_wh", capacity_wh, {0, 1e8, "Wh", "energy when full"});
   battery.capacity_j = capacity_wh * 3600;
-  v.number("hotel_w", battery.hotel_w,
-           {0, 1e6, "W", "power of everything that is always on, except the modem"});
+  v.number("hotel_w", battery.hotel_w, {0, 1e6, "W", "power of everything always on, except the modem"});
   v.advanced([&] {
     v.number("listening_w", battery.listening_w, {0, 1e6, "W", "power of the listening modem, always drawn"});
     v.number("receiving_w", battery.receiving_w,
-             {0, 1e6, "W", "additional power while the modem receives a packet"});
+             {0, 1e6, "W", "additional power during the reception of a packet"});
     v.number("transmit_efficiency", battery.transmit_efficiency,
              {0.001, 1, "", "efficiency of amplifier and transducer: acoustic over electric power"});
     v.number("shaft_efficiency", battery.shaft_efficiency,

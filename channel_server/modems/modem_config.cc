@@ -42,15 +42,14 @@ void visit_family(bus::ConfigVisitor& v, acoustics::Modem& a) {
 void visit_signal(bus::ConfigVisitor& v, acoustics::Modem& a) {
   v.number("source_level_db", a.source_level.value, {0, 250, "dB re 1 uPa at 1 m", "source level"});
   v.number("cutoff_level_db", a.min_receivable_level.value,
-           {-200, 250, "dB re 1 uPa", "minimum level that is received"});
+           {-200, 250, "dB re 1 uPa", "minimum received level"});
   v.number("center_frequency_hz", a.centre_frequency_hz, {10, 1e6, "Hz", "centre of the band"});
   v.number("bandwidth_hz", a.bandwidth_hz, {1e-3, 2e6, "Hz", "width of the band, below twice its centre"});
   v.number("directivity_index_db", a.directivity_index.value,
            {0, 40, "dB", "directivity index of the receiver: gain over noise"});
-  v.number("bit_rate_bps", a.bit_rate_bps,
-           {1e-3, 1e7, "bit/s", "bit rate of the payload; profile generic alone"});
+  v.number("bit_rate_bps", a.bit_rate_bps, {1e-3, 1e7, "bit/s", "bit rate of the payload; generic alone"});
   bus::seconds(v, "packet_overhead_s", a.packet_overhead,
-               {0, 60, "s", "duration of preamble and header; profile generic alone"});
+               {0, 60, "s", "duration of preamble and header; generic alone"});
 }
 
 // Visits framing and hopping, which only a profile's file may set.
@@ -58,8 +57,7 @@ void visit_framing(bus::ConfigVisitor& v, acoustics::Modem& a) {
   acoustics::FrameLayout& layout = a.layout;
   bus::integer_as(v, "preamble_pieces", a.preamble_pieces,
                   {1, 256, "", "pieces of the preamble, matched each and added without phase"});
-  bus::integer_as(v, "header_bits", layout.header_bits,
-                  {0, 1e6, "bits", "bits of the coded block before the payload"});
+  bus::integer_as(v, "header_bits", layout.header_bits, {0, 1e6, "bits", "coded block before the payload"});
   bus::integer_as(v, "tail_bits", layout.tail_bits, {0, 1e6, "bits", "bits that end each coded block"});
   bus::integer_as(v, "frame_bytes", layout.frame_bytes,
                   {0, 32768, "bytes", "bytes of a frame, which is sent whole; 0: no frames"});
@@ -92,8 +90,7 @@ void visit_reception(bus::ConfigVisitor& v, acoustics::Modem& a) {
              {0, 1, "", "maximum |f_rx / f_tx - 1| that is received without fading"});
     v.number("doppler_correction", a.doppler_correction,
              {0, 1, "", "maximum |f_rx / f_tx - 1| that is corrected with fading"});
-    bus::seconds(v, "time_quantum_s", a.time_quantum,
-                 {0, 1, "s", "resolution of the measured time of arrival; 0: none"});
+    bus::seconds(v, "time_quantum_s", a.time_quantum, {0, 1, "s", "resolution of times of arrival; 0: none"});
   });
   a.guard_taper = taper_from(taper_s);
   bus::choice(v, "error_model", a.error_model, bus::names_of(acoustics::kErrorModels), "model of bit errors");

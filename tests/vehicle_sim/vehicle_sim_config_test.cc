@@ -63,7 +63,6 @@ state_rate_hz = 20
 sensor_rate_hz = 4
 command_timeout_s = 3
 current_ned_mps = [0.1, 0.2, 0.0]
-current_treatment = "upstream"
 [vehicle_sim.current]
 depth_rows = [[0, 0.5, 0], [50, 0, 0.1]]
 tide_amplitude_mps = 0.4
@@ -77,7 +76,6 @@ height_m = 1.5
   EXPECT_EQ(r.config.state_period, SimDuration::from_milliseconds(50));
   EXPECT_EQ(r.config.sensor_period, SimDuration::from_milliseconds(250));
   EXPECT_EQ(r.config.current.uniform_ned_mps, Vec3(0.1, 0.2, 0));
-  EXPECT_EQ(r.config.current_treatment, TreatmentChoice::kUpstream);
   ASSERT_EQ(r.config.current.by_depth.size(), 2u);
   EXPECT_EQ(r.config.current.by_depth[1].east_mps, 0.1);
   EXPECT_EQ(r.config.current.tide.amplitude_mps, 0.4);

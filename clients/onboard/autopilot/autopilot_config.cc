@@ -19,7 +19,7 @@ void visit_gains(ConfigVisitor& v, Gains& g) {
   v.number("heading_d_s", g.heading_d_s, {0, 100, "s", "rudder per yaw rate, rad per rad/s"});
   v.number("depth_p_rad_per_m", g.depth_p_rad_per_m, {0, 10, "rad/m", "pitch per metre of depth error"});
   v.number("depth_i_rad_per_m_s", g.depth_i_rad_per_m_s,
-           {0, 10, "rad/(m s)", "pitch per metre and second of depth error"});
+           {0, 10, "rad/(m s)", "pitch per depth error and second"});
   v.number("pitch_p", g.pitch_p, {0, 100, "", "stern plane per pitch error, rad per rad"});
   v.number("pitch_d_s", g.pitch_d_s, {0, 100, "s", "stern plane per pitch rate, rad per rad/s"});
   v.number("speed_feed_forward_rpm_s_per_m", g.speed_feed_forward_rpm_s_per_m,
@@ -36,25 +36,23 @@ void visit_gains(ConfigVisitor& v, Gains& g) {
 void visit_hover_gains(ConfigVisitor& v, HoverGains& g) {
   v.number("position_p_n_per_m", g.position_p_n_per_m, {0.01, 1e5, "N/m", "force per metre of distance"});
   v.number("position_i_n_per_m_s", g.position_i_n_per_m_s,
-           {0, 1e5, "N/(m s)", "force per metre of distance and second"});
-  v.number("position_d_n_s_per_m", g.position_d_n_s_per_m,
-           {0, 1e6, "N s/m", "force against the speed over ground"});
+           {0, 1e5, "N/(m s)", "force per distance and second"});
+  v.number("position_d_n_s_per_m", g.position_d_n_s_per_m, {0, 1e6, "N s/m", "force per speed over ground"});
   v.number("cruise_n_s2_per_m2", g.cruise_n_s2_per_m2,
            {0, 1e6, "N s^2/m^2", "force per square of the set speed, under way"});
   v.number("heading_p_nm", g.heading_p_nm, {0, 1e6, "N m", "moment per rad of heading error"});
   v.number("heading_d_nm_s", g.heading_d_nm_s, {0, 1e6, "N m s", "moment per rad/s of yaw rate"});
   v.number("depth_p_n_per_m", g.depth_p_n_per_m, {0.01, 1e5, "N/m", "force per metre of depth error"});
-  v.number("depth_i_n_per_m_s", g.depth_i_n_per_m_s,
-           {0, 1e5, "N/(m s)", "force per metre and second of depth error"});
+  v.number("depth_i_n_per_m_s", g.depth_i_n_per_m_s, {0, 1e5, "N/(m s)", "force per depth error and second"});
   v.number("depth_d_n_s_per_m", g.depth_d_n_s_per_m, {0, 1e6, "N s/m", "force against the vertical speed"});
   v.number("pitch_p_nm", g.pitch_p_nm, {0, 1e6, "N m", "moment per rad of pitch error"});
   v.number("pitch_d_nm_s", g.pitch_d_nm_s, {0, 1e6, "N m s", "moment per rad/s of pitch rate"});
   degrees(v, "max_pitch_deg", g.max_pitch_rad, {0, 60, "deg", "maximum set pitch, under way"});
   v.number("min_force_n", g.min_force_n, {0, 1e5, "N", "horizontal force below which the heading is kept"});
   v.number("beside_axis_m", g.beside_axis_m,
-           {0.01, 100, "m", "distance of the horizontal thrusters from the axis"});
+           {0.01, 100, "m", "distance of horizontal thrusters from the axis"});
   v.number("from_middle_m", g.from_middle_m,
-           {0.01, 100, "m", "distance of the vertical thrusters from the middle"});
+           {0.01, 100, "m", "distance of vertical thrusters from the middle"});
   v.number("full_thrust_n", g.full_thrust_n, {0.01, 1e6, "N", "thrust of a thruster at full_rpm"});
   v.number("astern_ratio", g.astern_ratio, {0.01, 1, "", "thrust astern over thrust ahead"});
   v.number("full_rpm", g.full_rpm, {1, 1e5, "rpm", "maximum speed of a thruster"});
@@ -66,11 +64,11 @@ void visit_glide(ConfigVisitor& v, GlideGains& g) {
   degrees(v, "pitch_deg", g.pitch_rad, {1, 60, "deg", "pitch, down on dives, up on climbs"});
   v.advanced([&] {
     v.number("volume_m3", g.volume_m3,
-             {0, 1000, "m^3", "volume that the buoyancy engine takes in on dives and adds on climbs"});
+             {0, 1000, "m^3", "volume of the buoyancy engine, less on dives, more on climbs"});
     v.number("mass_p_m_per_rad", g.mass_p_m_per_rad,
-             {0, 1000, "m/rad", "shift of the moving mass per rad of pitch error"});
+             {0, 1000, "m/rad", "shift of the mass per rad of pitch error"});
     v.number("mass_i_m_per_rad_s", g.mass_i_m_per_rad_s,
-             {0, 1000, "m/(rad s)", "shift of the moving mass per rad and second of pitch error"});
+             {0, 1000, "m/(rad s)", "shift of the mass per pitch error and second"});
     v.number("max_mass_m", g.max_mass_m, {0, 1000, "m", "maximum shift of the moving mass, either way"});
   });
 }
@@ -105,8 +103,7 @@ void visit_circle(ConfigVisitor& v, Behaviour& b) {
 void visit_where(ConfigVisitor& v, Behaviour& b) {
   using Kind = BehaviourKind;
   const auto visit_altitude = [&] {
-    v.number("altitude_m", b.altitude_m,
-             {0, 1000, "m", "height above the seabed instead of a depth; 0: not used"});
+    v.number("altitude_m", b.altitude_m, {0, 1000, "m", "height above the seabed, not depth; 0: not used"});
   };
   if (!v.writing()) visit_altitude();
   with_kind(v, b, {Kind::kHeading, Kind::kLoiter, Kind::kSurvey}, [&] {
@@ -120,7 +117,7 @@ void visit_where(ConfigVisitor& v, Behaviour& b) {
   });
   with_kind(v, b, {Kind::kHeading, Kind::kSurvey}, [&] {
     degrees(v, "heading_deg", b.heading_rad,
-            {-360, 360, "deg", "course of heading, and of a survey's first track"});
+            {-360, 360, "deg", "course of heading, of a survey's first track"});
   });
   visit_circle(v, b);
   with_kind(v, b, {Kind::kSurvey}, [&] {
@@ -140,8 +137,7 @@ void visit_formation(ConfigVisitor& v, Formation& f) {
            {-100, 12000, "m", "z of the circle (radius_m) of a follower that has lost its leader"});
   v.advanced([&] {
     v.number("fresh_for_s", f.fresh_for_s, {1, 60, "s", "age of a report beyond which the leader is lost"});
-    v.number("keep_course_s", f.keep_course_s,
-             {0, 1e5, "s", "time for which the last course is kept without a leader"});
+    v.number("keep_course_s", f.keep_course_s, {0, 1e5, "s", "time for which it keeps the last course"});
     v.number("safe_speed_mps", f.safe_speed_mps, {0.01, 50, "m/s", "speed on the circle without a leader"});
     v.number("max_speed_mps", f.max_speed_mps, {0.01, 50, "m/s", "maximum speed to catch up"});
   });
@@ -151,8 +147,7 @@ void visit_search(ConfigVisitor& v, Behaviour& b) {
   LinkSearch& s = b.search;
   v.text("listeners", s.listeners, {}, "names of the vehicles that are to receive it, with spaces between");
   v.when(b.waypoints.empty(), "no waypoints", [&] {
-    v.number("shallowest_m", s.shallowest_m,
-             {0, 12000, "m", "z of the first depth, where there are no waypoints"});
+    v.number("shallowest_m", s.shallowest_m, {0, 12000, "m", "z of the first depth, without waypoints"});
     v.number("deepest_m", s.deepest_m, {0, 12000, "m", "z of the last depth"});
     v.number("step_m", s.step_m, {0.1, 1000, "m", "distance between depths"});
   });
@@ -210,7 +205,7 @@ void visit_navigator(ConfigVisitor& v, PilotConfig& pilot) {
   v.number("log_drift_mps", rules.log_drift_mps,
            {0, 10, "m/s", "growth of the position's standard deviation without speed over ground: currents"});
   v.number("start_deviation_m", rules.start_deviation_m,
-           {0, 1e4, "m", "standard deviation of the position at the start"});
+           {0, 1e4, "m", "deviation of the position at the start"});
   v.advanced([&] {
     bus::degrees(v, "gyro_bias_degps", rules.gyro_bias_radps,
                  {0, 10, "deg/s", "largest bias of a gyro that replaces the compass"});
@@ -271,16 +266,10 @@ void visit_mission(ConfigVisitor& v, PilotConfig& pilot) {
   bus::when_one_of(v, "at_end", m.at_end, kEnds, {AtEnd::kHold}, [&] {
     v.number("hold_radius_m", m.hold_radius_m, {1, 1e5, "m", "radius of the circle round the last waypoint"});
   });
-  v.advanced([&] {
-    v.number("lookahead_m", m.lookahead_m,
-             {0.1, 1e4, "m", "distance ahead on the leg at which the vehicle steers"});
-  });
   v.number("min_altitude_m", m.min_altitude_m,
            {0, 1000, "m", "least height above the seabed, within the altimeter's range"});
-  bus::choice(
-      v, "steering", pilot.steering, kSteerings,
-      "actuators: propeller and fins, thrusters as of the model hover, or buoyancy engine, moving mass "
-      "and rudder");
+  bus::choice(v, "steering", pilot.steering, kSteerings,
+              "actuators: propeller and fins, thrusters as of hover, or buoyancy, moving mass and rudder");
   bus::choice(v, "navigate_by", pilot.navigate_by, {"state", "sensors"},
               "source of its position: the true state, or dead reckoning by its own sensors");
   v.when(pilot.navigate_by == NavigateBy::kSensors, "navigate_by = \"sensors\"", [&] {
@@ -299,8 +288,7 @@ void visit_vehicle(ConfigVisitor& v, PilotConfig& pilot) {
   bus::integer_as(v, "id", pilot.vehicle_id, {1, 2147483647, "", ""});
   v.vector3("start_ned_m", pilot.start_ned_m, {-1e6, 1e6, "m", ""});
   if (!v.given("mission")) return;
-  v.section("mission", "Mission of the autopilot",
-            [&](ConfigVisitor& mission) { visit_mission(mission, pilot); });
+  v.section("mission", "Mission of the autopilot", [&](ConfigVisitor& m) { visit_mission(m, pilot); });
 }
 
 void check_leaders(ConfigVisitor& v, const AutopilotConfig& config) {

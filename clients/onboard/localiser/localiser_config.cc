@@ -15,7 +15,7 @@ void visit_ranging(ConfigVisitor& v, VehicleLocaliser& l) {
   double period_s = l.ping_period.seconds(), start_s = l.ping_start.seconds();
   v.text("beacons", l.beacons, {}, "names of vehicles that do not move, with spaces between; empty: none");
   v.number("ping_period_s", period_s,
-           {0, 1e6, "s", "time between pings, to one beacon after the other; 0: none are sent"});
+           {0, 1e6, "s", "time between pings, to the beacons in turn; 0: no pings"});
   v.number("ping_start_s", start_s, {0, 1e7, "s", "time of the first ping, by the vehicle's clock"});
   l.ping_period = SimDuration::from_seconds(period_s);
   l.ping_start = SimTime::from_seconds(start_s);
@@ -28,29 +28,23 @@ void visit_ranging(ConfigVisitor& v, VehicleLocaliser& l) {
 
 void visit_clock_rules(ConfigVisitor& v, EstimatorRules& r) {
   double drift_ppm = r.clock_drift_sigma * 1e6;
-  v.number("clock_drift_sigma_ppm", drift_ppm,
-           {0, 1000, "ppm", "standard deviation of the clock's drift at the start"});
+  v.number("clock_drift_sigma_ppm", drift_ppm, {0, 1000, "ppm", "deviation of the clock's drift"});
   r.clock_drift_sigma = drift_ppm * 1e-6;
   v.number("clock_walk_s_per_sqrt_s", r.clock_walk_s_per_sqrt_s,
            {0, 1e-3, "s/sqrt(s)", "random walk of the clock's offset"});
-  v.number("clock_gps_sigma_s", r.clock_gps_sigma_s,
-           {0, 1, "s", "standard deviation of the clock's offset after a GPS fix"});
 }
 
 // Visits the errors that the estimator assumes.
 void visit_errors(ConfigVisitor& v, VehicleLocaliser& l) {
   EstimatorRules& r = l.rules;
-  v.number("timing_sigma_s", l.timing_sigma_s,
-           {1e-7, 1, "s", "standard deviation of a measured travel time"});
-  v.number("sound_speed_sigma", l.sound_speed_sigma,
-           {0, 0.1, "", "relative standard deviation of the mean sound speed"});
+  v.number("timing_sigma_s", l.timing_sigma_s, {1e-7, 1, "s", "deviation of a measured travel time"});
+  v.number("sound_speed_sigma", l.sound_speed_sigma, {0, 0.1, "", "relative deviation of the sound speed"});
   v.number("drift_m_per_sqrt_s", r.drift_m_per_sqrt_s,
            {1e-4, 100, "m/sqrt(s)", "error of dead reckoning: after t seconds this times sqrt(t)"});
   v.number("slip_m_per_sqrt_rad", r.slip_m_per_sqrt_rad,
            {0, 100, "m/sqrt(rad)", "error of dead reckoning in turns: after an angle this times its root"});
   v.number("current_sigma_mps", r.current_sigma_mps,
            {1e-4, 10, "m/s", "standard deviation of each component of the current at the start"});
-  v.number("depth_sigma_m", r.depth_sigma_m, {0, 100, "m", "standard deviation of the measured depth"});
   visit_clock_rules(v, r);
 }
 

@@ -62,9 +62,8 @@ void visit_access(ConfigVisitor& v, NetworkRules& r) {
   });
   with_mac(v, r, {Mac::kCsma, Mac::kMaca, Mac::kAlohaCa, Mac::kDacap}, [&] {
     bus::seconds(v, "backoff_s", r.backoff,
-                 {1e-3, 3600, "s", "csma, maca, aloha-ca, dacap: mean wait before another try"});
-    bus::integer_as(v, "tries", r.tries,
-                    {1, 1000, "", "csma, maca, aloha-ca, dacap: tries before a packet is dropped"});
+                 {1e-3, 3600, "s", "csma, maca, aloha-ca, dacap: mean wait for a try"});
+    bus::integer_as(v, "tries", r.tries, {1, 1000, "", "csma, maca, aloha-ca, dacap: tries of a packet"});
   });
 }
 

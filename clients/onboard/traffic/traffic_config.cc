@@ -53,15 +53,14 @@ void visit_hops(ConfigVisitor& v, RelayRules& relay) {
                    "transmissions of a packet on its way; above 1 it goes to all in range, with a "
                    "header of 14 bytes"});
   v.when(relay.hops > 1, "hops above 1", [&] {
-    v.boolean("confirmed", relay.confirmed,
-              "true: the destination sends a confirmation back, with hops above 1");
+    v.boolean("confirmed", relay.confirmed, "true: the destination confirms, with hops above 1");
   });
 }
 
 void visit_traffic(ConfigVisitor& v, VehicleTraffic& t) {
   double period_s = t.period.seconds(), start_s = t.start.seconds();
   v.number("period_s", period_s,
-           {0, 1e6, "s", "time between packets, by the vehicle's clock; 0: none are sent"});
+           {0, 1e6, "s", "time between packets, by the vehicle's clock; 0: no packets"});
   const auto when_it_sends = [&](const std::function<void()>& body) {
     v.when(period_s > 0, "period_s above 0", body);
   };
@@ -70,8 +69,7 @@ void visit_traffic(ConfigVisitor& v, VehicleTraffic& t) {
     v.text("destination", t.destination, {}, "name of a vehicle, or all");
     visit_kind(v, t);
     v.when(kind_of(t.kind).has_payload, "kind = \"data\" or \"janus-cargo\"", [&] {
-      bus::integer_as(v, "payload_bytes", t.payload_bytes,
-                      {0, 32768, "", "payload of each packet, in bytes"});
+      bus::integer_as(v, "payload_bytes", t.payload_bytes, {0, 32768, "", "bytes of each packet"});
     });
   });
   t.period = SimDuration::from_seconds(period_s);
