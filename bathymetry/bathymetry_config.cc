@@ -40,8 +40,7 @@ void visit_bounds(ConfigVisitor& v, RasterOptions& r) {
       "bounds", numbers,
       {-1e8, 1e8, "", "west, south, east, north of the pixel edges of a raster without a geotransform"});
   v.when(!numbers.empty(), "bounds", [&] {
-    bus::choice(v, "row_order", bounds.row_order, {"north_first", "south_first"},
-                "order of rows, with bounds");
+    bus::choice(v, "row_order", bounds.row_order, {"north_first", "south_first"}, "row order, with bounds");
   });
   if (numbers.empty()) return;
   if (numbers.size() != 4 || !(numbers[0] < numbers[2] && numbers[1] < numbers[3])) {
@@ -104,8 +103,7 @@ void visit_shapes(ConfigVisitor& v, TerrainRecipe& t) {
           s.number("depth_m", t.ridge.depth_m, {-kDeep, kDeep, "m", "z of the bottom far from it"});
           s.number("height_m", t.ridge.height_m,
                    {-kDeep, kDeep, "m", "height of the crest above depth_m; negative: a trench"});
-          s.number("half_width_m", t.ridge.half_width_m,
-                   {0.001, 1e6, "m", "standard deviation of the Gaussian across"});
+          s.number("half_width_m", t.ridge.half_width_m, {0.001, 1e6, "m", "standard deviation across"});
           s.number("crest_north_m", t.ridge.crest_x_m, {-1e6, 1e6, "m", "point of the crest, north"});
           s.number("crest_east_m", t.ridge.crest_y_m, {-1e6, 1e6, "m", "point of the crest, east"});
           bus::degrees(s, "azimuth_deg", t.ridge.azimuth_rad,

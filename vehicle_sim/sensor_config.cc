@@ -123,8 +123,7 @@ void visit_damage(ConfigVisitor& v, Fault& f) {
   with({FaultKind::kStuckRudder, FaultKind::kStuckSternPlanes}, [&] {
     if (v.writing() ? !f.angle_rad.has_value() : !v.given("angle_deg")) return;
     double angle_rad = f.angle_rad.value_or(0);
-    bus::degrees(v, "angle_deg", angle_rad,
-                 {-90, 90, "deg", "angle of stuck fins; not given: the present one"});
+    bus::degrees(v, "angle_deg", angle_rad, {-90, 90, "deg", "angle of stuck fins; not given: as they are"});
     f.angle_rad = angle_rad;
   });
   with({FaultKind::kLeak}, [&] {

@@ -25,8 +25,7 @@ void visit_battery(ConfigVisitor& v, VehicleBattery& battery) {
   v.number("hotel_w", battery.hotel_w, {0, 1e6, "W", "power of everything always on, except the modem"});
   v.advanced([&] {
     v.number("listening_w", battery.listening_w, {0, 1e6, "W", "power of the listening modem, always drawn"});
-    v.number("receiving_w", battery.receiving_w,
-             {0, 1e6, "W", "additional power during the reception of a packet"});
+    v.number("receiving_w", battery.receiving_w, {0, 1e6, "W", "additional power during a reception"});
     v.number("transmit_efficiency", battery.transmit_efficiency,
              {0.001, 1, "", "efficiency of amplifier and transducer: acoustic over electric power"});
     v.number("shaft_efficiency", battery.shaft_efficiency,

@@ -18,8 +18,7 @@ void visit_gains(ConfigVisitor& v, Gains& g) {
   v.number("heading_p", g.heading_p, {0, 100, "", "rudder per heading error, rad per rad"});
   v.number("heading_d_s", g.heading_d_s, {0, 100, "s", "rudder per yaw rate, rad per rad/s"});
   v.number("depth_p_rad_per_m", g.depth_p_rad_per_m, {0, 10, "rad/m", "pitch per metre of depth error"});
-  v.number("depth_i_rad_per_m_s", g.depth_i_rad_per_m_s,
-           {0, 10, "rad/(m s)", "pitch per depth error and second"});
+  v.number("depth_i_rad_per_m_s", g.depth_i_rad_per_m_s, {0, 10, "rad/(m s)", "pitch per metre and second"});
   v.number("pitch_p", g.pitch_p, {0, 100, "", "stern plane per pitch error, rad per rad"});
   v.number("pitch_d_s", g.pitch_d_s, {0, 100, "s", "stern plane per pitch rate, rad per rad/s"});
   v.number("speed_feed_forward_rpm_s_per_m", g.speed_feed_forward_rpm_s_per_m,
@@ -35,8 +34,7 @@ void visit_gains(ConfigVisitor& v, Gains& g) {
 
 void visit_hover_gains(ConfigVisitor& v, HoverGains& g) {
   v.number("position_p_n_per_m", g.position_p_n_per_m, {0.01, 1e5, "N/m", "force per metre of distance"});
-  v.number("position_i_n_per_m_s", g.position_i_n_per_m_s,
-           {0, 1e5, "N/(m s)", "force per distance and second"});
+  v.number("position_i_n_per_m_s", g.position_i_n_per_m_s, {0, 1e5, "N/(m s)", "force per metre and second"});
   v.number("position_d_n_s_per_m", g.position_d_n_s_per_m, {0, 1e6, "N s/m", "force per speed over ground"});
   v.number("cruise_n_s2_per_m2", g.cruise_n_s2_per_m2,
            {0, 1e6, "N s^2/m^2", "force per square of the set speed, under way"});
@@ -49,10 +47,8 @@ void visit_hover_gains(ConfigVisitor& v, HoverGains& g) {
   v.number("pitch_d_nm_s", g.pitch_d_nm_s, {0, 1e6, "N m s", "moment per rad/s of pitch rate"});
   degrees(v, "max_pitch_deg", g.max_pitch_rad, {0, 60, "deg", "maximum set pitch, under way"});
   v.number("min_force_n", g.min_force_n, {0, 1e5, "N", "horizontal force below which the heading is kept"});
-  v.number("beside_axis_m", g.beside_axis_m,
-           {0.01, 100, "m", "distance of horizontal thrusters from the axis"});
-  v.number("from_middle_m", g.from_middle_m,
-           {0.01, 100, "m", "distance of vertical thrusters from the middle"});
+  v.number("beside_axis_m", g.beside_axis_m, {0.01, 100, "m", "distance from axis to horizontal thrusters"});
+  v.number("from_middle_m", g.from_middle_m, {0.01, 100, "m", "distance from middle to vertical thrusters"});
   v.number("full_thrust_n", g.full_thrust_n, {0.01, 1e6, "N", "thrust of a thruster at full_rpm"});
   v.number("astern_ratio", g.astern_ratio, {0.01, 1, "", "thrust astern over thrust ahead"});
   v.number("full_rpm", g.full_rpm, {1, 1e5, "rpm", "maximum speed of a thruster"});
@@ -65,11 +61,10 @@ void visit_glide(ConfigVisitor& v, GlideGains& g) {
   v.advanced([&] {
     v.number("volume_m3", g.volume_m3,
              {0, 1000, "m^3", "volume of the buoyancy engine, less on dives, more on climbs"});
-    v.number("mass_p_m_per_rad", g.mass_p_m_per_rad,
-             {0, 1000, "m/rad", "shift of the mass per rad of pitch error"});
+    v.number("mass_p_m_per_rad", g.mass_p_m_per_rad, {0, 1000, "m/rad", "mass shift per rad of pitch error"});
     v.number("mass_i_m_per_rad_s", g.mass_i_m_per_rad_s,
-             {0, 1000, "m/(rad s)", "shift of the mass per pitch error and second"});
-    v.number("max_mass_m", g.max_mass_m, {0, 1000, "m", "maximum shift of the moving mass, either way"});
+             {0, 1000, "m/(rad s)", "mass shift per pitch error and second"});
+    v.number("max_mass_m", g.max_mass_m, {0, 1000, "m", "maximum shift of the moving mass"});
   });
 }
 
@@ -117,7 +112,7 @@ void visit_where(ConfigVisitor& v, Behaviour& b) {
   });
   with_kind(v, b, {Kind::kHeading, Kind::kSurvey}, [&] {
     degrees(v, "heading_deg", b.heading_rad,
-            {-360, 360, "deg", "course of heading, of a survey's first track"});
+            {-360, 360, "deg", "course of heading and a survey's first track"});
   });
   visit_circle(v, b);
   with_kind(v, b, {Kind::kSurvey}, [&] {
@@ -204,8 +199,7 @@ void visit_navigator(ConfigVisitor& v, PilotConfig& pilot) {
   NavigatorRules& rules = pilot.navigator;
   v.number("log_drift_mps", rules.log_drift_mps,
            {0, 10, "m/s", "growth of the position's standard deviation without speed over ground: currents"});
-  v.number("start_deviation_m", rules.start_deviation_m,
-           {0, 1e4, "m", "deviation of the position at the start"});
+  v.number("start_deviation_m", rules.start_deviation_m, {0, 1e4, "m", "standard deviation of the start"});
   v.advanced([&] {
     bus::degrees(v, "gyro_bias_degps", rules.gyro_bias_radps,
                  {0, 10, "deg/s", "largest bias of a gyro that replaces the compass"});

@@ -14,8 +14,7 @@ using bus::ConfigVisitor;
 void visit_ranging(ConfigVisitor& v, VehicleLocaliser& l) {
   double period_s = l.ping_period.seconds(), start_s = l.ping_start.seconds();
   v.text("beacons", l.beacons, {}, "names of vehicles that do not move, with spaces between; empty: none");
-  v.number("ping_period_s", period_s,
-           {0, 1e6, "s", "time between pings, to the beacons in turn; 0: no pings"});
+  v.number("ping_period_s", period_s, {0, 1e6, "s", "time between pings, to the beacons in turn; 0: none"});
   v.number("ping_start_s", start_s, {0, 1e7, "s", "time of the first ping, by the vehicle's clock"});
   l.ping_period = SimDuration::from_seconds(period_s);
   l.ping_start = SimTime::from_seconds(start_s);

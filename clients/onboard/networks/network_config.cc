@@ -61,8 +61,7 @@ void visit_access(ConfigVisitor& v, NetworkRules& r) {
     bus::seconds(v, "slot_s", r.slot, {1e-3, 3600, "s", "slotted-aloha, tdma: length of a slot"});
   });
   with_mac(v, r, {Mac::kCsma, Mac::kMaca, Mac::kAlohaCa, Mac::kDacap}, [&] {
-    bus::seconds(v, "backoff_s", r.backoff,
-                 {1e-3, 3600, "s", "csma, maca, aloha-ca, dacap: mean wait for a try"});
+    bus::seconds(v, "backoff_s", r.backoff, {1e-3, 3600, "s", "csma, maca, aloha-ca, dacap: mean backoff"});
     bus::integer_as(v, "tries", r.tries, {1, 1000, "", "csma, maca, aloha-ca, dacap: tries of a packet"});
   });
 }

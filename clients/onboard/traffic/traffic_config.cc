@@ -59,8 +59,7 @@ void visit_hops(ConfigVisitor& v, RelayRules& relay) {
 
 void visit_traffic(ConfigVisitor& v, VehicleTraffic& t) {
   double period_s = t.period.seconds(), start_s = t.start.seconds();
-  v.number("period_s", period_s,
-           {0, 1e6, "s", "time between packets, by the vehicle's clock; 0: no packets"});
+  v.number("period_s", period_s, {0, 1e6, "s", "time between packets, by the vehicle's clock; 0: none"});
   const auto when_it_sends = [&](const std::function<void()>& body) {
     v.when(period_s > 0, "period_s above 0", body);
   };
