@@ -21,9 +21,9 @@ const std::vector<std::string> kKinds{"flat", "slope", "ridge", "seamount", "ras
 void visit_domain(ConfigVisitor& v, DomainRecipe& d) {
   v.number("center_north_m", d.center_north_m, {-1e6, 1e6, "m", "centre of the grid, north of the origin"});
   v.number("center_east_m", d.center_east_m, {-1e6, 1e6, "m", "centre of the grid, east of the origin"});
-  v.number("size_north_m", d.size_north_m, {0.1, 1e6, "m", "extent, a whole multiple of the spacing"});
-  v.number("size_east_m", d.size_east_m, {0.1, 1e6, "m", "extent, a whole multiple of the spacing"});
-  v.number("spacing_m", d.spacing_m, {0.01, 1e5, "m", "distance between posts"});
+  v.number("size_north_m", d.size_north_m, {0.1, 1e6, "m", "north-south extent, a multiple of the spacing"});
+  v.number("size_east_m", d.size_east_m, {0.1, 1e6, "m", "east-west extent, a multiple of the spacing"});
+  v.number("spacing_m", d.spacing_m, {0.01, 1e5, "m", "distance between grid points"});
 }
 
 void check_domain(ConfigVisitor& v, const DomainRecipe& d) {
@@ -36,12 +36,11 @@ void visit_bounds(ConfigVisitor& v, RasterOptions& r) {
   const bool given = v.given("bounds") && (r.bounds || v.given("row_order"));
   std::vector<double> numbers;
   if (r.bounds) numbers = {bounds.west, bounds.south, bounds.east, bounds.north};
-  v.numbers("bounds", numbers,
-            {-1e8, 1e8, "",
-             "only for a raster without a geotransform: west, south, east, north of its pixel edges"});
+  v.numbers(
+      "bounds", numbers,
+      {-1e8, 1e8, "", "west, south, east, north of the pixel edges of a raster without a geotransform"});
   v.when(!numbers.empty(), "bounds", [&] {
-    bus::choice(v, "row_order", bounds.row_order, {"north_first", "south_first"},
-                "with bounds: how the file stores rows");
+    bus::choice(v, "row_order", bounds.row_order, {"north_first", "south_first"}, "row order, with bounds");
   });
   if (numbers.empty()) return;
   if (numbers.size() != 4 || !(numbers[0] < numbers[2] && numbers[1] < numbers[3])) {
@@ -53,24 +52,25 @@ void visit_bounds(ConfigVisitor& v, RasterOptions& r) {
 }
 
 void visit_raster(ConfigVisitor& v, RasterOptions& r) {
-  v.file("path", r.path, bus::FileNames::kRasters, "the file; relative to the scenario's folder");
-  v.text("variable", r.variable, {}, "of a netCDF file that holds several; empty: the only one");
+  v.file("path", r.path, bus::FileNames::kRasters, "file of the raster, relative to the scenario's folder");
+  v.text("variable", r.variable, {}, "variable of a netCDF file that holds several; empty: the only one");
   bus::integer_as(v, "band", r.band, {1, 1000, "", "band of the raster"});
-  v.boolean("positive_down", r.positive_down, "true for a file of depths that does not say so itself");
+  v.boolean("positive_down", r.positive_down, "true: the file holds depths without stating so");
   std::vector<double> no_data;
   if (r.no_data) no_data = {*r.no_data};
-  v.numbers("no_data", no_data, {-3.5e38, 3.5e38, "", "empty, or one more value that means no data"});
+  v.numbers("no_data", no_data, {-3.5e38, 3.5e38, "", "one more value that means no data; empty: none"});
   if (no_data.size() > 1) v.problem("no_data", "allowed is an array of no or one number");
   if (no_data.size() == 1) r.no_data = no_data.front();
-  v.boolean("trust_every_value", r.trust_every_value,
-            "true: no value is suspected of being undeclared no data");
-  bus::choice(v, "registration", r.registration, {"as_declared", "node"},
-              "node: the outermost posts lie on the file's bounds, not half a pixel inside");
+  v.advanced([&] {
+    v.boolean("trust_every_value", r.trust_every_value, "true: no value is suspected to be no data");
+    bus::choice(v, "registration", r.registration, {"as_declared", "node"},
+                "place of the outermost points; node: on the file's bounds, not half a pixel inside");
+  });
   visit_bounds(v, r);
   v.text("coordinate_system", r.coordinate_system, {},
-         "where the file names none: EPSG:..., or local for metres");
-  v.text("vertical_datum", r.vertical_datum, {}, "name of the file's vertical datum, where it names none");
-  v.number("datum_offset_m", r.datum_offset_m, {-200, 200, "m", "added to every depth"});
+         "coordinate system of a file that names none: EPSG:..., or local for metres");
+  v.text("vertical_datum", r.vertical_datum, {}, "vertical datum of a file that names none");
+  v.number("datum_offset_m", r.datum_offset_m, {-200, 200, "m", "offset added to every depth"});
 }
 
 // Requires a readable file, unless GDAL's own names are allowed, which need not be files.
@@ -89,43 +89,46 @@ void visit_shapes(ConfigVisitor& v, TerrainRecipe& t) {
   const auto shape = [&](std::string_view key, std::string_view meaning, TerrainKind kind, auto&& body) {
     with_kind(v, t, kind, [&] { v.section(key, meaning, body); });
   };
-  shape("flat", "kind = flat", TerrainKind::kFlat, [&](ConfigVisitor& s) {
+  shape("flat", "Flat seabed (kind = flat)", TerrainKind::kFlat, [&](ConfigVisitor& s) {
     s.number("depth_m", t.flat.depth_m, {-kDeep, kDeep, "m", "z of the bottom"});
   });
-  shape("slope", "kind = slope: a plane", TerrainKind::kSlope, [&](ConfigVisitor& s) {
+  shape("slope", "Plane slope (kind = slope)", TerrainKind::kSlope, [&](ConfigVisitor& s) {
     s.number("depth_m", t.slope.depth_m, {-kDeep, kDeep, "m", "z of the bottom at the origin"});
-    s.number("slope", t.slope.slope, {-10, 10, "", "metres down a metre along the azimuth"});
+    s.number("slope", t.slope.slope, {-10, 10, "", "gradient: metres down a metre along the azimuth"});
     bus::degrees(s, "azimuth_deg", t.slope.azimuth_rad,
-                 {-360, 360, "deg", "where it falls away, clockwise from north"});
+                 {-360, 360, "deg", "direction in which it falls, clockwise from north"});
   });
-  shape("ridge", "kind = ridge: Gaussian across, endless along", TerrainKind::kRidge, [&](ConfigVisitor& s) {
-    s.number("depth_m", t.ridge.depth_m, {-kDeep, kDeep, "m", "z of the bottom far from it"});
-    s.number("height_m", t.ridge.height_m,
-             {-kDeep, kDeep, "m", "of the crest above that; negative: a trench"});
-    s.number("half_width_m", t.ridge.half_width_m, {0.001, 1e6, "m", "Gaussian scale across"});
-    s.number("crest_north_m", t.ridge.crest_x_m, {-1e6, 1e6, "m", "a point of the crest, north"});
-    s.number("crest_east_m", t.ridge.crest_y_m, {-1e6, 1e6, "m", "a point of the crest, east"});
-    bus::degrees(s, "azimuth_deg", t.ridge.azimuth_rad,
-                 {-360, 360, "deg", "along the crest, clockwise from north"});
-  });
-  shape("seamount", "kind = seamount: a round Gaussian", TerrainKind::kSeamount, [&](ConfigVisitor& s) {
-    s.number("depth_m", t.seamount.depth_m, {-kDeep, kDeep, "m", "z of the bottom far from it"});
-    s.number("height_m", t.seamount.height_m,
-             {-kDeep, kDeep, "m", "of the summit above that; negative: a basin"});
-    s.number("radius_m", t.seamount.radius_m, {0.001, 1e6, "m", "Gaussian scale"});
-    s.number("summit_north_m", t.seamount.summit_x_m, {-1e6, 1e6, "m", "the summit, north"});
-    s.number("summit_east_m", t.seamount.summit_y_m, {-1e6, 1e6, "m", "the summit, east"});
-  });
+  shape("ridge", "Ridge, Gaussian across and endless along (kind = ridge)", TerrainKind::kRidge,
+        [&](ConfigVisitor& s) {
+          s.number("depth_m", t.ridge.depth_m, {-kDeep, kDeep, "m", "z of the bottom far from it"});
+          s.number("height_m", t.ridge.height_m,
+                   {-kDeep, kDeep, "m", "height of the crest above depth_m; negative: a trench"});
+          s.number("half_width_m", t.ridge.half_width_m, {0.001, 1e6, "m", "standard deviation across"});
+          s.number("crest_north_m", t.ridge.crest_x_m, {-1e6, 1e6, "m", "point of the crest, north"});
+          s.number("crest_east_m", t.ridge.crest_y_m, {-1e6, 1e6, "m", "point of the crest, east"});
+          bus::degrees(s, "azimuth_deg", t.ridge.azimuth_rad,
+                       {-360, 360, "deg", "direction of the crest, clockwise from north"});
+        });
+  shape("seamount", "Seamount, a round Gaussian (kind = seamount)", TerrainKind::kSeamount,
+        [&](ConfigVisitor& s) {
+          s.number("depth_m", t.seamount.depth_m, {-kDeep, kDeep, "m", "z of the bottom far from it"});
+          s.number("height_m", t.seamount.height_m,
+                   {-kDeep, kDeep, "m", "height of the summit above depth_m; negative: a basin"});
+          s.number("radius_m", t.seamount.radius_m, {0.001, 1e6, "m", "standard deviation of the Gaussian"});
+          s.number("summit_north_m", t.seamount.summit_x_m, {-1e6, 1e6, "m", "place of the summit, north"});
+          s.number("summit_east_m", t.seamount.summit_y_m, {-1e6, 1e6, "m", "place of the summit, east"});
+        });
 }
 
 void visit_relief(ConfigVisitor& v, FractalRelief& r) {
   v.number("rms_m", r.rms_m, {0, 5000, "m", "standard deviation; 0: no relief"});
   v.when(r.rms_m > 0, "rms_m above 0", [&] {
-    v.number("longest_wavelength_m", r.longest_wavelength_m, {0.01, 1e6, "m", "of the largest features"});
+    v.number("longest_wavelength_m", r.longest_wavelength_m, {0.01, 1e6, "m", "largest wavelength"});
     v.number("shortest_wavelength_m", r.shortest_wavelength_m,
-             {0.01, 1e6, "m", "of the smallest; below two posts: cut"});
-    v.number("hurst", r.hurst, {0, 1, "", "smaller is rougher at small scale; the sea floor has about 0.9"});
-    bus::integer_as(v, "seed", r.seed, {0, 9e15, "", "another seed is another relief"});
+             {0.01, 1e6, "m", "smallest wavelength; cut below two grid points"});
+    v.number("hurst", r.hurst,
+             {0, 1, "", "Hurst exponent; smaller is rougher at small scale; the sea floor has about 0.9"});
+    bus::integer_as(v, "seed", r.seed, {0, 9e15, "", "seed of the relief"});
   });
   if (r.shortest_wavelength_m > r.longest_wavelength_m) {
     v.problem("shortest_wavelength_m", "allowed is at most longest_wavelength_m");
@@ -136,9 +139,9 @@ void visit_nested(ConfigVisitor& v, NestedRecipe& n) {
   visit_domain(v, n.domain);
   check_domain(v, n.domain);
   v.number("blend_width_m", n.blend_width_m,
-           {0, 1e5, "m", "inside its border, drawn to the grid around over this"});
-  bus::choice(v, "holes", n.holes, {"keep", "fill_from_around"}, "posts without data in the finer raster");
-  v.section("raster", "the finer file", [&](ConfigVisitor& s) {
+           {0, 1e5, "m", "width inside its border over which it is blended into the grid around it"});
+  bus::choice(v, "holes", n.holes, {"keep", "fill_from_around"}, "points without data in the finer raster");
+  v.section("raster", "Finer raster file", [&](ConfigVisitor& s) {
     visit_raster(s, n.raster);
     require_raster(s, n.raster.path);
   });
@@ -147,12 +150,12 @@ void visit_nested(ConfigVisitor& v, NestedRecipe& n) {
 }  // namespace
 
 void visit(ConfigVisitor& v, TerrainRecipe& t) {
-  v.section("terrain", "The seabed", [&](ConfigVisitor& s) {
-    bus::choice(s, "kind", t.kind, kKinds, "what the seabed is made from");
+  v.section("terrain", "Seabed", [&](ConfigVisitor& s) {
+    bus::choice(s, "kind", t.kind, kKinds, "source of the seabed");
     const bool has_nested = s.writing() ? !t.nested.empty() : s.given("nested");
     s.when(t.kind == TerrainKind::kRaster || has_nested, "kind = \"raster\", or a nested raster", [&] {
       bus::choice(s, "frame", t.frame, {"flat", "enu"},
-                  "rasters: flat (z is depth) or enu (the earth's curvature in z)");
+                  "vertical axis of a raster: flat (z is depth) or enu (the Earth's curvature in z)");
     });
     if (!s.writing()) {
       with_kind(s, t, TerrainKind::kRaster, [&] { s.boolean("whole_file", t.whole_file, ""); });
@@ -161,13 +164,14 @@ void visit(ConfigVisitor& v, TerrainRecipe& t) {
     s.when(!is_whole_file, "whole_file = false", [&] { visit_domain(s, t.domain); });
     visit_shapes(s, t);
     with_kind(s, t, TerrainKind::kRaster, [&] {
-      s.section("raster", "kind = raster: GeoTIFF, netCDF, ESRI ASCII and other files of elevations",
+      s.section("raster",
+                "Raster file of elevations or depths: GeoTIFF, netCDF, ESRI ASCII and others (kind = raster)",
                 [&](ConfigVisitor& r) {
                   visit_raster(r, t.raster);
                   if (t.kind == TerrainKind::kRaster) require_raster(r, t.raster.path);
                 });
       s.boolean("whole_file", t.whole_file,
-                "true: a raster in local metres, post by post; the grid above is not used");
+                "true: the points of a raster in local metres as they are; the grid above is not used");
     });
     s.section("relief", "Synthetic relief on top, fractal and seeded",
               [&](ConfigVisitor& r) { visit_relief(r, t.relief); });

@@ -55,24 +55,27 @@ void visit_noise_variation(bus::ConfigVisitor& v, acoustics::NoiseVariation& n) 
 void visit_vehicle_noise(bus::ConfigVisitor& v, NoiseSource& noise) {
   std::vector<double> frequencies_khz, levels_db = noise.at_1m.levels_db();
   for (const double f : noise.at_1m.frequencies_hz()) frequencies_khz.push_back(f / 1000);
-  v.numbers("frequency_khz", frequencies_khz, {0.001, 1000, "kHz", "of level_db, rising"});
+  v.numbers("frequency_khz", frequencies_khz, {0.001, 1000, "kHz", "frequencies of level_db, rising"});
   v.numbers("level_db", levels_db,
             {-200, 300, "dB re 1 uPa^2/Hz at 1 m",
-             "of its noise at the reference; linear between, constant beyond"});
+             "spectral level of the noise at the reference; linear between, constant beyond"});
   const std::vector<std::string> kDrivers{"propeller", "speed", "nothing"};
-  bus::choice(v, "varies_with", noise.driver, kDrivers,
-              "60 log10 of the turn rate or speed over ground to the reference; nothing: always as loud");
+  bus::choice(
+      v, "varies_with", noise.driver, kDrivers,
+      "cause of changes, by 60 log10 of turn rate or speed over ground to the reference; nothing: constant");
   double turns_per_min = noise.driver == NoiseDriver::kPropeller ? noise.reference * 60 : kReferenceRpm;
   double speed_mps = noise.driver == NoiseDriver::kSpeed ? noise.reference : kReferenceMps;
   bus::when_one_of(v, "varies_with", noise.driver, kDrivers, {NoiseDriver::kPropeller}, [&] {
     v.number("reference_rpm", turns_per_min,
-             {1, 1e5, "rpm", "varies_with = propeller: of its fastest propeller"});
+             {1, 1e5, "rpm", "varies_with = propeller: turn rate of the fastest propeller"});
   });
   bus::when_one_of(v, "varies_with", noise.driver, kDrivers, {NoiseDriver::kSpeed}, [&] {
-    v.number("reference_mps", speed_mps, {0.01, 100, "m/s", "varies_with = speed: over ground"});
+    v.number("reference_mps", speed_mps, {0.01, 100, "m/s", "varies_with = speed: speed over ground"});
   });
   noise.reference = noise.driver == NoiseDriver::kPropeller ? turns_per_min / 60 : speed_mps;
-  v.number("own_loss_db", noise.own_loss.value, {0, 200, "dB", "from 1 m to its own hydrophone"});
+  v.advanced([&] {
+    v.number("own_loss_db", noise.own_loss.value, {0, 200, "dB", "loss from 1 m to the own hydrophone"});
+  });
   bus::report_refusal(v, "level_db", [&] {
     std::vector<double> frequencies_hz;
     for (const double f : frequencies_khz) frequencies_hz.push_back(f * 1000);
@@ -86,26 +89,27 @@ void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicl
   v.text("name", vehicle.name, {}, "channel suffix");
   if (v.writing() ? vehicle.clock.has_value() : v.given("clock")) {
     ClockSettings clock = vehicle.clock.value_or(ClockSettings());
-    v.section("clock", "By which it stamps packets; without this it has simulation time",
+    v.section("clock", "Clock that stamps packets; without this section it has simulation time",
               [&](bus::ConfigVisitor& section) { visit_clock(section, clock); });
     vehicle.clock = clock;
   }
   if (v.writing() ? vehicle.noise.has_value() : v.given("noise")) {
     NoiseSource noise = vehicle.noise.value_or(NoiseSource());
-    v.section("noise", "That it makes; without this it is silent",
+    v.section("noise", "Noise that the vehicle makes; without this section it is silent",
               [&](bus::ConfigVisitor& section) { visit_vehicle_noise(section, noise); });
     vehicle.noise = noise;
   }
   v.boolean("has_modem", vehicle.carries_modem,
             "false: a ship or a jammer, which sends and receives nothing");
   v.when(vehicle.carries_modem, "has_modem = true", [&] {
-    v.boolean("transponder", vehicle.is_transponder,
-              "its modem answers pings to all, of long-baseline ranging");
+    v.boolean("transponder", vehicle.is_transponder, "true: the modem answers pings to all (long baseline)");
     vehicle.has_modem = v.given("modem");
     if (!vehicle.has_modem) return;
     if (vehicle.modem == VehicleModem()) vehicle.modem = standard;
-    v.section("modem", "Where it differs from [modem]",
-              [&](bus::ConfigVisitor& modem) { visit_modem(modem, vehicle.modem); });
+    v.section("modem", "Modem of this vehicle where it differs, with the keys of [modem]",
+              [&](bus::ConfigVisitor& modem) {
+                modem.listed_elsewhere([&] { visit_modem(modem, vehicle.modem); });
+              });
   });
 }
 
@@ -166,12 +170,12 @@ void visit_extra_loss(bus::ConfigVisitor& v, ExtraLoss& loss) {
   v.text("from", loss.from, {}, "name of the sender; empty: any");
   v.text("to", loss.to, {}, "name of the receiver; empty: any");
   std::size_t kind = loss.kind ? 1 + static_cast<std::size_t>(*loss.kind) : 0;
-  bus::choice(v, "kind", kind, {kKinds.begin(), kKinds.end()}, "of packet");
+  bus::choice(v, "kind", kind, {kKinds.begin(), kKinds.end()}, "kind of packet");
   loss.kind = kind == 0 ? std::nullopt : std::optional(static_cast<PacketKind>(kind - 1));
-  v.number("share", loss.share, {0, 1, "", "of the packets that would have been received, lost on purpose"});
+  v.number("share", loss.share, {0, 1, "", "share of the packets that would have been received"});
   double at_s = loss.begin.seconds(), until_s = loss.end == SimTime::never() ? 0 : loss.end.seconds();
-  v.number("at_s", at_s, {0, 1e7, "s", "simulation time from which packets depart into it"});
-  v.number("until_s", until_s, {0, 1e7, "s", "and until when; 0: for ever"});
+  v.number("at_s", at_s, {0, 1e7, "s", "time of departure from which packets are lost"});
+  v.number("until_s", until_s, {0, 1e7, "s", "time of departure until which packets are lost; 0: no end"});
   loss.begin = SimTime::from_seconds(at_s);
   loss.end = until_s > 0 ? SimTime::from_seconds(until_s) : SimTime::never();
 }
@@ -204,7 +208,7 @@ acoustics::NoiseSources noise_sources(const EnvironmentConfig& config) {
 
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config) {
   visit_water(v, config);
-  v.section("modem", "The modem of every vehicle without one of its own",
+  v.section("modem", "Modem of every vehicle that does not set its own",
             [&](bus::ConfigVisitor& s) { visit_modem(s, config.modem); });
   v.list(
       "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },

@@ -286,12 +286,11 @@ constexpr std::array<std::string_view, 11> kKeysOfAProfile{"water_rows",
                                                            "profile_longitude_deg",
                                                            "profile_time_index"};
 
-void visit_change(bus::ConfigVisitor& v, ChangeConfig& c) {
-  v.number("at_s", c.at_s, {0, 1e9, "s", "simulation time from which it holds"});
-  visit_optional(v, "wind_mps", c.wind_mps, {0, 60, "m/s", "as in [environment]"});
-  visit_optional(v, "shipping", c.shipping, {0, 1, "", "as in [environment]"});
-  visit_optional(v, "rain_mm_per_h", c.rain_mm_per_h, {0, 500, "mm/h", "as in [environment]"});
-  visit_optional(v, "sea_surface_z_m", c.sea_surface_z_m, {-100, 100, "m", "z of the surface"});
+// Visits the keys that [environment] has, too.
+void visit_changed_water(bus::ConfigVisitor& v, ChangeConfig& c) {
+  visit_optional(v, "wind_mps", c.wind_mps, {0, 60, "m/s", ""});
+  visit_optional(v, "shipping", c.shipping, {0, 1, "", ""});
+  visit_optional(v, "rain_mm_per_h", c.rain_mm_per_h, {0, 500, "mm/h", ""});
   if (v.writing() ? !c.profile.has_value() : !v.given("profile")) {
     for (const std::string_view key : kKeysOfAProfile) {
       if (!v.writing() && v.given(key)) v.problem(key, "it needs a profile in the same table");
@@ -301,6 +300,12 @@ void visit_change(bus::ConfigVisitor& v, ChangeConfig& c) {
   ProfileConfig profile = c.profile.value_or(ProfileConfig());
   visit_profile(v, profile);
   c.profile = profile;
+}
+
+void visit_change(bus::ConfigVisitor& v, ChangeConfig& c) {
+  v.number("at_s", c.at_s, {0, 1e9, "s", "simulation time of the change"});
+  visit_optional(v, "sea_surface_z_m", c.sea_surface_z_m, {-100, 100, "m", "z of the surface"});
+  v.listed_elsewhere([&] { visit_changed_water(v, c); });
 }
 
 acoustics::SoundSpeedProfile profile_from_file(const EnvironmentConfig& config,
@@ -352,8 +357,9 @@ void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
   v.section("propagation", "How sound goes through it",
             [&](bus::ConfigVisitor& s) { visit_propagation(s, config.propagation); });
   v.list(
-      "environment_change", "The water changes; what is not given stays", config.changes.size(),
-      [&](std::size_t n) { config.changes.resize(n); },
+      "environment_change",
+      "Change of the sea at a time, with keys of [environment]: wind, shipping, rain and profile",
+      config.changes.size(), [&](std::size_t n) { config.changes.resize(n); },
       [&](bus::ConfigVisitor& item, std::size_t i) { visit_change(item, config.changes[i]); });
 }
 

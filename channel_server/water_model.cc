@@ -20,6 +20,9 @@
 
 namespace halocline::channel_server {
 
+// Spans of time in each of which sound propagates through the ocean's field as it is in the span's middle.
+constexpr double kSoundPeriodS = 600;
+
 void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
                       EnvironmentTimeline& timeline) {
   for (const ChangeConfig& c : config.changes) {
@@ -48,8 +51,7 @@ void set_field(const bus::Scenario& scenario, acoustics::Environment& environmen
   if (!field->has_water()) return;
   require(environment.profile.model() != acoustics::SoundSpeedModel::kTeos10,
           "ocean fields hold no absolute salinity: teos10 cannot use them");
-  const double period_s = entry.sound_period.seconds();
-  environment.field = {std::move(field), period_s / 2, period_s};
+  environment.field = {std::move(field), kSoundPeriodS / 2, kSoundPeriodS};
   environment.profile = environment_at(environment, 0, 0).profile;
 }
 

@@ -16,6 +16,7 @@
 #include "clients/onboard/traffic/traffic_node.h"
 #include "conductor/conductor_node.h"
 #include "core/check.h"
+#include "core/frames.h"
 #include "simulation/scenario_checks.h"
 #include "vehicle_sim/vehicle_block.h"
 #include "vehicle_sim/vehicle_sim_node.h"
@@ -111,7 +112,7 @@ std::string portable_toml(const ScenarioConfig& config) {
   return bus::to_portable_toml([&](bus::ConfigVisitor& v) { visit(v, resolved); });
 }
 
-std::string commented_toml() {
+std::string key_list(bus::KeyClass key_class) {
   ScenarioConfig config;
   config.scenario.vehicles.resize(1);
   config.scenario.vehicles[0].name = "auv-1";
@@ -121,18 +122,23 @@ std::string commented_toml() {
   config.channel_server.rules.medium.extra_loss.resize(1);
   config.channel_server.vehicles[0].clock.emplace();
   config.channel_server.vehicles[0].noise.emplace();
+  config.vehicle_sim.vehicles.resize(1);
+  config.vehicle_sim.vehicles[0].own = true;
   config.vehicle_sim.tethers.resize(1);
+  config.vehicle_sim.tethers[0].vehicle = "auv-1";
   config.vehicle_sim.faults.resize(1);
+  config.vehicle_sim.faults[0].vehicle = "auv-1";
   config.vehicle_sim.faults[0].fault.angle_rad = 0;
   config.channel_server.changes = {{600, 8, 0.3, 0, channel_server::ProfileConfig(), 10}};
   config.autopilot.vehicles.resize(1);
   config.autopilot.vehicles[0].behaviours.resize(1);
+  config.autopilot.vehicles[0].behaviours[0].waypoints = {Vec3(100, 0, 10)};
   config.traffic.vehicles.resize(1);
   config.localiser.vehicles.resize(1);
   config.network.members.resize(1);
   config.gateway.interfaces.resize(1);
   config.gateway.interfaces[0] = {"auv-1", 1, "nm3", modem_gateway::place_of("tcp:9600"), "", ""};
-  return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, /*with_comments=*/true);
+  return bus::to_key_list([&](bus::ConfigVisitor& v) { visit(v, config); }, key_class);
 }
 
 bathymetry::PreparedTerrain make_terrain(const ScenarioConfig& config) {

@@ -71,8 +71,9 @@ std::string effective_toml(const ScenarioConfig& config);
 // that it can be used on any machine.
 std::string portable_toml(const ScenarioConfig& config);
 
-// Returns a scenario file with every key, its default and its meaning, with one vehicle.
-std::string commented_toml();
+// Returns the keys of one class with their defaults and meanings, for one vehicle. The common keys are a
+// valid scenario file.
+std::string key_list(bus::KeyClass key_class);
 
 // Prepares the terrain of a scenario; throws InvalidArgument when a raster cannot be read.
 bathymetry::PreparedTerrain make_terrain(const ScenarioConfig& config);

@@ -16,7 +16,7 @@ Fleet::Fleet(const FleetSettings& settings, std::vector<FleetMember> members,
              std::shared_ptr<const Seabed> seabed, SimTime start, ForEach for_each)
     : settings_(settings),
       members_(std::move(members)),
-      world_(std::move(seabed), settings.seabed_friction, std::move(for_each)),
+      world_(std::move(seabed), VehicleWorld::kDefaultFriction, std::move(for_each)),
       time_(start),
       current_(settings.current, settings.seed),
       waves_(settings.waves, settings.seed),

@@ -65,7 +65,6 @@ struct FleetSettings {
   std::shared_ptr<const ocean::OceanField> ocean;  // field whose currents are added; null: none
   WaveSettings waves;
   std::uint64_t seed = 1;  // seed of random currents and waves
-  double seabed_friction = VehicleWorld::kDefaultFriction;
   std::vector<FleetTether> tethers;
 };
 

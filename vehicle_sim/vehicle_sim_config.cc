@@ -57,19 +57,18 @@ void visit_depth_rows(ConfigVisitor& v, std::vector<DepthCurrent>& rows) {
 void visit_current(ConfigVisitor& v, CurrentSettings& c) {
   visit_depth_rows(v, c.by_depth);
   v.number("tide_amplitude_mps", c.tide.amplitude_mps,
-           {0, kFastestCurrent, "m/s", "of a tide to and fro; 0: none"});
+           {0, kFastestCurrent, "m/s", "amplitude of a tide to and fro; 0: none"});
   v.when(c.tide.amplitude_mps > 0, "tide_amplitude_mps above 0", [&] {
-    v.number("tide_period_s", c.tide.period_s,
-             {1, 1e9, "s", "of the tide; 44714 s is the principal lunar one"});
-    bus::degrees(v, "tide_phase_deg", c.tide.phase_rad, {-360, 360, "deg", "at time 0; 0: full speed"});
+    v.number("tide_period_s", c.tide.period_s, {1, 1e9, "s", "period of the tide; 44714 s: the lunar tide"});
+    bus::degrees(v, "tide_phase_deg", c.tide.phase_rad, {-360, 360, "deg", "phase at time 0; 0: full speed"});
     bus::degrees(v, "tide_toward_deg", c.tide.toward_rad,
-                 {-360, 360, "deg", "where the tide runs to, clockwise from north"});
+                 {-360, 360, "deg", "direction towards which the tide flows, clockwise from north"});
   });
   v.number("random_deviation_mps", c.random.deviation_mps,
            {0, kFastestCurrent, "m/s",
             "standard deviation of a Gauss-Markov current, north and east each; 0: none"});
   v.when(c.random.deviation_mps > 0, "random_deviation_mps above 0", [&] {
-    v.number("random_time_s", c.random.time_s, {0.1, 1e6, "s", "its correlation time"});
+    v.number("random_time_s", c.random.time_s, {0.1, 1e6, "s", "correlation time of that current"});
   });
 }
 
@@ -80,15 +79,13 @@ void visit_waves(ConfigVisitor& v, WaveSettings& w) {
   };
   bus::choice(v, "sea", w.kind, kSeas, "kind of sea");
   with_sea({SeaKind::kRegular, SeaKind::kPiersonMoskowitz, SeaKind::kJonswap}, [&] {
-    v.number("height_m", w.height_m,
-             {0, 40, "m", "crest to trough of regular waves, significant height of a sea"});
-    v.number("period_s", w.period_s, {1, 30, "s", "of regular waves, of the peak of a sea"});
+    v.number("height_m", w.height_m, {0, 40, "m", "height of regular waves, significant height of a sea"});
+    v.number("period_s", w.period_s, {1, 30, "s", "period of regular waves, peak period of a sea"});
     bus::degrees(v, "toward_deg", w.toward_rad,
-                 {-360, 360, "deg", "where the waves run to, clockwise from north"});
+                 {-360, 360, "deg", "direction towards which the waves run, clockwise from north"});
   });
-  with_sea({SeaKind::kJonswap}, [&] { v.number("peakedness", w.peakedness, {1, 10, "", "of jonswap"}); });
-  with_sea({SeaKind::kPiersonMoskowitz, SeaKind::kJonswap}, [&] {
-    bus::integer_as(v, "components", w.components, {1, 1000, "", "sines that a sea is made of"});
+  with_sea({SeaKind::kJonswap}, [&] {
+    v.number("peakedness", w.peakedness, {1, 10, "", "peak enhancement factor of jonswap"});
   });
 }
 
@@ -111,14 +108,15 @@ SimDuration longest_gap(ConfigVisitor& v) {
 }
 
 void visit_state_rule(ConfigVisitor& v, StateRule& rule, SimDuration allowed) {
-  v.number(
-      "state_deviation_m", rule.deviation_m,
-      {0, 1000, "m", "a tick has a STATE only where the last one, carried on, is off by more; 0: each has"});
+  v.number("state_deviation_m", rule.deviation_m,
+           {0, 1000, "m",
+            "error of the last STATE, extrapolated, above which a tick has a new one; 0: each tick has one"});
   v.when(rule.deviation_m > 0, "state_deviation_m above 0", [&] {
     bus::degrees(v, "state_deviation_deg", rule.deviation_rad,
-                 {0.01, 180, "deg", "the same of the attitude, with state_deviation_m above 0"});
+                 {0.01, 180, "deg",
+                  "error of the attitude above which a tick has a STATE, with state_deviation_m above 0"});
     bus::seconds(v, "state_longest_silence_s", rule.longest_silence,
-                 {0.01, 2, "s", "at most between two STATEs, with state_deviation_m above 0"});
+                 {0.01, 2, "s", "longest time between two STATEs, with state_deviation_m above 0"});
   });
   if (v.writing() || rule.deviation_m == 0 || rule.longest_silence <= allowed) return;
   v.problem("state_longest_silence_s",
@@ -134,31 +132,30 @@ void visit_block(ConfigVisitor& v, VehicleBlock& block) {
        "vehicle simulators that share the vehicles, in the order of the scenario; hulls of different "
        "blocks pass through each other"});
   bus::integer_as(v, "block", block.index,
-                  {0, kMaxBlocks - 1.0, "", "which of them this one is; in one process all run"});
+                  {0, kMaxBlocks - 1.0, "", "number of this vehicle simulator; in one process all run"});
   if (!v.writing() && block.index >= block.count) v.problem("block", "allowed is 0 to blocks - 1");
 }
 
-void visit_section(ConfigVisitor& v, VehicleSimConfig& c, SimDuration allowed_silence) {
+void visit_tuning(ConfigVisitor& v, VehicleSimConfig& c, SimDuration allowed_silence) {
   bus::seconds(v, "step_s", c.step, {0.001, VehicleWorld::kLongestStep_s, "s", "step of the physics"});
-  visit_rate(v, "state_rate_hz", c.state_period,
-             {0.1, 100, "Hz", "STATE messages of each vehicle a second: its ticks"});
   visit_state_rule(v, c.states, allowed_silence);
-  visit_rate(v, "sensor_rate_hz", c.sensor_period,
-             {0.1, 50, "Hz", "SENSORS messages of each vehicle a second"});
   bus::seconds(v, "command_timeout_s", c.command_timeout,
                {0.05, 3600, "s", "age at which a command is void: propeller stops, fins amidships"});
-  v.number("altimeter_range_m", c.altimeter_range_m, {0.1, 10'000, "m", "greatest altitude measured"});
-  bus::seconds(v, "echo_timeout_s", c.echo_timeout,
-               {0.01, 5, "s", "how long sensors wait for the bathymetry service"});
+  v.number("buoyancy_over_weight", c.buoyancy_over_weight,
+           {0.5, 2, "", "buoyancy over weight of every vehicle; above 1 they rise"});
+  visit_block(v, c.block);
+}
+
+void visit_section(ConfigVisitor& v, VehicleSimConfig& c, SimDuration allowed_silence) {
+  visit_rate(v, "state_rate_hz", c.state_period,
+             {0.1, 100, "Hz", "STATE messages of each vehicle a second: its ticks"});
+  visit_rate(v, "sensor_rate_hz", c.sensor_period,
+             {0.1, 50, "Hz", "SENSORS messages of each vehicle a second"});
+  v.number("altimeter_range_m", c.altimeter_range_m, {0.1, 10'000, "m", "maximum range of altimeters"});
   v.vector3("current_ned_mps", c.current.uniform_ned_mps,
             {-kFastestCurrent, kFastestCurrent, "m/s", "steady current everywhere: north, east, down"});
-  bus::choice(v, "current_treatment", c.current_treatment, {"model", "upstream", "galilean"},
-              "how a current acts: as in each model, or for all as published with remus100-pvs, or exactly");
-  v.number("buoyancy_over_weight", c.buoyancy_over_weight,
-           {0.5, 2, "", "of every vehicle; above 1 they rise"});
-  bus::integer_as(v, "threads", c.threads, {1, 64, "", "that move vehicles; results are the same"});
-  visit_block(v, c.block);
-  v.number("seabed_friction", c.seabed_friction, {0, 10, "", "Coulomb's coefficient of hull on seabed"});
+  bus::integer_as(v, "threads", c.threads, {1, 64, "", "threads that move vehicles; results are the same"});
+  v.advanced([&] { visit_tuning(v, c, allowed_silence); });
   v.section("current", "Parts of the current that are added to current_ned_mps",
             [&](ConfigVisitor& section) { visit_current(section, c.current); });
   v.section("waves", "Waves: the motion of the water and, for models that float on them, of the surface",
@@ -166,23 +163,25 @@ void visit_section(ConfigVisitor& v, VehicleSimConfig& c, SimDuration allowed_si
 }
 
 void visit_tethers(ConfigVisitor& v, std::vector<TetherEntry>& tethers) {
-  const NumberRule place{-1e6, 1e6, "m", "where it is tied: forward, starboard, down of the hull's middle"};
-  const NumberRule other{-1e6, 1e6, "m", "the same of to_vehicle; of a fixed point, north, east, down"};
+  const NumberRule place{-1e6, 1e6, "m",
+                         "attachment on the vehicle: forward, starboard, down of the hull's middle"};
+  const NumberRule other{-1e6, 1e6, "m",
+                         "attachment on to_vehicle, likewise; of a fixed point: north, east, down"};
   v.list(
-      "tether", "A rope between two vehicles, or a vehicle and a fixed point", tethers.size(),
+      "tether", "Rope between two vehicles, or a vehicle and a fixed point", tethers.size(),
       [&](std::size_t n) { tethers.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) {
         TetherEntry& t = tethers[i];
-        item.text("vehicle", t.vehicle, {}, "name of one that moves");
+        item.text("vehicle", t.vehicle, {}, "name of a vehicle that moves");
         item.vector3("attached_at_m", t.attached_at_m, place);
-        item.text("to_vehicle", t.to_vehicle, {}, "name of another; empty: a fixed point");
+        item.text("to_vehicle", t.to_vehicle, {}, "name of another vehicle; empty: a fixed point");
         item.vector3("to_attached_at_m", t.to_attached_at_m, other);
-        item.number("length_m", t.length_m, {0.01, 1e5, "m", "its ends are held within this; it pulls only"});
+        item.number("length_m", t.length_m, {0.01, 1e5, "m", "greatest distance of its ends; it only pulls"});
       });
 }
 
 void visit_common_sensors(ConfigVisitor& v, SensorSettings& sensors) {
-  v.section("sensors", "The sensors of every vehicle, where it has none of its own",
+  v.section("sensors", "Sensors of every vehicle that does not set its own",
             [&](ConfigVisitor& section) { visit(section, sensors); });
 }
 
@@ -210,8 +209,9 @@ void visit_vehicle_sensors(ConfigVisitor& root, ConfigVisitor& v, VehicleSensors
     if (fitted) visit_common_sensors(root, vehicle.sensors);
   }
   if (!vehicle.own) return;
-  v.section("sensors", "Where they differ from [sensors] and from the model's",
-            [&](ConfigVisitor& section) { visit(section, vehicle.sensors); });
+  v.section(
+      "sensors", "Sensors of this vehicle that differ, with the keys of [sensors]",
+      [&](ConfigVisitor& section) { section.listed_elsewhere([&] { visit(section, vehicle.sensors); }); });
   // A key of [sensors] is used, too, when only this vehicle has the sensor that it belongs to.
   SensorSettings with_common = vehicle.sensors;
   if (!v.writing()) visit_common_sensors(root, with_common);
@@ -284,10 +284,6 @@ VehicleState start_of(const bus::VehicleEntry& entry, const Vec3& current_ned) {
 std::shared_ptr<const Model> model_for(const FilePath& name, const VehicleSimConfig& config) {
   ModelParameters parameters = load_model(name).parameters;
   parameters.buoyancy_n *= config.buoyancy_over_weight;
-  if (config.current_treatment == TreatmentChoice::kUpstream)
-    parameters.current_treatment = CurrentTreatment::kUpstream;
-  if (config.current_treatment == TreatmentChoice::kGalilean)
-    parameters.current_treatment = CurrentTreatment::kGalilean;
   return std::make_shared<const Model>(parameters);
 }
 
@@ -295,7 +291,7 @@ std::shared_ptr<const Model> model_for(const FilePath& name, const VehicleSimCon
 
 void visit(ConfigVisitor& v, VehicleSimConfig& config) {
   const SimDuration allowed_silence = v.writing() ? SimDuration() : longest_gap(v);
-  v.section("vehicle_sim", "The vehicle simulator",
+  v.section("vehicle_sim", "Vehicle simulator",
             [&](ConfigVisitor& section) { visit_section(section, config, allowed_silence); });
   visit_sensors(v, config);
   visit_tethers(v, config.tethers);
@@ -332,7 +328,6 @@ FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig&
   settings.ocean = moving_ocean(scenario);
   settings.waves = config.waves;
   settings.seed = scenario.seed;
-  settings.seabed_friction = config.seabed_friction;
   if (!config.tethers.empty()) {
     const std::vector<FleetMember> members = members_of(scenario, config);
     for (const TetherEntry& entry : config.tethers)

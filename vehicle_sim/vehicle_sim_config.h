@@ -34,9 +34,6 @@
 
 namespace halocline::vehicle_sim {
 
-// Treatment of the current: each model's own, or one for all models.
-enum class TreatmentChoice { kModel, kUpstream, kGalilean };
-
 // Tether in a scenario, with its ends by name.
 struct TetherEntry {
   std::string vehicle;                   // must be one that the simulator moves
@@ -76,12 +73,9 @@ struct VehicleSimConfig {
   SimDuration sensor_period = SimDuration::from_milliseconds(200);     // interval of SENSORS messages
   SimDuration command_timeout = SimDuration::from_milliseconds(2000);  // age at which a command ends
   double altimeter_range_m = 100;
-  SimDuration echo_timeout = SimDuration::from_milliseconds(250);  // maximum wait for the bathymetry service
   CurrentSettings current;
   WaveSettings waves;
-  TreatmentChoice current_treatment = TreatmentChoice::kModel;
   double buoyancy_over_weight = 1;
-  double seabed_friction = VehicleWorld::kDefaultFriction;
   int threads = 1;  // number of threads; the motion does not depend on it
   VehicleBlock block;
   std::vector<TetherEntry> tethers;

@@ -25,6 +25,7 @@ namespace {
 constexpr SimDuration kLongestHalt = SimDuration::from_milliseconds(2000);
 constexpr SimDuration kLongestArrear = SimDuration::from_milliseconds(2000);
 constexpr SimDuration kBatteryPeriod = SimDuration::from_milliseconds(1000);
+constexpr SimDuration kEchoTimeout = SimDuration::from_milliseconds(250);  // for the bathymetry service
 constexpr std::size_t kMaxBeams = 4096;  // maximum of one message, by the service's interface
 
 SimTime first_on_grid(SimTime from, SimDuration period) {
@@ -224,7 +225,7 @@ void VehicleSimNode::measure_all(SimTime steady) {
     const std::int64_t request = ray_request_++;
     std::optional<ray_query_t> query;
     if (!tick.beams.empty()) query = to_ray_query(tick.when, ray_client_, request, tick.beams);
-    echoes_.wait(request, std::move(tick), steady + config_.echo_timeout);
+    echoes_.wait(request, std::move(tick), steady + kEchoTimeout);
     if (query) bus().publish(bus::channels::kRayQuery, *query);
   }
 }

@@ -14,7 +14,7 @@
 //   for vehicles with a battery out  RAY_QUERY                     beams to the seabed
 //
 // Messages are stamped with the instant to which they apply. A measurement waits for its echoes until the
-// service answers or the time-out (echo_timeout, steady time) passes; the echoes are then unavailable.
+// service answers or the time-out (250 ms of steady time) passes; the echoes are then unavailable.
 //
 // A node that is started into a running simulation puts its vehicles at their starts at that time. A node
 // that was killed and has a journal (Node::keep_state_in) continues from the state that it published last: it

@@ -34,6 +34,13 @@ void ConfigVisitor::when(bool counts, std::string_view choice, const std::functi
   missing_choice_ = outer;
 }
 
+void ConfigVisitor::with_class(KeyClass key_class, const std::function<void()>& body) {
+  const KeyClass outer = key_class_;
+  key_class_ = std::max(outer, key_class);
+  body();
+  key_class_ = outer;
+}
+
 ConfigErrors::ConfigErrors(std::vector<std::string> lines)
     : InvalidArgument(joined(lines)), lines_(std::move(lines)) {}
 

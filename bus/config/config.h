@@ -41,6 +41,10 @@ struct NumberRule {
   std::string_view meaning;  // one line
 };
 
+// Place of a key in the lists of keys: in the list that every user reads, in that of tuning for special
+// vehicles, sensors and protocols, or under another section, which has the same keys.
+enum class KeyClass { kCommon, kAdvanced, kListedElsewhere };
+
 class ConfigVisitor {
  public:
   virtual ~ConfigVisitor() = default;
@@ -87,10 +91,21 @@ class ConfigVisitor {
   // configuration.
   void when(bool counts, std::string_view choice, const std::function<void()>& body);
 
+  // Visits keys that tune; they are read and written as all others, and differ only in the list of keys.
+  void advanced(const std::function<void()>& body) { with_class(KeyClass::kAdvanced, body); }
+  // Visits keys that the list of keys shows under another section.
+  void listed_elsewhere(const std::function<void()>& body) { with_class(KeyClass::kListedElsewhere, body); }
+
  protected:
   // Choice that is missing for the keys visited now; empty if they apply. Visitors of inner tables pass it
   // on.
   std::string missing_choice_;
+  // Class of the keys visited now. Writers of inner tables inherit it.
+  KeyClass key_class_ = KeyClass::kCommon;
+
+ private:
+  // An inner body cannot bring back what an outer one puts into a later class.
+  void with_class(KeyClass key_class, const std::function<void()>& body);
 };
 
 // Visits an integer of another width through ConfigVisitor::integer().
@@ -217,5 +232,8 @@ class ConfigFile {
 // along.
 std::string to_toml(const std::function<void(ConfigVisitor&)>& body, bool with_comments);
 std::string to_portable_toml(const std::function<void(ConfigVisitor&)>& body);
+
+// Returns the list of all keys of one class, with unit, range and meaning, whether they apply or not.
+std::string to_key_list(const std::function<void(ConfigVisitor&)>& body, KeyClass key_class);
 
 }  // namespace halocline::bus

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -135,18 +136,20 @@ class DocumentPrinter {
 // A table to be written. Several bodies may visit one table (each program its keys of [[vehicle]]): the first
 // visit of a key, a section or an item creates it, later visits add further keys.
 struct Table {
-  std::string header;  // comment and [path] line; empty for the document itself
+  std::string header;      // comment and [path] line; empty for the document itself
+  bool is_listed = false;  // prints its header even without keys
   std::vector<std::pair<std::string, std::string>> lines;  // key, and its complete line
   std::vector<std::string> order;                          // order of sections and lists
   std::map<std::string, std::vector<std::unique_ptr<Table>>, std::less<>> tables;
 
   // Returns the i-th table under `key`, and creates it if it is missing.
-  Table& table(const std::string& key, std::size_t i, const std::string& table_header) {
+  Table& table(const std::string& key, std::size_t i, const std::string& table_header, bool listed) {
     if (!tables.contains(key)) order.push_back(key);
     auto& list = tables[key];
     if (i >= list.size()) {
       list.push_back(std::make_unique<Table>());
       list.back()->header = table_header;
+      list.back()->is_listed = listed;
     }
     return *list[i];
   }
@@ -157,20 +160,25 @@ struct Table {
     lines.emplace_back(key, std::move(line));
   }
   // TOML requires a table's own keys before its sub-tables.
-  void print(std::ostream& out) const {
-    out << header;
-    for (const auto& [key, line] : lines) out << line;
+  std::string text() const {
+    std::string body;
+    for (const auto& [key, line] : lines) body += line;
     for (const std::string& key : order) {
-      for (const auto& table : tables.find(key)->second) table->print(out);
+      for (const auto& table : tables.find(key)->second) body += table->text();
     }
+    return body.empty() && !is_listed ? "" : header + body;
   }
 };
 
 class Writer : public ConfigVisitor {
  public:
-  // Writes every key with comments, or, without them, only the keys that apply.
-  Writer(Table& table, std::string path, bool with_comments, CarriedFiles& files)
-      : table_(table), path_(std::move(path)), with_comments_(with_comments), files_(files) {}
+  // Writes every key with comments, or, without them, only the keys that apply; with `only` the keys of that
+  // class alone.
+  Writer(Table& table, std::string path, bool with_comments, std::optional<KeyClass> only,
+         CarriedFiles& files, KeyClass key_class = KeyClass::kCommon)
+      : table_(table), path_(std::move(path)), with_comments_(with_comments), only_(only), files_(files) {
+    key_class_ = key_class;
+  }
 
   void number(std::string_view key, double& value, const NumberRule& rule) override {
     line(key, exact(value), described(rule));
@@ -213,8 +221,7 @@ class Writer : public ConfigVisitor {
                const std::function<void(ConfigVisitor&)>& body) override {
     if (is_left_out()) return;
     const std::string path = path_ + std::string(key);
-    Writer nested(table_.table(std::string(key), 0, "\n" + comment_line(meaning) + "[" + path + "]\n"),
-                  path + ".", with_comments_, files_);
+    Writer nested = inner(key, 0, comment_line(meaning) + "[" + path + "]");
     body(nested);
   }
   void list(std::string_view key, std::string_view meaning, std::size_t count,
@@ -223,8 +230,7 @@ class Writer : public ConfigVisitor {
     if (is_left_out()) return;
     const std::string path = path_ + std::string(key);
     for (std::size_t i = 0; i < count; ++i) {
-      const std::string header = "\n" + comment_line(i == 0 ? meaning : "") + "[[" + path + "]]\n";
-      Writer nested(table_.table(std::string(key), i, header), path + ".", with_comments_, files_);
+      Writer nested = inner(key, i, comment_line(i == 0 ? meaning : "") + "[[" + path + "]]");
       item(nested, i);
     }
   }
@@ -234,13 +240,19 @@ class Writer : public ConfigVisitor {
   void shared_with_others() override {}
 
  private:
+  // Returns a writer of the i-th table under `key`.
+  Writer inner(std::string_view key, std::size_t i, const std::string& header) {
+    Table& table = table_.table(std::string(key), i, "\n" + header + "\n", is_listed());
+    return {table, path_ + std::string(key) + ".", with_comments_, only_, files_, key_class_};
+  }
   // Files of keys that are left out are not carried.
   std::string name_of(const FilePath& path, FileNames names) {
     return is_left_out() ? "" : files_.name_of(path, names);
   }
   bool is_left_out() const { return !with_comments_ && !missing_choice_.empty(); }
+  bool is_listed() const { return !only_ || *only_ == key_class_; }
   void line(std::string_view key, const std::string& value, const std::string& comment) {
-    if (is_left_out()) return;
+    if (is_left_out() || !is_listed()) return;
     const std::string tail = with_comments_ && !comment.empty() ? "  # " + comment : "";
     table_.add_line(key, std::string(key) + " = " + value + tail + "\n");
   }
@@ -260,18 +272,17 @@ class Writer : public ConfigVisitor {
   Table& table_;
   std::string path_;
   bool with_comments_;
+  std::optional<KeyClass> only_;
   CarriedFiles& files_;
 };
 
 std::string written(const std::function<void(ConfigVisitor&)>& body, bool with_comments,
-                    CarriedFiles::Which which) {
+                    CarriedFiles::Which which, std::optional<KeyClass> only = std::nullopt) {
   Table document;
   CarriedFiles files(which);
-  Writer writer(document, "", with_comments, files);
+  Writer writer(document, "", with_comments, only, files);
   body(writer);
-  std::ostringstream out;
-  document.print(out);
-  return out.str() + files.to_toml();
+  return document.text() + files.to_toml();
 }
 
 }  // namespace
@@ -282,6 +293,10 @@ std::string to_toml(const std::function<void(ConfigVisitor&)>& body, bool with_c
 
 std::string to_portable_toml(const std::function<void(ConfigVisitor&)>& body) {
   return written(body, /*with_comments=*/false, CarriedFiles::Which::kAll);
+}
+
+std::string to_key_list(const std::function<void(ConfigVisitor&)>& body, KeyClass key_class) {
+  return written(body, /*with_comments=*/true, CarriedFiles::Which::kUnpacked, key_class);
 }
 
 std::string to_text(const ConfigDocument& document, const std::vector<std::string>& left_out,

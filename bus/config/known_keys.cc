@@ -32,8 +32,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 // Old names of keys and sections, and the names of today.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kRenamedKeys{
-    {{"door", "modem_interface"}, {"ground_ahead_m", "seabed_ahead_m"}, {"ground_drift", "dvl_drift"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 1> kRenamedKeys{
+    {{"door", "modem_interface"}}};
 
 // Limit between a typing error and another word: one edit in three letters.
 std::size_t most_edits(std::string_view key) { return std::max<std::size_t>(1, key.size() / 3); }

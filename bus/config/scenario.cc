@@ -22,18 +22,20 @@ void visit_battery(ConfigVisitor& v, VehicleBattery& battery) {
   double capacity_wh = battery.capacity_j / 3600;
   v.number("capacity_wh", capacity_wh, {0, 1e8, "Wh", "energy when full"});
   battery.capacity_j = capacity_wh * 3600;
-  v.number("hotel_w", battery.hotel_w, {0, 1e6, "W", "of all that is always on, but the modem"});
-  v.number("listening_w", battery.listening_w, {0, 1e6, "W", "of the modem, always"});
-  v.number("receiving_w", battery.receiving_w, {0, 1e6, "W", "more, while the modem follows a packet"});
-  v.number("transmit_efficiency", battery.transmit_efficiency,
-           {0.001, 1, "", "of amplifier and transducer: acoustic over electric power"});
-  v.number("shaft_efficiency", battery.shaft_efficiency,
-           {0.001, 1, "", "of motor and gear: power of the shafts over electric power"});
+  v.number("hotel_w", battery.hotel_w, {0, 1e6, "W", "power of everything always on, except the modem"});
+  v.advanced([&] {
+    v.number("listening_w", battery.listening_w, {0, 1e6, "W", "power of the listening modem, always drawn"});
+    v.number("receiving_w", battery.receiving_w, {0, 1e6, "W", "additional power during a reception"});
+    v.number("transmit_efficiency", battery.transmit_efficiency,
+             {0.001, 1, "", "efficiency of amplifier and transducer: acoustic over electric power"});
+    v.number("shaft_efficiency", battery.shaft_efficiency,
+             {0.001, 1, "", "efficiency of motor and gear: power of the shafts over electric power"});
+  });
 }
 
 void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   v.shared_with_others();
-  v.text("name", vehicle.name, {}, "channel suffix; " + std::string(kNameRule));
+  v.text("name", vehicle.name, {}, "name, which ends the vehicle's channels; " + std::string(kNameRule));
   if (!is_valid_name(vehicle.name)) v.problem("name", "allowed is a name of " + std::string(kNameRule));
   integer_as(v, "id", vehicle.id, {1, 2147483647, "", "unique number of the vehicle"});
   if (vehicle.id < 1) v.problem("id", "allowed is a whole number from 1");
@@ -49,7 +51,7 @@ void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   });
   if (v.writing() ? !vehicle.battery.has_value() : !v.given("battery")) return;
   VehicleBattery battery = vehicle.battery.value_or(VehicleBattery());
-  v.section("battery", "What it lives on; without this it has all the energy it needs",
+  v.section("battery", "Battery; without this section the vehicle has unlimited energy",
             [&](ConfigVisitor& section) { visit_battery(section, battery); });
   vehicle.battery = battery;
 }
@@ -67,19 +69,15 @@ bool is_valid_scenario_name(std::string_view name) {
 
 void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {
   v.file("file", ocean.file, FileNames::kFiles,
-         "CF netCDF with currents, or temperature and salinity, or both; empty: none");
+         "CF netCDF file with currents, or temperature and salinity, or both; empty: none");
   if (!ocean.file.empty() && !v.writing()) require_readable(v, "file", ocean.file);
   v.when(!ocean.file.empty(), "file = \"FILE\"", [&] {
     v.text("start_date", ocean.start_date, {},
-           "of simulation time 0, as 2026-05-01T06:00:00Z; empty: the file's first time");
+           "date of simulation time 0, as 2026-05-01T06:00:00Z; empty: the file's first time");
     v.boolean("moves_vehicles", ocean.moves_vehicles,
-              "its currents are added to those of the vehicle simulator");
+              "true: the file's currents are added to those of the vehicle simulator");
     v.boolean("carries_sound", ocean.carries_sound,
-              "sound goes through its temperature and salinity, in place of the profile");
-    v.when(ocean.carries_sound, "carries_sound = true", [&] {
-      seconds(v, "sound_period_s", ocean.sound_period,
-              {1, 1e7, "s", "spans in each of which sound has the water of the span's middle"});
-    });
+              "true: sound propagates through the file's temperature and salinity instead of the profile");
   });
 }
 
@@ -135,8 +133,8 @@ const VehicleEntry* Scenario::find(std::string_view vehicle_name) const {
 }
 
 void visit(ConfigVisitor& v, Scenario& s) {
-  v.section("scenario", "What this is and where", [&](ConfigVisitor& section) {
-    section.text("name", s.name, {}, "short name");
+  v.section("scenario", "Name, place and duration of the run", [&](ConfigVisitor& section) {
+    section.text("name", s.name, {}, "short name, also of the run's folder and files");
     if (!is_valid_scenario_name(s.name))
       section.problem(
           "name",
@@ -155,23 +153,27 @@ void visit(ConfigVisitor& v, Scenario& s) {
     section.number("sea_surface_z_m", s.sea_surface_z_m,
                    {-100, 100, "m", "z of the sea surface; negative when above the terrain's datum"});
   });
-  v.section("time", "How simulation time advances", [&](ConfigVisitor& section) {
+  v.section("time", "Pace of simulation time", [&](ConfigVisitor& section) {
     section.number("rate", s.rate, {1e-3, 1e4, "", "simulated seconds per wall second in real time"});
-    seconds(section, "clock_period_s", s.clock_period,
-            {1e-3, 60, "s", "simulated time between CLOCK messages"});
+    section.advanced([&] {
+      seconds(section, "clock_period_s", s.clock_period,
+              {1e-3, 60, "s", "simulated time between CLOCK messages"});
+    });
   });
-  v.section("bus", "Who may publish, and on which multicast groups", [&](ConfigVisitor& section) {
+  v.section("bus", "Hosts that may publish on the bus", [&](ConfigVisitor& section) {
     section.text(
         "accept", s.accept, {},
         "other hosts whose messages are received: any, or addresses and ranges as 10.0.3.7, 10.0.4.0/24; "
         "empty: any if the bus has ttl=1, none with ttl=0");
     report_refusal(section, "accept", [&] { accepted_hosts(s.accept, ""); });
-    section.number("tile_m", s.tile_m,
-                   {0, 1e6, "m",
-                    "side of tiles with a multicast group each for what a vehicle's own programs "
-                    "receive, by its start; 0: one group for all"});
+    section.advanced([&] {
+      section.number("tile_m", s.tile_m,
+                     {0, 1e6, "m",
+                      "side of tiles with a multicast group each for messages to the programs aboard the "
+                      "vehicles that start there; 0: one group for all"});
+    });
   });
-  v.section("ocean", "The ocean as fields of place and time",
+  v.section("ocean", "Ocean model: currents, temperature and salinity by place and time",
             [&](ConfigVisitor& section) { visit_ocean(section, s.ocean); });
   if (!v.writing()) {
     visit_rasters(v);

@@ -56,8 +56,6 @@ struct OceanEntry {
   std::string start_date;      // date of simulation time 0; empty: the file's first time
   bool moves_vehicles = true;  // currents of the file act on vehicles
   bool carries_sound = true;   // temperature and salinity of the file give the sound speed
-  // Update period of the water for sound: each period uses temperature and salinity of its middle.
-  SimDuration sound_period = SimDuration::from_seconds(600);
 };
 
 struct Scenario {

@@ -21,9 +21,9 @@ namespace {
 // A profile other than the modem's resets all parameters to those of the profile.
 void visit_profile(bus::ConfigVisitor& v, VehicleModem& m) {
   FilePath profile = m.profile;
-  v.file("profile", profile, bus::FileNames::kShipped,
-         "whose numbers hold where the keys below are not given: a file of models/modems by its name, or the "
-         "path of one");
+  v.file(
+      "profile", profile, bus::FileNames::kShipped,
+      "profile with the defaults of the other keys: a file of models/modems by its name, or the path of one");
   if (v.writing() || profile == m.profile) return;
   bus::report_refusal(v, "profile", [&] {
     VehicleModem other = load_modem(profile);
@@ -34,69 +34,73 @@ void visit_profile(bus::ConfigVisitor& v, VehicleModem& m) {
 }
 
 void visit_family(bus::ConfigVisitor& v, acoustics::Modem& a) {
-  v.text("family", a.family, {}, "of the waveform: modems of one family alone receive each other");
+  v.text("family", a.family, {}, "family of waveforms; modems receive those of their own family alone");
   if (!is_valid_name(a.family)) v.problem("family", "allowed is a name of " + std::string(kNameRule));
 }
 
 // Visits levels, band and bit rate.
 void visit_signal(bus::ConfigVisitor& v, acoustics::Modem& a) {
-  v.number("source_level_db", a.source_level.value, {0, 250, "dB re 1 uPa at 1 m", "strength"});
+  v.number("source_level_db", a.source_level.value, {0, 250, "dB re 1 uPa at 1 m", "source level"});
   v.number("cutoff_level_db", a.min_receivable_level.value,
-           {-200, 250, "dB re 1 uPa", "least receivable level"});
+           {-200, 250, "dB re 1 uPa", "minimum received level"});
   v.number("center_frequency_hz", a.centre_frequency_hz, {10, 1e6, "Hz", "centre of the band"});
   v.number("bandwidth_hz", a.bandwidth_hz, {1e-3, 2e6, "Hz", "width of the band, below twice its centre"});
-  v.number("directivity_index_db", a.directivity_index.value, {0, 40, "dB", "gain of reception over noise"});
-  v.number("bit_rate_bps", a.bit_rate_bps, {1e-3, 1e7, "bit/s", "of the payload; generic alone"});
+  v.number("directivity_index_db", a.directivity_index.value,
+           {0, 40, "dB", "directivity index of the receiver: gain over noise"});
+  v.number("bit_rate_bps", a.bit_rate_bps, {1e-3, 1e7, "bit/s", "bit rate of the payload; generic alone"});
   bus::seconds(v, "packet_overhead_s", a.packet_overhead,
-               {0, 60, "s", "preamble and header of a packet; generic alone"});
+               {0, 60, "s", "duration of preamble and header; generic alone"});
 }
 
 // Visits framing and hopping, which only a profile's file may set.
 void visit_framing(bus::ConfigVisitor& v, acoustics::Modem& a) {
   acoustics::FrameLayout& layout = a.layout;
   bus::integer_as(v, "preamble_pieces", a.preamble_pieces,
-                  {1, 256, "", "of the preamble, matched each and added without phase"});
-  bus::integer_as(v, "header_bits", layout.header_bits, {0, 1e6, "bits", "a coded block before the payload"});
-  bus::integer_as(v, "tail_bits", layout.tail_bits, {0, 1e6, "bits", "that end each coded block"});
-  bus::integer_as(v, "frame_bytes", layout.frame_bytes, {0, 32768, "bytes", "sent whole; 0: no frames"});
+                  {1, 256, "", "pieces of the preamble, matched each and added without phase"});
+  bus::integer_as(v, "header_bits", layout.header_bits, {0, 1e6, "bits", "coded block before the payload"});
+  bus::integer_as(v, "tail_bits", layout.tail_bits, {0, 1e6, "bits", "bits that end each coded block"});
+  bus::integer_as(v, "frame_bytes", layout.frame_bytes,
+                  {0, 32768, "bytes", "bytes of a frame, which is sent whole; 0: no frames"});
   v.when(layout.frame_bytes > 0, "frame_bytes above 0", [&] {
-    bus::integer_as(v, "max_frames", layout.max_frames, {0, 32, "", "of a packet with frames"});
+    bus::integer_as(v, "max_frames", layout.max_frames, {0, 32, "", "maximum number of frames of a packet"});
   });
   bus::integer_as(v, "mini_packet_bits", layout.mini_packet_bits,
-                  {0, 1e6, "bits", "of a mini-packet, addresses and check included; 0: there are none"});
+                  {0, 1e6, "bits", "bits of a mini-packet, addresses and check included; 0: there are none"});
   bus::integer_as(v, "application_bits", layout.application_bits,
-                  {0, 1e6, "bits", "of the header, which packets of kind JANUS carry; 0: there are none"});
-  bus::seconds(v, "chip_s", a.chip, {0, 10, "s", "of frequency-hopped FSK; 0: no hopping"});
+                  {0, 1e6, "bits", "bits of the header that packets of kind JANUS carry; 0: there are none"});
+  bus::seconds(v, "chip_s", a.chip, {0, 10, "s", "chip of frequency-hopped FSK; 0: no hopping"});
   bus::integer_as(v, "hop_count", a.hop_count, {0, 1024, "", "pairs of tones to hop between; 0: no hopping"});
-  bus::seconds(v, "hop_clearing_s", a.hop_clearing,
-               {0, 60, "s", "own echoes take nothing before the hop pattern returns, at least chip_s"});
+  bus::seconds(
+      v, "hop_clearing_s", a.hop_clearing,
+      {0, 60, "s",
+       "time after which the hop pattern returns to a tone, at least chip_s; earlier echoes cost nothing"});
 }
 
 // Visits the parameters of reception above the cut-off level.
 void visit_reception(bus::ConfigVisitor& v, acoustics::Modem& a) {
-  bus::seconds(v, "preamble_s", a.preamble,
-               {0, 60, "s", "first part of the overhead, by which a packet is detected; 0: always detected"});
-  bus::seconds(v, "guard_time_s", a.guard_time, {0, 10, "s", "echoes up to this late add to the signal"});
+  bus::seconds(
+      v, "preamble_s", a.preamble,
+      {0, 60, "s", "preamble, the first part of the overhead, which is detected; 0: always detected"});
+  bus::seconds(v, "guard_time_s", a.guard_time, {0, 10, "s", "delay up to which echoes add to the signal"});
   double taper_s = seconds_of(a.guard_taper);
-  v.number("guard_taper_s", taper_s,
-           {-1, 10, "s", "over which the weight of later ones falls to 0; below 0: one more guard time"});
+  v.advanced([&] {
+    v.number("guard_taper_s", taper_s,
+             {-1, 10, "s", "time over which the weight of later echoes falls to 0; below 0: one guard time"});
+    v.number("doppler_tolerance", a.doppler_tolerance,
+             {0, 1, "", "maximum |f_rx / f_tx - 1| that is received without fading"});
+    v.number("doppler_correction", a.doppler_correction,
+             {0, 1, "", "maximum |f_rx / f_tx - 1| that is corrected with fading"});
+    bus::seconds(v, "time_quantum_s", a.time_quantum, {0, 1, "s", "resolution of times of arrival; 0: none"});
+  });
   a.guard_taper = taper_from(taper_s);
-  v.number("doppler_tolerance", a.doppler_tolerance,
-           {0, 1, "", "greatest |f_rx / f_tx - 1| received where there is no fading"});
-  v.number("doppler_correction", a.doppler_correction,
-           {0, 1, "", "greatest |f_rx / f_tx - 1| corrected where there is fading"});
-  bus::seconds(v, "time_quantum_s", a.time_quantum,
-               {0, 1, "s", "resolution of the measured time of arrival; 0: none"});
-  bus::choice(v, "error_model", a.error_model, bus::names_of(acoustics::kErrorModels),
-              "how often bits are wrong");
+  bus::choice(v, "error_model", a.error_model, bus::names_of(acoustics::kErrorModels), "model of bit errors");
 }
 
 // Visits the modem's rates, which only a profile's file may set.
 void visit_rates(bus::ConfigVisitor& v, VehicleModem& m, std::vector<FilePath>& rates) {
-  bus::integer_as(v, "rate_number", m.rate_number, {0, 255, "", "by which a SEND names this rate"});
-  v.files(
-      "rates", rates, bus::FileNames::kShipped,
-      "that such a modem also sends and receives: profiles, as `profile` names them, with blanks between");
+  bus::integer_as(v, "rate_number", m.rate_number, {0, 255, "", "number by which a SEND names this rate"});
+  v.files("rates", rates, bus::FileNames::kShipped,
+          "other rates of the modem: profiles, as `profile` names them, with blanks between");
 }
 
 void visit_max_payload(bus::ConfigVisitor& v, VehicleModem& m) {
@@ -111,9 +115,10 @@ void visit_beam(bus::ConfigVisitor& v, acoustics::BeamPattern& beam) {
     losses_db.push_back(row.loss_db);
   }
   bus::degrees(v, "beam_elevation_deg", elevations_rad,
-               {-90, 90, "deg", "of beam_loss_db, positive down, rising; none: omnidirectional"});
-  v.numbers("beam_loss_db", losses_db,
-            {-60, 200, "dB", "of the transducer re source and cut-off level, in transmission and reception"});
+               {-90, 90, "deg", "elevations of beam_loss_db, positive down, rising; none: omnidirectional"});
+  v.numbers(
+      "beam_loss_db", losses_db,
+      {-60, 200, "dB", "loss of the transducer to source and cut-off level, in transmission and reception"});
   if (!v.given("beam_elevation_deg") && !v.given("beam_loss_db")) return;
   if (elevations_rad.size() != losses_db.size()) {
     return v.problem("beam_loss_db", "as many numbers as beam_elevation_deg has");
@@ -128,9 +133,10 @@ void visit_beam(bus::ConfigVisitor& v, acoustics::BeamPattern& beam) {
 }
 
 void visit_listening(bus::ConfigVisitor& v, Listening& listening) {
-  v.boolean("promiscuous", listening.promiscuous, "RECEIVE also of packets for other vehicles");
-  v.boolean("events", listening.events, "publishes MODEM_EVENTs: transmissions, packets detected, carrier");
-  v.when(listening.events, "events = true", [&] { visit_carrier_threshold(v, listening); });
+  v.boolean("promiscuous", listening.promiscuous, "true: RECEIVE also of packets for other vehicles");
+  v.boolean("events", listening.events, "true: MODEM_EVENT of transmissions, detections and carrier");
+  v.when(listening.events, "events = true",
+         [&] { v.advanced([&] { visit_carrier_threshold(v, listening); }); });
 }
 
 // Checks the relations between several values.
@@ -235,18 +241,18 @@ VehicleModem with_rates(bus::ConfigFile& file, const FilePath& profile) {
 
 void visit_carrier_threshold(bus::ConfigVisitor& v, Listening& listening) {
   v.number("carrier_threshold_db", listening.carrier_threshold.value,
-           {0, 100, "dB", "events: carrier is sensed where the sound of others exceeds the noise by this"});
+           {0, 100, "dB", "events: level of other sound above the noise at which carrier is sensed"});
 }
 
 void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
   acoustics::Modem& a = m.modem;
   visit_profile(v, m);
-  visit_family(v, a);
+  v.advanced([&] { visit_family(v, a); });
   visit_signal(v, a);
   visit_max_payload(v, m);
   visit_reception(v, a);
   visit_beam(v, a.beam);
-  bus::choice(v, "when_busy", m.when_busy, {"refuse", "queue"}, "on a SEND during a transmission");
+  bus::choice(v, "when_busy", m.when_busy, {"refuse", "queue"}, "reaction to a SEND during a transmission");
   visit_listening(v, m.listening);
   if (!v.writing() && m.profile != kGenericProfile) {
     bus::report_refusal(v, "profile", [&] { set_rates_of(load_modem(m.profile), m); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,24 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, ::testing::ValuesIn(shipped()), [
   std::replace(name.begin(), name.end(), '/', '_');
   return name;
 });
+
+// Keys that no shipped scenario sets, each with a value of its own.
+TEST(ScenarioConfig, KeysThatTuneReachTheConfiguration) {
+  const std::string path = std::string(HALOCLINE_SOURCE_DIR) + "/tests/data/scenarios/tuned.toml";
+  const std::string effective = effective_toml(load_checked(path, {}).config);
+  std::ifstream lines(path);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find(" = ") == std::string::npos) continue;
+    EXPECT_THAT(effective, ::testing::HasSubstr("\n" + line + "\n"));
+  }
+}
+
+TEST(ScenarioConfig, TheListOfCommonKeysIsAScenario) {
+  auto file = bus::ConfigFile::parse(key_list(bus::KeyClass::kCommon), "keys.toml");
+  const ScenarioConfig config = load_scenario(file, ScenarioUse::kRun);
+  EXPECT_EQ(config.vehicle_sim.vehicles.at(0).sensors, config.vehicle_sim.sensors);
+  EXPECT_EQ(config.channel_server.vehicles.at(0).modem, config.channel_server.modem);
+}
 
 // The vehicle simulator knows the receivers' keys, and their defaults, without knowing the receivers.
 TEST(ScenarioConfig, StatesMayBeSilentByTheDefaultsOfTheirReceivers) {

@@ -13,6 +13,7 @@
 #include "core/units.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/command_schedule.h"
+#include "vehicle_sim/moving_ocean.h"
 #include "vehicle_sim/sensors/sensor_errors.h"
 
 namespace halocline::vehicle_sim {
@@ -62,7 +63,6 @@ state_rate_hz = 20
 sensor_rate_hz = 4
 command_timeout_s = 3
 current_ned_mps = [0.1, 0.2, 0.0]
-current_treatment = "upstream"
 [vehicle_sim.current]
 depth_rows = [[0, 0.5, 0], [50, 0, 0.1]]
 tide_amplitude_mps = 0.4
@@ -76,7 +76,6 @@ height_m = 1.5
   EXPECT_EQ(r.config.state_period, SimDuration::from_milliseconds(50));
   EXPECT_EQ(r.config.sensor_period, SimDuration::from_milliseconds(250));
   EXPECT_EQ(r.config.current.uniform_ned_mps, Vec3(0.1, 0.2, 0));
-  EXPECT_EQ(r.config.current_treatment, TreatmentChoice::kUpstream);
   ASSERT_EQ(r.config.current.by_depth.size(), 2u);
   EXPECT_EQ(r.config.current.by_depth[1].east_mps, 0.1);
   EXPECT_EQ(r.config.current.tide.amplitude_mps, 0.4);
@@ -317,6 +316,13 @@ TEST(VehicleSimConfig, ImpossibleSensorsAndFaultsAreReportedWithLineAndRange) {
 TEST(VehicleSimConfig, AFaultOfAnUnknownVehicleIsRefused) {
   const Read r = read("[[vehicle]]\nname = \"a\"\nid = 1\n[[fault]]\nvehicle = \"b\"\n");
   EXPECT_THROW(faults_of(members_of(r.scenario, r.config), r.config), InvalidArgument);
+}
+
+TEST(VehicleSimConfig, TheCurrentsOfAnOceanMoveNobodyWhereTheyAreNotToMoveVehicles) {
+  const std::string ocean = "[ocean]\nfile = \"" HALOCLINE_SOURCE_DIR "/scenarios/front.nc\"\n";
+  const std::string origin = "[scenario]\norigin_latitude_deg = 39.9\norigin_longitude_deg = -71.2\n";
+  EXPECT_NE(moving_ocean(read(origin + ocean).scenario), nullptr);
+  EXPECT_EQ(moving_ocean(read(origin + ocean + "moves_vehicles = false\n").scenario), nullptr);
 }
 
 TEST(VehicleSimConfig, TheEffectiveConfigurationReadsBackAsItself) {

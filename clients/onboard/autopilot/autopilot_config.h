@@ -39,13 +39,11 @@ struct PilotConfig {
   std::int32_t vehicle_id = 0;
   Mission mission;
   std::vector<Behaviour> behaviours;  // replace the mission's waypoints
-  double seabed_ahead_m = 4;          // m, look-ahead distance for the slope of the seabed
   NavigateBy navigate_by = NavigateBy::kState;
   NavigatorRules navigator;  // used with navigate_by = sensors
   std::string usbl_beacons;  // vehicles used as USBL beacons: names, separated by spaces
   AcousticFixRules acoustic_fix;
-  SimDuration dvl_fresh_for = SimDuration::from_milliseconds(1500);  // maximum age of a ping in use
-  Vec3 start_ned_m = Vec3::Zero();                                   // starting position of the vehicle
+  Vec3 start_ned_m = Vec3::Zero();  // starting position of the vehicle
   Broadcast broadcast;
   Steering steering = Steering::kFins;
   Gains gains;             // for fins

@@ -17,6 +17,8 @@ namespace {
 
 constexpr SimDuration kPlanPeriod = SimDuration::from_milliseconds(60'000);
 constexpr SimDuration kStatusPeriod = SimDuration::from_milliseconds(1000);
+// Age up to which a ping of the Doppler log gives the velocity; beyond it, the speed through the water does.
+constexpr SimDuration kDvlFreshFor = SimDuration::from_milliseconds(1500);
 
 // Returns the latest instant of the grid at or before `time`.
 SimTime grid_instant(SimTime time, SimDuration period) { return next_on_grid(time, period) - period; }
@@ -37,7 +39,7 @@ AutopilotNode::AutopilotNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Au
 }
 
 void AutopilotNode::add_pilot(const AutopilotConfig& all, const PilotConfig& config) {
-  const SeabedRules rules{config.mission.min_altitude_m, config.seabed_ahead_m};
+  const SeabedRules rules{.min_altitude_m = config.mission.min_altitude_m};
   const VehiclePilot vehicle_pilot(make_plan(config.mission, config.behaviours), rules);
   pilots_.push_back(std::make_unique<Pilot>(Pilot{config, {}, {}, false, vehicle_pilot}));
   pilots_.back()->beacons = beacons_of(all, config);
@@ -99,8 +101,7 @@ void AutopilotNode::subscribe_fixes(Pilot& pilot) {
 }
 
 std::optional<vehicle_dvl_t> AutopilotNode::Pilot::fresh_ping(std::int64_t utime) const {
-  const bool is_fresh =
-      ping && SimTime::from_utime(utime) - SimTime::from_utime(ping->utime) <= config.dvl_fresh_for;
+  const bool is_fresh = ping && SimTime::from_utime(utime) - SimTime::from_utime(ping->utime) <= kDvlFreshFor;
   return is_fresh ? ping : std::nullopt;
 }
 

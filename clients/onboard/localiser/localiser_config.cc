@@ -14,45 +14,36 @@ using bus::ConfigVisitor;
 void visit_ranging(ConfigVisitor& v, VehicleLocaliser& l) {
   double period_s = l.ping_period.seconds(), start_s = l.ping_start.seconds();
   v.text("beacons", l.beacons, {}, "names of vehicles that do not move, with spaces between; empty: none");
-  v.number("ping_period_s", period_s,
-           {0, 1e6, "s", "between pings, to one beacon after the other; 0: none are sent"});
+  v.number("ping_period_s", period_s, {0, 1e6, "s", "time between pings, to the beacons in turn; 0: none"});
   v.number("ping_start_s", start_s, {0, 1e7, "s", "time of the first ping, by the vehicle's clock"});
   l.ping_period = SimDuration::from_seconds(period_s);
   l.ping_start = SimTime::from_seconds(start_s);
-  v.boolean("use_stamps", l.use_stamps, "take ranges from the stamped packets of the beacons, too");
+  v.boolean("use_stamps", l.use_stamps, "true: ranges are also taken from stamped packets of the beacons");
   v.number("start_sigma_m", l.start_sigma_m,
-           {0, 1e5, "m", "standard deviation of its known start; 0: the start is unknown"});
-  v.number("timing_sigma_s", l.timing_sigma_s,
-           {1e-7, 1, "s", "error of a measured travel time, standard deviation"});
-  v.number("sound_speed_sigma", l.sound_speed_sigma,
-           {0, 0.1, "", "relative error of the mean sound speed, standard deviation"});
+           {0, 1e5, "m", "standard deviation of the known start; 0: the start is unknown"});
+  v.number("clock_offset_sigma_s", l.rules.clock_offset_sigma_s,
+           {0, 1e5, "s", "standard deviation of the clock's offset at the start; 0: the clock is right"});
 }
 
 void visit_clock_rules(ConfigVisitor& v, EstimatorRules& r) {
-  v.number("clock_offset_sigma_s", r.clock_offset_sigma_s,
-           {0, 1e5, "s", "standard deviation of its clock's offset at the start; 0: its clock is right"});
   double drift_ppm = r.clock_drift_sigma * 1e6;
-  v.number("clock_drift_sigma_ppm", drift_ppm, {0, 1000, "ppm", "and of its drift"});
+  v.number("clock_drift_sigma_ppm", drift_ppm, {0, 1000, "ppm", "deviation of the clock's drift"});
   r.clock_drift_sigma = drift_ppm * 1e-6;
   v.number("clock_walk_s_per_sqrt_s", r.clock_walk_s_per_sqrt_s,
-           {0, 1e-3, "s/sqrt(s)", "random walk of the offset"});
-  v.number("clock_gps_sigma_s", r.clock_gps_sigma_s, {0, 1, "s", "of the offset after a GPS fix"});
+           {0, 1e-3, "s/sqrt(s)", "random walk of the clock's offset"});
 }
 
-void visit_rules(ConfigVisitor& v, EstimatorRules& r, bool has_beacons) {
+// Visits the errors that the estimator assumes.
+void visit_errors(ConfigVisitor& v, VehicleLocaliser& l) {
+  EstimatorRules& r = l.rules;
+  v.number("timing_sigma_s", l.timing_sigma_s, {1e-7, 1, "s", "deviation of a measured travel time"});
+  v.number("sound_speed_sigma", l.sound_speed_sigma, {0, 0.1, "", "relative deviation of the sound speed"});
   v.number("drift_m_per_sqrt_s", r.drift_m_per_sqrt_s,
            {1e-4, 100, "m/sqrt(s)", "error of dead reckoning: after t seconds this times sqrt(t)"});
   v.number("slip_m_per_sqrt_rad", r.slip_m_per_sqrt_rad,
-           {0, 100, "m/sqrt(rad)", "likewise: after a turn by some angle this times its root"});
+           {0, 100, "m/sqrt(rad)", "error of dead reckoning in turns: after an angle this times its root"});
   v.number("current_sigma_mps", r.current_sigma_mps,
-           {1e-4, 10, "m/s", "of each component of the current, before anything is known"});
-  v.number("current_walk_mps_per_sqrt_s", r.current_walk_mps_per_sqrt_s,
-           {0, 1, "m/s/sqrt(s)", "how the current changes"});
-  v.number("depth_sigma_m", r.depth_sigma_m, {0, 100, "m", "error of the measured depth"});
-  v.when(has_beacons, "beacons", [&] {
-    v.number("gate", r.gate,
-             {1, 100, "", "ranges farther off than this many standard deviations are outliers"});
-  });
+           {1e-4, 10, "m/s", "standard deviation of each component of the current at the start"});
   visit_clock_rules(v, r);
 }
 
@@ -64,9 +55,9 @@ void visit_vehicle(ConfigVisitor& v, VehicleLocaliser& vehicle) {
   if (!v.writing()) v.boolean("has_modem", vehicle.has_modem, "");
   if (!v.given("localiser")) return;
   v.when(vehicle.has_modem, "has_modem = true", [&] {
-    v.section("localiser", "How this vehicle finds its place", [&](ConfigVisitor& section) {
+    v.section("localiser", "Localisation by ranges to beacons", [&](ConfigVisitor& section) {
       visit_ranging(section, vehicle);
-      visit_rules(section, vehicle.rules, !vehicle.beacons.empty());
+      section.advanced([&] { visit_errors(section, vehicle); });
     });
   });
 }
@@ -74,10 +65,6 @@ void visit_vehicle(ConfigVisitor& v, VehicleLocaliser& vehicle) {
 }  // namespace
 
 void visit(ConfigVisitor& v, LocaliserConfig& config) {
-  v.section("localiser", "The vehicles that find their place by ranges", [&](ConfigVisitor& section) {
-    bus::seconds(section, "estimate_period_s", config.estimate_period,
-                 {0.01, 3600, "s", "simulated time between estimates"});
-  });
   v.list(
       "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) { visit_vehicle(item, config.vehicles[i]); });

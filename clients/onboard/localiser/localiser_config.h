@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Configuration of the localiser: the sections [localiser] and [vehicle.localiser] of a scenario file, which
-// name the vehicles that are localised, their beacons and the rules of the estimator.
+// Configuration of the localiser: the sections [vehicle.localiser] of a scenario file, which name the
+// vehicles that are localised, their beacons and the rules of the estimator.
 #pragma once
 
 #include <cstdint>

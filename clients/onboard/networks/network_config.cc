@@ -42,45 +42,44 @@ void visit_times(ConfigVisitor& v, NetworkRules& r) {
   });
   with_mac(v, r, {MacKind::kDacap}, [&] {
     bus::seconds(v, "longest_travel_s", r.longest_travel,
-                 {1e-3, 3600, "s", "dacap: of sound to the furthest vehicle that receives it"});
-    bus::seconds(v, "shortest_handshake_s", r.shortest_handshake,
-                 {1e-3, 3600, "s", "dacap: from the leave to send to the data, at the receiver"});
+                 {1e-3, 3600, "s", "dacap: travel time of sound to the furthest vehicle that receives it"});
+    bus::seconds(
+        v, "shortest_handshake_s", r.shortest_handshake,
+        {1e-3, 3600, "s", "dacap: shortest time from the clear-to-send to the data, at the receiver"});
     bus::seconds(v, "tolerance_s", r.tolerance,
-                 {0, 3600, "s", "dacap: an interferer further by that travel time disturbs nothing"});
+                 {0, 3600, "s", "dacap: additional travel time of an interferer that disturbs nothing"});
   });
   with_mac(v, r, {MacKind::kTLohi}, [&] {
     bus::seconds(v, "contention_s", r.contention,
-                 {1e-3, 3600, "s", "t-lohi: a contention round: twice the greatest travel time and a tone"});
-  });
-  with_mac(v, r, {MacKind::kAlohaCa}, [&] {
-    v.number("sound_speed_mps", r.sound_speed_mps,
-             {1000, 2000, "m/s", "aloha-ca: makes travel times of the distances at the start"});
+                 {1e-3, 3600, "s", "t-lohi: contention round: twice the greatest travel time and a tone"});
   });
 }
 
-// Visits the keys of timing, carrier sense and handshakes.
 void visit_access(ConfigVisitor& v, NetworkRules& r) {
   using Mac = MacKind;
   with_mac(v, r, {Mac::kSlottedAloha, Mac::kTdma}, [&] {
     bus::seconds(v, "slot_s", r.slot, {1e-3, 3600, "s", "slotted-aloha, tdma: length of a slot"});
   });
   with_mac(v, r, {Mac::kCsma, Mac::kMaca, Mac::kAlohaCa, Mac::kDacap}, [&] {
-    bus::seconds(v, "backoff_s", r.backoff,
-                 {1e-3, 3600, "s", "csma, maca, aloha-ca, dacap: mean wait before another try"});
-    bus::integer_as(v, "tries", r.tries,
-                    {1, 1000, "", "csma, maca, aloha-ca, dacap: before a packet is dropped"});
+    bus::seconds(v, "backoff_s", r.backoff, {1e-3, 3600, "s", "csma, maca, aloha-ca, dacap: mean backoff"});
+    bus::integer_as(v, "tries", r.tries, {1, 1000, "", "csma, maca, aloha-ca, dacap: tries of a packet"});
   });
+}
+
+// Visits the thresholds and times that follow from modem and distances.
+void visit_tuning(ConfigVisitor& v, NetworkRules& r) {
+  using Mac = MacKind;
   with_mac(v, r, {Mac::kCsma, Mac::kMaca, Mac::kDacap, Mac::kTLohi}, [&] {
     v.number("carrier_threshold_db", r.carrier_threshold_db,
-             {0, 100, "dB", "csma, maca, dacap, t-lohi: carrier is sensed so far above the noise"});
+             {0, 100, "dB", "csma, maca, dacap, t-lohi: level above the noise at which carrier is sensed"});
   });
   with_mac(v, r, {Mac::kMaca, Mac::kDacap}, [&] {
     bus::seconds(
         v, "handshake_s", r.handshake,
-        {1e-3, 3600, "s", "maca, dacap: from a request to the end of the leave to send, at the longest"});
+        {1e-3, 3600, "s", "maca, dacap: longest time from a request to the end of the clear-to-send"});
     bus::seconds(
         v, "exchange_s", r.exchange,
-        {1e-3, 3600, "s", "maca, dacap: from the leave to send to the end of the data, at the longest"});
+        {1e-3, 3600, "s", "maca, dacap: longest time from the clear-to-send to the end of the data"});
   });
   visit_times(v, r);
 }
@@ -88,12 +87,13 @@ void visit_access(ConfigVisitor& v, NetworkRules& r) {
 void visit_rules(ConfigVisitor& v, NetworkRules& r) {
   bus::choice(v, "mac", r.mac, kMacs, "medium access control; none: no network runs");
   when_it_runs(v, r, "a mac", [&] {
-    bus::choice(v, "router", r.router, kRouters, "how packets find their way");
+    bus::choice(v, "router", r.router, kRouters, "routing of packets");
     bus::seconds(v, "interval_s", r.interval,
                  {1e-3, 1e7, "s", "mean time between the packets that a vehicle offers (Poisson)"});
     bus::integer_as(v, "data_bytes", r.data_bytes,
-                    {0, 32000, "bytes", "of each packet, beside 21 of header"});
+                    {0, 32000, "bytes", "data of each packet, in addition to a header of 21 bytes"});
     visit_access(v, r);
+    v.advanced([&] { visit_tuning(v, r); });
     with_router(v, r, RouterKind::kFlooding, [&] {
       bus::integer_as(v, "hops", r.hops, {1, 15, "", "flooding: transmissions of a packet on its way"});
       bus::seconds(v, "relay_wait_s", r.relay_wait,
@@ -109,9 +109,10 @@ void visit_member(ConfigVisitor& v, const NetworkRules& rules, NetworkMember& me
   v.vector3("start_ned_m", member.start_ned_m, {-1e6, 1e6, "m", ""});
   if (!v.given("network")) return;
   when_it_runs(v, rules, "a network.mac", [&] {
-    v.section("network", "Its part in the example network", [&](ConfigVisitor& section) {
-      section.text("destination", member.destination, {},
-                   "of the packets that it offers: name of a vehicle, or all; empty: it offers none");
+    v.section("network", "Part of the vehicle in the network", [&](ConfigVisitor& section) {
+      section.text(
+          "destination", member.destination, {},
+          "destination of the packets that it offers: name of a vehicle, or all; empty: it offers none");
       section.when(rules.router == RouterKind::kStatic, "network.router = \"static\"", [&] {
         section.text("via", member.via, {},
                      "static: name of the neighbour that all packets go to; empty: to their destination");
@@ -136,7 +137,7 @@ void check_member(ConfigVisitor& v, const NetworkConfig& config, const NetworkMe
 }  // namespace
 
 void visit(ConfigVisitor& v, NetworkConfig& config) {
-  v.section("network", "The example network (clients/onboard/networks)",
+  v.section("network", "Network: medium access and routing",
             [&](ConfigVisitor& section) { visit_rules(section, config.rules); });
   v.list(
       "vehicle", "A vehicle", config.members.size(), [&](std::size_t n) { config.members.resize(n); },

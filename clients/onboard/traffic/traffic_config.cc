@@ -39,28 +39,27 @@ void visit_kind(ConfigVisitor& v, VehicleTraffic& t) {
   std::string name = kind_of(t.kind).name;
   std::vector<std::string> names;
   for (const Kind& kind : kKinds) names.emplace_back(kind.name);
-  v.text("kind", name, names, "of its packets; all but data only with hops = 1");
+  v.text("kind", name, names, "kind of the packets; other kinds than data only with hops = 1");
   for (const Kind& kind : kKinds) {
     if (name == kind.name) t.kind = kind.kind;
   }
-  bus::integer_as(v, "rate", t.rate, {-1, 255, "", "number of a rate of its modem; -1: the modem's own"});
-  v.boolean("ack", t.ack, "the destination's modem acknowledges each packet by itself");
+  bus::integer_as(v, "rate", t.rate, {-1, 255, "", "number of a rate of the modem; -1: its default"});
+  v.boolean("ack", t.ack, "true: the destination's modem acknowledges each packet by itself");
 }
 
 void visit_hops(ConfigVisitor& v, RelayRules& relay) {
   bus::integer_as(v, "hops", relay.hops,
                   {1, RelayPacket::kMaxHops, "",
-                   "transmissions of its packets on their way; above 1 they go to all in range, with a "
+                   "transmissions of a packet on its way; above 1 it goes to all in range, with a "
                    "header of 14 bytes"});
   v.when(relay.hops > 1, "hops above 1", [&] {
-    v.boolean("confirmed", relay.confirmed, "with hops above 1: the destination sends a confirmation back");
+    v.boolean("confirmed", relay.confirmed, "true: the destination confirms, with hops above 1");
   });
 }
 
 void visit_traffic(ConfigVisitor& v, VehicleTraffic& t) {
   double period_s = t.period.seconds(), start_s = t.start.seconds();
-  v.number("period_s", period_s,
-           {0, 1e6, "s", "time between packets, by the vehicle's clock; 0: none are sent"});
+  v.number("period_s", period_s, {0, 1e6, "s", "time between packets, by the vehicle's clock; 0: none"});
   const auto when_it_sends = [&](const std::function<void()>& body) {
     v.when(period_s > 0, "period_s above 0", body);
   };
@@ -74,7 +73,7 @@ void visit_traffic(ConfigVisitor& v, VehicleTraffic& t) {
   });
   t.period = SimDuration::from_seconds(period_s);
   t.start = SimTime::from_seconds(start_s);
-  v.boolean("relay", t.relay.passes_on, "pass on packets of others that have transmissions left");
+  v.boolean("relay", t.relay.passes_on, "true: packets of others that have transmissions left are passed on");
   when_it_sends([&] { visit_hops(v, t.relay); });
   v.when(t.relay.passes_on || t.is_relayed(), "relay = true, or hops above 1", [&] {
     bus::seconds(v, "relay_wait_s", t.relay.longest_wait,
@@ -89,7 +88,7 @@ void visit_vehicle(ConfigVisitor& v, VehicleTraffic& traffic) {
   if (!v.writing()) v.boolean("has_modem", traffic.has_modem, "");
   if (!v.given("traffic")) return;
   v.when(traffic.has_modem, "has_modem = true", [&] {
-    v.section("traffic", "What the traffic program sends for this vehicle",
+    v.section("traffic", "Traffic: packets that the vehicle sends",
               [&](ConfigVisitor& section) { visit_traffic(section, traffic); });
   });
 }

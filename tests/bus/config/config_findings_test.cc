@@ -220,6 +220,34 @@ TEST(KeyWithoutEffect, IsLeftOutOfTheEffectiveConfigurationAndListedInTheReferen
   EXPECT_THAT(to_toml(body, /*with_comments=*/true), HasSubstr("slope = 0.0  # steep (-1 to 1)\n"));
 }
 
+TEST(KeyList, HoldsTheKeysOfOneClassAndTheConfigurationAll) {
+  double power_w = 1, gain = 2, level_db = 3;
+  const auto visit_gain = [&](ConfigVisitor& v) {
+    v.advanced([&] { v.number("gain", gain, {0, 9, "", "gain"}); });
+  };
+  const auto body = [&](ConfigVisitor& v) {
+    v.section("modem", "Modem", [&](ConfigVisitor& modem) {
+      modem.number("power_w", power_w, {0, 9, "W", "power"});
+      visit_gain(modem);
+    });
+    v.section("own", "Modem with the keys of [modem]",
+              [&](ConfigVisitor& own) { own.listed_elsewhere([&] { visit_gain(own); }); });
+    v.advanced([&] {
+      v.section("pilot", "Pilot", [&](ConfigVisitor& pilot) {
+        pilot.number("level_db", level_db, {0, 9, "dB", "level"});
+      });
+    });
+  };
+  EXPECT_EQ(
+      to_key_list(body, KeyClass::kCommon),
+      "\n# Modem\n[modem]\npower_w = 1.0  # power (0 to 9 W)\n\n# Modem with the keys of [modem]\n[own]\n");
+  EXPECT_EQ(to_key_list(body, KeyClass::kAdvanced),
+            "\n# Modem\n[modem]\ngain = 2.0  # gain (0 to 9)\n\n# Pilot\n[pilot]\nlevel_db = 3.0  # level (0 "
+            "to 9 dB)\n");
+  EXPECT_EQ(to_toml(body, /*with_comments=*/false),
+            "\n[modem]\npower_w = 1.0\ngain = 2.0\n\n[own]\ngain = 2.0\n\n[pilot]\nlevel_db = 3.0\n");
+}
+
 TEST(Finding, AWarningIsNoError) {
   auto file = ConfigFile::parse("", "sea.toml");
   file.warn("environment.wind_mps", "5", "calm");
