@@ -11,7 +11,7 @@
 //   L < NL - reach_below_noise                    sound disturbs nobody (propagation/reach.h)
 //   P_acquisition < 1 / acquired_once_in          nobody notices a preamble (propagation/reach.h)
 //   r > table_range_m > 0                         a pair has no row in link tables (propagation/reach.h)
-//   moved < row_reuse_distance_m                  a row of a link table is reused (links/link_row_cache.h)
+//   moved <= row_reuse_distance_m                 a row of a link table is reused (links/link_row_cache.h)
 //   searches_per_vehicle N > 0                    most searches for link tables at a tick, the most audible
 //                                                 and most changed links first
 //                                                 (propagation/search_scheduler.h)

@@ -114,6 +114,15 @@ TEST(ChannelServerConfig, RatesAndTimesAreTaken) {
   EXPECT_EQ(rules.bottom_points, 5);
 }
 
+TEST(ChannelServerConfig, SharesOfTheWorkAreTaken) {
+  const auto rules =
+      read("[channel_server]\nthreads = 2\nshards = 3\nshard = 1\npredicted_payload_bytes = 16").rules;
+  EXPECT_EQ(rules.threads, 2);
+  EXPECT_EQ(rules.medium.shard.count, 3);
+  EXPECT_EQ(rules.medium.shard.index, 1);
+  EXPECT_EQ(rules.predicted_payload_bytes, 16);
+}
+
 TEST(ChannelServerConfig, EveryErrorIsReportedAtOnceWithItsPlace) {
   const std::string errors = errors_of(
       "[environment]\nwind_mps = 99\nprofile = \"lake\"\n[modem]\nbandwidth_hz = 60000\n"
@@ -233,13 +242,16 @@ TEST(ChannelServerConfig, AnUnknownSedimentIsRefusedWithLineKeyAndWhatIsAllowed)
 
 TEST(ChannelServerConfig, ChangesOfTheWaterHoldFromTheirInstantsAndSetTheirKeysOnly) {
   const auto config = read(
-      "[environment]\nwind_mps = 3\n[[environment_change]]\nat_s = 10\nshipping = 0.75\n"
-      "[[environment_change]]\nat_s = 20\nwind_mps = 9\nprofile = \"isovelocity\"\nisovelocity_mps = 1450");
+      "[environment]\nwind_mps = 3\n[[environment_change]]\nat_s = 10\nshipping = 0.75\nrain_mm_per_h = 4\n"
+      "sea_surface_z_m = -1\n[[environment_change]]\nat_s = 20\nwind_mps = 9\nprofile = "
+      "\"isovelocity\"\nisovelocity_mps = 1450");
   EnvironmentTimeline timeline(make_environment(config.environment, {}));
   schedule_changes(config, {}, timeline);
   const auto at = [&](double time_s) { return timeline.at(SimTime::from_seconds(time_s)); };
   EXPECT_EQ(at(9).noise.shipping, 0.5);
   EXPECT_EQ(at(10).noise.shipping, 0.75);
+  EXPECT_EQ(at(10).noise.rain_mm_per_h, 4);
+  EXPECT_EQ(at(10).sea_surface_z_m, -1);
   EXPECT_EQ(at(10).noise.wind_mps, 3);
   EXPECT_EQ(at(20).noise.wind_mps, 9);
   EXPECT_EQ(at(20).profile.sound_speed_mps(70), 1450);
