@@ -200,10 +200,11 @@ void visit(bus::ConfigVisitor& v, ChannelServerConfig& config) {
       "extra_loss", "Packets lost on purpose, for tests of protocols", losses.size(),
       [&](std::size_t n) { losses.resize(n); },
       [&](bus::ConfigVisitor& item, std::size_t i) { visit_extra_loss(item, losses[i]); });
-  v.section("channel_server", "How the channel server works", [&](bus::ConfigVisitor& s) {
-    visit_detail(s, config);
-    visit_rules(s, config.rules);
-  });
+  v.section("channel_server", "Channel server: its detail, rates, limits and shares",
+            [&](bus::ConfigVisitor& s) {
+              visit_detail(s, config);
+              visit_rules(s, config.rules);
+            });
 }
 
 ConfiguredModems make_modems(const ChannelServerConfig& config) {

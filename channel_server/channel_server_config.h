@@ -78,8 +78,9 @@ struct EnvironmentConfig {
 // The model of propagation: eigenrays, or one straight path.
 enum class PropagationModel { kRays, kStraight };
 
-// Returns the ray model of a run without its bottom and fading, at Detail::kExact. Its other constants keep
-// what can matter to a modem: 0.1 dB of level for nine of ten links (docs/validation.md, packet medium).
+// Returns the ray model of a run at Detail::kExact, without its bottom and fading. Cells and lattices that
+// links share move levels of link tables by 0.1 dB in the median and by 1 dB at one link in ten
+// (docs/validation.md).
 RayModel standard_rays();
 
 // The bottom, by name or by numbers, and how sound propagates.

@@ -1,20 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Levels of detail: what a channel server leaves out of weak sound and of link tables to save time.
-//
-// For N vehicles, a link of range r with paths of levels L_p, and the noise level NL over the sender's band
-// less the receiver's directivity index, all in dB:
-//
-//   L_p < NL - diffuse_below_noise                a path comes as energy alone
-//   (RayModel::diffuse_below_noise) 10 log10 sum 10^(L_p / 10) < NL - diffuse_below_noise -
-//   weak_below_diffuse, r > 10 depths
-//                                                 a link is its energy flux (RayModel::weak_below_diffuse)
-//   L < NL - reach_below_noise                    sound disturbs nobody (propagation/reach.h)
-//   P_acquisition < 1 / acquired_once_in          nobody notices a preamble (propagation/reach.h)
-//   r > table_range_m > 0                         a pair has no row in link tables (propagation/reach.h)
-//   moved <= row_reuse_distance_m                 a row of a link table is reused (links/link_row_cache.h)
-//   searches_per_vehicle N > 0                    most searches for link tables at a tick, the most audible
-//                                                 and most changed links first
-//                                                 (propagation/search_scheduler.h)
 #pragma once
 
 #include "core/units.h"
@@ -23,13 +8,26 @@ namespace halocline::channel_server {
 
 enum class Detail { kExact, kFast };
 
+// Constants of one level. NL is the noise level over the sender's band less the receiver's directivity index.
 struct DetailLevel {
-  Decibels diffuse_below_noise, weak_below_diffuse, reach_below_noise;
-  double acquired_once_in;      // packets
-  double table_range_m;         // 0: no limit
-  double row_reuse_distance_m;  // 0: every row is computed
-  double searches_per_vehicle;  // 0: no limit
-  bool reuse_for_packets;       // packets share the searches of link tables
+  // A path of level L comes as energy alone where L < NL - diffuse_below_noise, dB (RayModel).
+  Decibels diffuse_below_noise;
+  // A link of 10 depths and more whose paths have the levels L_i is its energy flux alone (RayModel) where
+  //   10 log10 sum 10^(L_i / 10) < NL - diffuse_below_noise - weak_below_diffuse
+  Decibels weak_below_diffuse;
+  // Sound of level L disturbs nobody where L < NL - reach_below_noise (propagation/reach.h).
+  Decibels reach_below_noise;
+  // Nobody notices a preamble that is acquired with P < 1 / acquired_once_in (propagation/reach.h).
+  double acquired_once_in;
+  // Pairs further apart have no row in link tables, m (propagation/reach.h); 0: no limit.
+  double table_range_m;
+  // A row of a link table is reused until its ends have moved by this, m (links/link_row_cache.h); 0: never.
+  double row_reuse_distance_m;
+  // Link tables of N vehicles search for ceil(searches_per_vehicle N) links at a tick, the most audible and
+  // most changed first (propagation/search_scheduler.h); 0: for all.
+  double searches_per_vehicle;
+  // Packets share the searches of link tables (propagation/link_searches.h).
+  bool reuse_for_packets;
 };
 
 inline constexpr DetailLevel kExactLevel{.diffuse_below_noise = Decibels{5},

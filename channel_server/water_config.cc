@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <array>
-#include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <optional>
@@ -11,8 +9,7 @@
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
-#include "acoustics/fading/reverberation.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/noise/noise_variation.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/profile_reader.h"
@@ -22,12 +19,10 @@
 #include "bus/config/config.h"
 #include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
-#include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/frames.h"
-#include "core/sim_time.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {
@@ -162,8 +157,8 @@ void visit_way_of_adding(bus::ConfigVisitor& v, PropagationConfig& p) {
                   : p.rays.coherent ? Adding::kPhasors
                                     : Adding::kPowers;
   bus::choice(v, "fading", adding, {"none", "sea", "coherent"},
-              "fading of paths by waves, rough bottom and medium (docs/packets.md), or none: their powers "
-              "add; coherent: their phasors at the centre frequency add");
+              "fading of paths by waves, rough bottom and medium (docs/packets.md); without it their powers "
+              "add (none) or their phasors at the centre frequency (coherent)");
   p.fading.enabled = adding == Adding::kFadingPaths;
   p.rays.coherent = adding == Adding::kPhasors;
 }
@@ -271,13 +266,13 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
 }
 
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
-  v.section("environment", "The water",
+  v.section("environment", "Water, weather and ambient noise",
             [&](bus::ConfigVisitor& s) { visit_environment(s, config.environment); });
-  v.section("propagation", "How sound goes through it",
+  v.section("propagation", "Propagation of sound",
             [&](bus::ConfigVisitor& s) { visit_propagation(s, config.propagation); });
   v.list(
-      "environment_change", "The water changes; what is not given stays", config.changes.size(),
-      [&](std::size_t n) { config.changes.resize(n); },
+      "environment_change", "Change of the water from an instant on; what is not given stays",
+      config.changes.size(), [&](std::size_t n) { config.changes.resize(n); },
       [&](bus::ConfigVisitor& item, std::size_t i) { visit_change(item, config.changes[i]); });
 }
 

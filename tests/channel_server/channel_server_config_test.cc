@@ -15,6 +15,7 @@
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/water_model.h"
 #include "core/check.h"
+#include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/channel_server/read_config.h"
 #include "tests/ocean/sea_file.h"
