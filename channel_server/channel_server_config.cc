@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -19,7 +19,6 @@
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_power.h"
 #include "core/check.h"
-#include "core/limits.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -34,22 +33,6 @@ constexpr double kMinLinkRateHz = 1.0 / 60, kMaxLinkRateHz = 50;
 template <class Count>
 void visit_count(bus::ConfigVisitor& v, std::string_view key, Count& value, const bus::NumberRule& rule) {
   bus::integer_as(v, key, value, rule);
-}
-
-void visit_noise_variation(bus::ConfigVisitor& v, acoustics::NoiseVariation& n) {
-  v.number("noise_spread_db", n.spread_db,
-           {0, 30, "dB", "standard deviation of the noise about these; 0: none"});
-  v.when(n.spread_db > 0, "noise_spread_db above 0", [&] {
-    v.number("noise_spread_s", n.spread_time_s, {0.1, 1e6, "s", "its correlation time"});
-  });
-  v.number("impulse_exponent", n.burst_exponent,
-           {0, 2, "", "of impulsive, alpha-stable noise, 0.5 to 2; 0: there is none"});
-  v.when(n.burst_exponent > 0, "impulse_exponent above 0", [&] {
-    v.number("impulse_level_db", n.burst_level.value,
-             {-100, 100, "dB", "impulsive noise: its scale over the noise"});
-    bus::seconds(v, "impulse_s", n.burst, {0.001, 60, "s", "impulsive noise: how long a burst lasts"});
-  });
-  bus::report_refusal(v, "impulse_exponent", [&] { validate(n); });
 }
 
 void visit_vehicle_noise(bus::ConfigVisitor& v, NoiseSource& noise) {
@@ -113,55 +96,48 @@ void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicl
   });
 }
 
-void visit_rules(bus::ConfigVisitor& v, ServerRules& r, PropagationModel model) {
-  const auto with_rays = [&](const std::function<void()>& body) {
-    v.when(model == PropagationModel::kRays, "propagation.model = \"rays\"", body);
-  };
+// Sets the constants that the level bounds.
+void use(const DetailLevel& level, ChannelServerConfig& config) {
+  RayModel& rays = config.propagation.rays;
+  rays.diffuse_below_noise = level.diffuse_below_noise;
+  rays.weak_below_diffuse = level.weak_below_diffuse;
+  rays.reuse_for_packets = level.reuse_for_packets;
+  const double searches = level.searches_per_vehicle * static_cast<double>(config.vehicles.size());
+  rays.max_searches_per_tick = static_cast<int>(std::ceil(searches));
+  config.rules.reach.below_noise = level.reach_below_noise;
+  config.rules.reach.acquired_once_in = level.acquired_once_in;
+  config.rules.reach.table_range_m = level.table_range_m;
+  config.rules.row_reuse_distance_m = level.row_reuse_distance_m;
+}
+
+void visit_detail(bus::ConfigVisitor& v, ChannelServerConfig& config) {
+  bus::choice(v, "detail", config.detail, {"exact", "fast"},
+              "detail of weak sound and of link tables; fast is for fleets (docs/performance.md)");
+  if (!v.writing()) use(level_of(config.detail), config);
+}
+
+void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
   double rate_hz = 1 / r.link_period.seconds();
-  v.number("link_rate_hz", rate_hz, {kMinLinkRateHz, kMaxLinkRateHz, "Hz", "link tables of each vehicle"});
+  v.number("link_rate_hz", rate_hz,
+           {kMinLinkRateHz, kMaxLinkRateHz, "Hz", "rate of the link tables of each vehicle"});
   r.link_period = SimDuration::from_seconds(1 / rate_hz);
   bus::seconds(v, "state_lag_s", r.position.state_lag,
-               {0, 10, "s", "how old a state must be to be used; longer than a message takes on the bus"});
+               {0, 10, "s", "age from which a STATE is used; longer than a message takes on the bus"});
   bus::seconds(v, "state_timeout_s", r.position.state_timeout,
-               {0.01, 3600, "s", "a vehicle without a younger state leaves the tables"});
-  visit_count(v, "max_unlisted_vehicles", r.position.max_unlisted_vehicles,
-              {0, kMaxVehicles, "", "vehicles that are not of the scenario and are followed"});
-  bus::seconds(v, "max_lateness_s", r.medium.max_lateness,
-               {0, 600, "s", "how long after its start a SEND may be received"});
-  bus::seconds(v, "max_earliness_s", r.medium.max_earliness,
-               {0, 3600, "s", "how long before its start a transmission may be announced"});
+               {0.01, 3600, "s", "age of its last STATE from which a vehicle is in no link table"});
   bus::choice(v, "reach", r.reach.by_level, {"none", "level"},
-              "level: links over which sound cannot matter are left out (docs/packets.md); none: none is");
-  v.when(r.reach.by_level, "reach = \"level\"", [&] {
-    v.number("reach_below_noise_db", r.reach.below_noise.value,
-             {0, 200, "dB", "reach: how far below the noise sound disturbs nobody"});
-    v.number("reach_acquired_once_in", r.reach.acquired_once_in,
-             {10, 1e5, "packets", "reach: a preamble that is acquired no more often is not noticed"});
-  });
-  v.number("table_range_m", r.reach.table_range_m,
-           {0, 4e7, "m", "link tables: peers further away have no row; 0: only those who cannot be heard"});
-  with_rays([&] {
-    v.number("profile_reuse_distance_m", r.profile_reuse_distance_m,
-             {0.1, 1000, "m", "rays, link tables: lattice of the ends of bottom profiles"});
-    v.number("profile_spacing_m", r.seabed.spacing_m,
-             {1, 1000, "m", "rays: lattice of the depths that the bottom is made of"});
-  });
-  v.number(
-      "row_reuse_distance_m", r.row_reuse_distance_m,
-      {0, 1000, "m", "link tables: how far the ends of a link may move before its row is computed again"});
-  with_rays([&] {
-    visit_count(v, "max_searches_per_tick", r.max_searches_per_tick,
-                {0, 1e6, "",
-                 "rays, link tables: paths searched for at a tick, the most audible and most changed links "
-                 "first; 0: all"});
-  });
-  visit_count(v, "threads", r.threads, {1, 64, "", "that compute link tables and the paths of packets"});
-  visit_count(v, "predicted_payload_bytes", r.predicted_payload_bytes,
-              {1, acoustics::kMaxPayloadBytes, "bytes", "of the packets whose delivery link tables predict"});
+              "limit of the links of a sender; level leaves out those over which sound cannot matter "
+              "(docs/packets.md)");
+  visit_count(v, "threads", r.threads,
+              {1, 64, "", "threads that compute link tables and the paths of packets"});
+  visit_count(
+      v, "predicted_payload_bytes", r.predicted_payload_bytes,
+      {1, acoustics::kMaxPayloadBytes, "bytes", "payload of the packets whose delivery link tables predict"});
   visit_count(v, "shards", r.medium.shard.count,
               {1, kMaxShards, "", "channel servers that share the vehicles, by where they start"});
-  visit_count(v, "shard", r.medium.shard.index,
-              {0, kMaxShards - 1.0, "", "which of them this one is; in one process all run"});
+  visit_count(
+      v, "shard", r.medium.shard.index,
+      {0, kMaxShards - 1.0, "", "index of this channel server among the shards; in one process all run"});
 }
 
 void visit_extra_loss(bus::ConfigVisitor& v, ExtraLoss& loss) {
@@ -181,18 +157,6 @@ void visit_extra_loss(bus::ConfigVisitor& v, ExtraLoss& loss) {
 }
 
 }  // namespace
-
-void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
-  v.number("wind_mps", e.noise.wind_mps, {0, 60, "m/s", "wind 10 m above the sea: noise"});
-  v.file("noise_file", e.noise_file, bus::FileNames::kFiles,
-         "CSV of t_s, frequency_khz, level_db: the noise instead of wind, shipping and rain; empty: none");
-  if (!e.noise_file.empty()) bus::require_readable(v, "noise_file", e.noise_file);
-  v.when(e.noise_file.empty(), "no noise_file", [&] {
-    v.number("shipping", e.noise.shipping, {0, 1, "", "shipping activity: noise"});
-    v.number("rain_mm_per_h", e.noise.rain_mm_per_h, {0, 500, "mm/h", "rain on the sea: noise"});
-  });
-  visit_noise_variation(v, e.noise_variation);
-}
 
 std::vector<acoustics::TimedSpectrum> noise_table(const EnvironmentConfig& config) {
   if (config.noise_file.empty()) return {};
@@ -228,8 +192,11 @@ void visit(bus::ConfigVisitor& v, ChannelServerConfig& config) {
       "extra_loss", "Packets lost on purpose, for tests of protocols", losses.size(),
       [&](std::size_t n) { losses.resize(n); },
       [&](bus::ConfigVisitor& item, std::size_t i) { visit_extra_loss(item, losses[i]); });
-  v.section("channel_server", "How the channel server works",
-            [&](bus::ConfigVisitor& s) { visit_rules(s, config.rules, config.propagation.model); });
+  v.section("channel_server", "Channel server: its detail, rates, limits and shares",
+            [&](bus::ConfigVisitor& s) {
+              visit_detail(s, config);
+              visit_rules(s, config.rules);
+            });
 }
 
 ConfiguredModems make_modems(const ChannelServerConfig& config) {

@@ -12,20 +12,18 @@
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
-#include "acoustics/fading/reverberation.h"
 #include "acoustics/noise/noise_table_reader.h"
 #include "acoustics/noise/noise_variation.h"
-#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/config/config.h"
 #include "bus/config/scenario.h"
+#include "channel_server/detail.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"
-#include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/reach.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/replay_config.h"
@@ -49,21 +47,16 @@ enum class ProfileSource {
   kMunk,
   kIsovelocity,
   kWaterTable,  // rows of depth, temperature, salinity in the scenario
-  kSpeedTable,  // rows of depth and speed in the scenario
-  kFile,        // CSV, or netCDF at a position
+  kFile,        // CSV, or netCDF at the scenario's origin
 };
 
 // The sound-speed profile. Members of other sources than `source` are not used.
 struct ProfileConfig {
   ProfileSource source = ProfileSource::kGlobalMean;
   double isovelocity_mps = 1500;
-  std::vector<Vec3> water_rows;                    // depth m, temperature degC, salinity psu
-  std::vector<double> speed_depths_m, speeds_mps;  // equally long
-  FilePath file, salinity_file;                    // salinity_file only if salinity has a file of its own
-  // The column of a gridded file is at this position, else at the scenario's origin.
-  bool position_given = false;
-  double latitude_rad = 0, longitude_rad = 0;
-  std::int64_t time_index = 0;  // used with a gridded file of several times
+  std::vector<Vec3> water_rows;  // depth m, temperature degC, salinity psu
+  FilePath file, salinity_file;  // salinity_file only if salinity has a file of its own
+  std::int64_t time_index = 0;   // used with a gridded file of several times
   // Temperature and salinity for absorption, when the source holds sound speeds only.
   acoustics::WaterSample assumed{10, 35};
 };
@@ -83,25 +76,20 @@ struct EnvironmentConfig {
 // The model of propagation: eigenrays, or one straight path.
 enum class PropagationModel { kRays, kStraight };
 
-// The bottom, by name or by numbers, and the parameters of the ray search.
+// Returns the ray model of a run at Detail::kExact, without its bottom and fading. Cells and lattices that
+// links share move levels of link tables by 0.1 dB in the median and by 1 dB at one link in ten
+// (docs/validation.md).
+RayModel standard_rays();
+
+// The bottom, by name or by numbers, and how sound propagates.
 struct PropagationConfig {
   PropagationModel model = PropagationModel::kRays;
   // A name of acoustics/sea/boundary_reflection.h, or "custom" for the three numbers.
   std::string sediment = "MediumSand";
   double bottom_density_ratio = 1.9, bottom_sound_speed_mps = 1650, bottom_attenuation_db = 0.8;
-  std::string surface_loss_model = "apl-bubbles";
-  std::string solver = "auto";                       // auto, images, snell or arcs
-  acoustics::RayOptions options{.max_bounces = -1};  // negative: from range over depth
-  double min_amplitude_db = -160;
-  double max_bounce_loss_db = 30;  // total of all bounces of a path, relative to the strongest path
-  double shadow_loss_db = 120;     // dB, a chosen value; 0: shadows have no level
-  double diffuse_below_noise_db = 5, weak_below_diffuse_db = 6;
-  double speed_tolerance_mps = 0.02, reuse_distance_m = 25;
-  double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
-  bool reuse_for_packets = false, coherent = false;
   acoustics::FadingModel fading{.enabled = true};
+  RayModel rays = standard_rays();  // its bottom and fading are replaced by those above
   ReplayConfig replay;
-  acoustics::Reverberation reverberation;
 };
 
 // One [[environment_change]]; a member without a value leaves its quantity unchanged.
@@ -122,11 +110,8 @@ struct ServerRules {
   MediumRule medium;
   ReachRule reach;
   SeabedRule seabed;
-  // Size of the lattice of the ends of bottom profiles of link tables, m.
-  double profile_reuse_distance_m = 25;
   // Distance over which rows of link tables are reused, m (links/link_row_cache.h).
   double row_reuse_distance_m = 0;
-  int max_searches_per_tick = 0;     // eigenray searches for link tables; 0: as many as are needed
   int threads = 1;                   // threads that compute link tables and the paths of packets
   int predicted_payload_bytes = 32;  // payload of the packets whose delivery link tables predict
 };
@@ -142,6 +127,7 @@ struct ChannelServerConfig {
     std::optional<ClockSettings> clock;
     std::optional<NoiseSource> noise;
   };
+  Detail detail = Detail::kExact;  // its constants are already in `propagation` and `rules`
   EnvironmentConfig environment;
   PropagationConfig propagation;
   std::vector<ChangeConfig> changes;
@@ -155,8 +141,6 @@ void visit(bus::ConfigVisitor& v, ChannelServerConfig& config);
 // Visits [environment], [propagation] and [[environment_change]] (water_config.cc).
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
 
-// Visits the keys of [environment] about noise.
-void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& config);
 // Returns the spectra of noise_file; empty without a file. Throws InvalidArgument as
 // acoustics::read_noise_table does.
 std::vector<acoustics::TimedSpectrum> noise_table(const EnvironmentConfig& config);

@@ -17,12 +17,13 @@ namespace halocline::channel_server {
 namespace {
 
 const std::vector<std::string> kLevels{"rays", "file"};
-const bus::NumberRule kReceiver{0, 9999, "", "replay: which of the file's receivers, from 0"};
+const bus::NumberRule kReceiver{0, 9999, "", "index from 0 among the receivers of a measured channel's file"};
 
 void visit_pair(bus::ConfigVisitor& v, ReplayConfig::Pair& pair) {
   v.text("from", pair.from, {}, "name of a vehicle");
-  v.text("to", pair.to, {}, "name of another; the way back is the same unless it has an entry of its own");
-  v.file("file", pair.file, bus::FileNames::kFiles, "as replay");
+  v.text("to", pair.to, {},
+         "name of another vehicle; the way back is the same unless it has an entry of its own");
+  v.file("file", pair.file, bus::FileNames::kFiles, "measured channel of the pair, HDF5");
   v.integer("receiver", pair.receiver, kReceiver);
   if (pair.from == pair.to) v.problem("to", "allowed is another vehicle than from");
   bus::require_readable(v, "file", pair.file);
@@ -66,14 +67,14 @@ void require_bands(const MeasuredLinks& links, const ConfiguredModems& modems,
 
 void visit_replay(bus::ConfigVisitor& v, ReplayConfig& config) {
   v.file("replay", config.file, bus::FileNames::kFiles,
-         "measured channel of every link, HDF5 (docs/packets.md); empty: fading by the model");
+         "measured channel of every link, HDF5 (docs/scenarios.md); empty: fading by the model");
   if (!config.file.empty()) bus::require_readable(v, "replay", config.file);
   v.when(!config.file.empty(), "replay = \"FILE\"",
          [&] { v.integer("replay_receiver", config.receiver, kReceiver); });
   const bool has_pairs = v.writing() ? !config.pairs.empty() : v.given("replay_pair");
   v.when(has_pairs || !config.file.empty(), "replay = \"FILE\" or a replay_pair", [&] {
     bus::choice(v, "replay_level", config.level, kLevels,
-                "replay: received level by the model of propagation, or by the file's own gain");
+                "level of a measured channel: that of the model of propagation, or the file's own gain");
   });
   v.list(
       "replay_pair", "A measured channel of one pair", config.pairs.size(),

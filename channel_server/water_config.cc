@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <array>
-#include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <optional>
@@ -11,8 +9,7 @@
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
-#include "acoustics/fading/reverberation.h"
-#include "acoustics/rays/eigenray.h"
+#include "acoustics/noise/noise_variation.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/profile_reader.h"
@@ -22,21 +19,21 @@
 #include "bus/config/config.h"
 #include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
-#include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/frames.h"
-#include "core/sim_time.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {
 namespace {
 
-const std::vector<std::string> kProfileSources{"global-mean",  "global-mean-salinity-35",
-                                               "harris-zorzi", "munk",
-                                               "isovelocity",  "water-table",
-                                               "speed-table",  "file"};
+const std::vector<std::string> kProfileSources{
+    "global-mean", "global-mean-salinity-35", "harris-zorzi", "munk", "isovelocity", "water-table", "file"};
+// Keys of [environment] that [[environment_change]] has, too.
+const bus::NumberRule kWind{0, 60, "m/s", "wind speed 10 m above the sea: noise, waves and bubbles"};
+const bus::NumberRule kShipping{0, 1, "", "shipping activity: noise"};
+const bus::NumberRule kRain{0, 500, "mm/h", "rain rate: noise"};
 
 acoustics::SoundSpeedProfile water_table(const ProfileConfig& config, acoustics::SoundSpeedModel model,
                                          double latitude_rad) {
@@ -45,24 +42,10 @@ acoustics::SoundSpeedProfile water_table(const ProfileConfig& config, acoustics:
   return acoustics::SoundSpeedProfile::from_water(std::move(rows), model, latitude_rad);
 }
 
-acoustics::SoundSpeedProfile speed_table(const ProfileConfig& config) {
-  std::vector<acoustics::SpeedRow> rows;
-  for (std::size_t i = 0; i < config.speeds_mps.size(); ++i) {
-    rows.push_back({config.speed_depths_m.at(i), config.speeds_mps[i]});
-  }
-  return acoustics::SoundSpeedProfile::from_speeds(std::move(rows), config.assumed);
-}
-
-void check_tables(bus::ConfigVisitor& v, const ProfileConfig& p) {
-  if (p.source == ProfileSource::kWaterTable) {
-    bus::report_refusal(v, "water_rows",
-                        [&] { water_table(p, acoustics::SoundSpeedModel::kMackenzie1981, 0); });
-  }
-  if (p.source != ProfileSource::kSpeedTable) return;
-  if (p.speeds_mps.size() != p.speed_depths_m.size()) {
-    return v.problem("speeds_mps", "profile = \"speed-table\" needs as many speeds as speed_depths_m");
-  }
-  bus::report_refusal(v, "speeds_mps", [&] { speed_table(p); });
+void check_water_rows(bus::ConfigVisitor& v, const ProfileConfig& p) {
+  if (p.source != ProfileSource::kWaterTable) return;
+  bus::report_refusal(v, "water_rows",
+                      [&] { water_table(p, acoustics::SoundSpeedModel::kMackenzie1981, 0); });
 }
 
 // Visits keys that only some sources use.
@@ -71,49 +54,62 @@ void with_profile(bus::ConfigVisitor& v, const ProfileConfig& p, std::initialize
   bus::when_one_of(v, "profile", p.source, kProfileSources, sources, body);
 }
 
-void visit_tables(bus::ConfigVisitor& v, ProfileConfig& p) {
+void visit_given_water(bus::ConfigVisitor& v, ProfileConfig& p) {
   using Source = ProfileSource;
   with_profile(v, p, {Source::kWaterTable}, [&] {
     v.points("water_rows", p.water_rows,
-             {-1e5, 1e5, "", "water-table: rows of [depth m, temperature degC, salinity psu], depth rising"});
-  });
-  with_profile(v, p, {Source::kSpeedTable}, [&] {
-    v.numbers("speed_depths_m", p.speed_depths_m,
-              {0, acoustics::kDeepestWater, "m", "speed-table: depths, rising"});
-    v.numbers("speeds_mps", p.speeds_mps, {1000, 2000, "m/s", "speed-table: a speed for each depth"});
+             {-1e5, 1e5, "", "profile as rows of [depth m, temperature degC, salinity psu], depth rising"});
   });
   with_profile(v, p, {Source::kIsovelocity}, [&] {
-    v.number("isovelocity_mps", p.isovelocity_mps, {1000, 2000, "m/s", "isovelocity: the speed everywhere"});
+    v.number("isovelocity_mps", p.isovelocity_mps, {1000, 2000, "m/s", "sound speed at all depths"});
   });
-  with_profile(v, p, {Source::kMunk, Source::kIsovelocity, Source::kSpeedTable, Source::kFile}, [&] {
+  with_profile(v, p, {Source::kMunk, Source::kIsovelocity, Source::kFile}, [&] {
     v.number("assumed_temperature_degc", p.assumed.temperature_degc,
-             {-5, 45, "degC", "water of profiles that hold speeds only"});
+             {-5, 45, "degC", "temperature for absorption, where the profile holds sound speeds only"});
     v.number("assumed_salinity_psu", p.assumed.salinity_psu,
-             {0, 50, "psu", "water of profiles that hold speeds only"});
+             {0, 50, "psu", "salinity for absorption, where the profile holds sound speeds only"});
   });
-  check_tables(v, p);
+  check_water_rows(v, p);
 }
 
 void visit_file(bus::ConfigVisitor& v, ProfileConfig& p) {
   v.file("profile_file", p.file, bus::FileNames::kFiles,
-         "file: CSV, or netCDF with temperature (and salinity)");
+         "profile as CSV, or as netCDF with temperature and salinity, whose column at the origin is taken");
   v.file("profile_salinity_file", p.salinity_file, bus::FileNames::kFiles,
-         "file: netCDF with salinity, where it is another file");
-  p.position_given = v.given("profile_latitude_deg") && v.given("profile_longitude_deg");
-  bus::degrees(v, "profile_latitude_deg", p.latitude_rad,
-               {-90, 90, "deg", "of the column in a gridded file; the scenario's origin unless given"});
-  bus::degrees(v, "profile_longitude_deg", p.longitude_rad,
-               {-180, 360, "deg", "of the column in a gridded file; the scenario's origin unless given"});
-  v.integer("profile_time_index", p.time_index, {0, 1e6, "", "which of a gridded file's times, from 0"});
+         "salinity as netCDF, where it has a file of its own");
+  v.integer("profile_time_index", p.time_index,
+            {0, 1e6, "", "index from 0 among the times of a netCDF profile_file"});
   if (p.source != ProfileSource::kFile) return;
   bus::require_readable(v, "profile_file", p.file);
   if (!p.salinity_file.empty()) bus::require_readable(v, "profile_salinity_file", p.salinity_file);
 }
 
 void visit_profile(bus::ConfigVisitor& v, ProfileConfig& p) {
-  bus::choice(v, "profile", p.source, kProfileSources, "where the sound-speed profile comes from");
-  visit_tables(v, p);
+  bus::choice(v, "profile", p.source, kProfileSources, "source of the sound-speed profile");
+  visit_given_water(v, p);
   with_profile(v, p, {ProfileSource::kFile}, [&] { visit_file(v, p); });
+}
+
+void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
+  v.number("wind_mps", e.noise.wind_mps, kWind);
+  v.file("noise_file", e.noise_file, bus::FileNames::kFiles,
+         "ambient noise as CSV of t_s, frequency_khz, level_db, in the place of wind, shipping and rain; "
+         "empty: none");
+  if (!e.noise_file.empty()) bus::require_readable(v, "noise_file", e.noise_file);
+  v.when(e.noise_file.empty(), "no noise_file", [&] {
+    v.number("shipping", e.noise.shipping, kShipping);
+    v.number("rain_mm_per_h", e.noise.rain_mm_per_h, kRain);
+  });
+  acoustics::NoiseVariation& n = e.noise_variation;
+  v.number("noise_spread_db", n.spread_db,
+           {0, 30, "dB", "standard deviation of the ambient noise over ten minutes; 0: none"});
+  v.number("impulse_exponent", n.burst_exponent,
+           {0, 2, "", "exponent of impulsive, alpha-stable noise, 0.5 to 2; 0: no impulses"});
+  v.when(n.burst_exponent > 0, "impulse_exponent above 0", [&] {
+    v.number("impulse_level_db", n.burst_level.value,
+             {-100, 100, "dB", "scale of impulsive noise over the ambient noise"});
+  });
+  bus::report_refusal(v, "impulse_exponent", [&] { validate(n); });
 }
 
 void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
@@ -124,13 +120,12 @@ void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
          "formula of absorption");
   visit_noise(v, e);
   v.number("spreading_exponent", e.spreading_exponent,
-           {1, 2, "", "1 cylindrical, 1.5 practical, 2 spherical spreading"});
-  v.number("acidity_ph", e.ph, {7, 9, "", "pH of the water: absorption"});
+           {1, 2, "", "spreading along a straight path: 1 cylindrical, 1.5 practical, 2 spherical"});
 }
 
 const std::vector<std::string> kPropagationModels{"rays", "straight"};
 const std::vector<std::string> kScattering{"none", "lambert"};  // values of scattering_loss and reverberation
-constexpr std::string_view kCustom = "custom", kAnySolver = "auto";
+constexpr std::string_view kCustom = "custom";
 
 std::vector<std::string> sediments() {
   std::vector<std::string> names{std::string(kCustom)};
@@ -138,33 +133,17 @@ std::vector<std::string> sediments() {
   return names;
 }
 
-std::vector<std::string> surface_models() {
-  using Model = acoustics::SurfaceModel;
-  std::vector<std::string> names;
-  for (const Model model :
-       {Model::kFlat, Model::kAplBubbles, Model::kEckart, Model::kCoates, Model::kJones}) {
-    names.emplace_back(to_name(model));
-  }
-  return names;
-}
-
-void visit_boundaries(bus::ConfigVisitor& v, PropagationConfig& p) {
+void visit_bottom(bus::ConfigVisitor& v, PropagationConfig& p) {
   v.text("sediment", p.sediment, sediments(),
-         "rays: the bottom, by its name in APL-UW TR 9407, or by numbers");
+         "sediment of the bottom, by its name in APL-UW TR 9407, or custom by the numbers below");
   v.when(p.sediment == kCustom, "sediment = \"custom\"", [&] {
     v.number("bottom_density_ratio", p.bottom_density_ratio,
-             {0.5, 10, "", "custom: density over the water's"});
-    v.number("bottom_sound_speed_mps", p.bottom_sound_speed_mps, {500, 7000, "m/s", "custom"});
-    v.number("bottom_attenuation_db_per_wavelength", p.bottom_attenuation_db, {0, 54, "dB", "custom"});
+             {0.5, 10, "", "density of a custom sediment over the water's"});
+    v.number("bottom_sound_speed_mps", p.bottom_sound_speed_mps,
+             {500, 7000, "m/s", "sound speed of a custom sediment"});
+    v.number("bottom_attenuation_db_per_wavelength", p.bottom_attenuation_db,
+             {0, 54, "dB", "attenuation of a custom sediment"});
   });
-  v.text("surface_loss_model", p.surface_loss_model, surface_models(),
-         "rays: what the wind takes from a bounce at the surface");
-}
-
-// True for models that state the loss of the coherent part alone. With fading that part is not lost but
-// scattered.
-bool is_coherent_loss(std::string_view surface_model) {
-  return surface_model != "flat" && surface_model != "apl-bubbles";
 }
 
 // Visits keys that the straight path ignores.
@@ -172,97 +151,47 @@ void with_rays(bus::ConfigVisitor& v, const PropagationConfig& p, const std::fun
   bus::when_one_of(v, "model", p.model, kPropagationModels, {PropagationModel::kRays}, body);
 }
 
-void visit_rough_boundaries(bus::ConfigVisitor& v, acoustics::FadingModel& f) {
-  v.number("bottom_roughness_m", f.bottom_roughness_m, {0, 1, "m", "fading: rms height of the bottom"});
-  bus::choice(v, "scattering_loss", f.scattering_loss, kScattering,
-              "fading: lambert: what rough boundaries scatter beyond the bottom's critical angle is lost");
+void visit_way_of_adding(bus::ConfigVisitor& v, PropagationConfig& p) {
+  enum class Adding { kPowers, kFadingPaths, kPhasors };
+  Adding adding = p.fading.enabled  ? Adding::kFadingPaths
+                  : p.rays.coherent ? Adding::kPhasors
+                                    : Adding::kPowers;
+  bus::choice(v, "fading", adding, {"none", "sea", "coherent"},
+              "fading of paths by waves, rough bottom and medium (docs/packets.md); without it their powers "
+              "add (none) or their phasors at the centre frequency (coherent)");
+  p.fading.enabled = adding == Adding::kFadingPaths;
+  p.rays.coherent = adding == Adding::kPhasors;
 }
 
 void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
   acoustics::FadingModel& f = p.fading;
-  bus::choice(
-      v, "fading", f.enabled, {"none", "sea"},
-      "sea: paths fade by waves, rough bottom and medium (docs/packets.md); none: powers of paths add");
+  visit_way_of_adding(v, p);
   v.when(f.enabled, "fading = \"sea\"", [&] {
-    v.number("rice_factor_db", f.rice_factor_db,
-             {-20, 60, "dB", "fading: steady over varying power of the medium"});
-    v.number("medium_coherence_s", f.medium_coherence_s,
-             {0.1, 1e6, "s", "fading: coherence time of the medium"});
     v.number("large_scale_fading_db", f.large_scale_db,
-             {0, 20, "dB", "fading: standard deviation of a link's level over minutes"});
+             {0, 20, "dB", "standard deviation of a link's level over minutes; 0: none"});
     v.when(f.large_scale_db > 0, "large_scale_fading_db above 0", [&] {
-      v.number("large_scale_fading_s", f.large_scale_time_s, {0.1, 1e6, "s", "fading: its correlation time"});
+      v.number("large_scale_fading_s", f.large_scale_time_s,
+               {0.1, 1e6, "s", "correlation time of a link's level"});
     });
-    with_rays(v, p, [&] { visit_rough_boundaries(v, f); });
+    with_rays(v, p, [&] {
+      v.number("bottom_roughness_m", f.bottom_roughness_m, {0, 1, "m", "rms height of the rough bottom"});
+      bus::choice(v, "scattering_loss", f.scattering_loss, kScattering,
+                  "loss of the sound that rough boundaries scatter beyond the bottom's critical angle");
+    });
   });
-  if (f.enabled && is_coherent_loss(p.surface_loss_model)) {
-    v.problem("surface_loss_model",
-              "with fading = \"sea\" a rough surface scatters the coherent sound and loses nothing; allowed "
-              "are \"flat\" and \"apl-bubbles\", or fading = \"none\"");
-  }
-}
-
-void visit_reverberation(bus::ConfigVisitor& v, PropagationConfig& p) {
-  acoustics::Reverberation& r = p.reverberation;
-  bus::choice(v, "reverberation", r.enabled, kScattering,
-              "rays: lambert: rough boundaries leave a tail behind every packet (docs/scenarios.md)");
-  v.when(r.enabled, "reverberation = \"lambert\"", [&] {
-    v.number("bottom_scattering_db", r.bottom_scattering_db,
-             {-80, -5, "dB", "reverberation: of the bottom, by Lambert's law"});
-    v.number("surface_scattering_db", r.surface_scattering_db,
-             {-80, -5, "dB", "reverberation: of the surface, likewise"});
-    v.number("reverberation_bounce_loss_db", r.bounce_loss_db,
-             {0.01, 100, "dB", "reverberation: that the tail loses at each bounce off the bottom"});
+  with_rays(v, p, [&] {
+    bus::choice(v, "reverberation", p.rays.reverberation.enabled, kScattering,
+                "tail that rough boundaries leave behind every packet (docs/scenarios.md)");
   });
-  if (r.enabled && !p.fading.enabled) v.problem("reverberation", "\"lambert\" needs fading = \"sea\"");
-}
-
-void visit_rays(bus::ConfigVisitor& v, PropagationConfig& p) {
-  visit_boundaries(v, p);
-  v.text("solver", p.solver, {std::string(kAnySolver), "images", "snell", "arcs"},
-         "rays: how paths are found, where that way can; auto: the simplest that is exact");
-  bus::integer_as(
-      v, "max_bounces", p.options.max_bounces,
-      {-1, 10'000, "", "rays: surface and bottom together; -1: 0.6 of range over depth, 60 at least"});
-  bus::degrees(v, "max_launch_angle_deg", p.options.max_launch_angle_rad,
-               {0.1, 90, "deg", "rays: of paths that bounce, from the horizontal"});
-  v.number("min_amplitude_db", p.min_amplitude_db,
-           {-400, 0, "dB re 1 m", "rays: of a path by spreading and bounces; weaker ones are dropped"});
-  v.number("max_bounce_loss_db", p.max_bounce_loss_db,
-           {1, 200, "dB", "rays: of all bounces beyond those of the strongest path; others are dropped"});
-  v.number("diffuse_below_db", p.options.diffuse_below_db,
-           {0, 100, "dB", "rays: over a rough bottom weaker paths come as their power alone; 0: none"});
-  v.number("diffuse_below_noise_db", p.diffuse_below_noise_db,
-           {-100, 100, "dB", "rays: the same of paths this much below the noise"});
-  v.number("weak_below_diffuse_db", p.weak_below_diffuse_db,
-           {-100, 100, "dB", "rays: the same of links of 10 depths and more this much weaker still"});
-  v.number("speed_tolerance_mps", p.speed_tolerance_mps,
-           {0, 1, "m/s", "rays: water rows within this of the line between their neighbours are left out"});
-  v.number("reuse_distance_m", p.reuse_distance_m,
-           {0, 1000, "m", "rays, link tables: length of cells that share a search, a tenth high; 0: none"});
-  v.number("least_depth_m", p.least_depth_m,
-           {0, acoustics::kDeepestWater, "m", "rays: of the water anywhere; more shortens the reach"});
-  v.number("greatest_depth_m", p.greatest_depth_m,
-           {0, acoustics::kDeepestWater, "m", "rays: of the water anywhere"});
-  v.when(p.reuse_distance_m > 0, "reuse_distance_m above 0", [&] {
-    v.boolean("reuse_for_packets", p.reuse_for_packets, "rays: packets share these searches, too");
-  });
-  v.number("shadow_loss_db", p.shadow_loss_db,
-           {0, 400, "dB", "rays: transmission loss in a shadow; 0: nothing is received"});
+  if (p.rays.reverberation.enabled && !f.enabled)
+    v.problem("reverberation", "\"lambert\" needs fading = \"sea\"");
 }
 
 void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
   bus::choice(v, "model", p.model, kPropagationModels,
-              "rays where the bottom is known, or one straight path (the paper's)");
-  with_rays(v, p, [&] { visit_rays(v, p); });
+              "eigenrays where the bottom is known, or one straight path");
+  with_rays(v, p, [&] { visit_bottom(v, p); });
   visit_fading(v, p);
-  with_rays(v, p, [&] {
-    visit_reverberation(v, p);
-    v.when(!p.fading.enabled, "fading = \"none\"", [&] {
-      v.boolean("coherent", p.coherent,
-                "rays: add paths as phasors at the centre frequency, not their powers");
-    });
-  });
   visit_replay(v, p.replay);
 }
 
@@ -274,23 +203,15 @@ void visit_optional(bus::ConfigVisitor& v, std::string_view key, std::optional<d
   value = number;
 }
 
-constexpr std::array<std::string_view, 11> kKeysOfAProfile{"water_rows",
-                                                           "speed_depths_m",
-                                                           "speeds_mps",
-                                                           "isovelocity_mps",
-                                                           "assumed_temperature_degc",
-                                                           "assumed_salinity_psu",
-                                                           "profile_file",
-                                                           "profile_salinity_file",
-                                                           "profile_latitude_deg",
-                                                           "profile_longitude_deg",
-                                                           "profile_time_index"};
+constexpr std::array<std::string_view, 7> kKeysOfAProfile{
+    "water_rows",   "isovelocity_mps",       "assumed_temperature_degc", "assumed_salinity_psu",
+    "profile_file", "profile_salinity_file", "profile_time_index"};
 
 // Visits the keys that [environment] has, too.
 void visit_changed_water(bus::ConfigVisitor& v, ChangeConfig& c) {
-  visit_optional(v, "wind_mps", c.wind_mps, {0, 60, "m/s", ""});
-  visit_optional(v, "shipping", c.shipping, {0, 1, "", ""});
-  visit_optional(v, "rain_mm_per_h", c.rain_mm_per_h, {0, 500, "mm/h", ""});
+  visit_optional(v, "wind_mps", c.wind_mps, kWind);
+  visit_optional(v, "shipping", c.shipping, kShipping);
+  visit_optional(v, "rain_mm_per_h", c.rain_mm_per_h, kRain);
   if (v.writing() ? !c.profile.has_value() : !v.given("profile")) {
     for (const std::string_view key : kKeysOfAProfile) {
       if (!v.writing() && v.given(key)) v.problem(key, "it needs a profile in the same table");
@@ -303,7 +224,7 @@ void visit_changed_water(bus::ConfigVisitor& v, ChangeConfig& c) {
 }
 
 void visit_change(bus::ConfigVisitor& v, ChangeConfig& c) {
-  v.number("at_s", c.at_s, {0, 1e9, "s", "simulation time of the change"});
+  v.number("at_s", c.at_s, {0, 1e9, "s", "simulation time from which the change holds"});
   visit_optional(v, "sea_surface_z_m", c.sea_surface_z_m, {-100, 100, "m", "z of the surface"});
   v.listed_elsewhere([&] { visit_changed_water(v, c); });
 }
@@ -312,8 +233,8 @@ acoustics::SoundSpeedProfile profile_from_file(const EnvironmentConfig& config,
                                                acoustics::SoundSpeedModel model,
                                                const bus::Scenario& scenario) {
   const ProfileConfig& p = config.profile;
-  const double latitude = p.position_given ? p.latitude_rad : to_radians(scenario.origin_latitude_deg);
-  const double longitude = p.position_given ? p.longitude_rad : to_radians(scenario.origin_longitude_deg);
+  const double latitude = to_radians(scenario.origin_latitude_deg);
+  const double longitude = to_radians(scenario.origin_longitude_deg);
   const std::string& path = p.file.place();
   if (acoustics::is_profile_table(path)) {
     return acoustics::read_profile(path, {model, latitude, p.assumed}, latitude, longitude);
@@ -343,8 +264,6 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
       return Profile::isovelocity(p.isovelocity_mps, p.assumed);
     case ProfileSource::kWaterTable:
       return water_table(p, *model, to_radians(scenario.origin_latitude_deg));
-    case ProfileSource::kSpeedTable:
-      return speed_table(p);
     case ProfileSource::kFile:
       break;
   }
@@ -352,9 +271,9 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
 }
 
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
-  v.section("environment", "The water",
+  v.section("environment", "Water, weather and ambient noise",
             [&](bus::ConfigVisitor& s) { visit_environment(s, config.environment); });
-  v.section("propagation", "How sound goes through it",
+  v.section("propagation", "Propagation of sound",
             [&](bus::ConfigVisitor& s) { visit_propagation(s, config.propagation); });
   v.list(
       "environment_change",
@@ -379,38 +298,27 @@ acoustics::Environment make_environment(const EnvironmentConfig& config, const b
   return environment;
 }
 
+RayModel standard_rays() {
+  RayModel rays;
+  rays.bounces_follow_range = true;
+  rays.options.max_bounces = 0;
+  rays.options.min_amplitude = elementary::exp10(-160.0 / 20);       // of spreading and bounces, re 1 m
+  rays.options.min_boundary_factor = elementary::exp10(-30.0 / 20);  // of bounces, re the strongest path
+  rays.speed_tolerance_mps = 0.02;
+  rays.reuse_distance_m = 25;
+  rays.shadow_loss = Decibels{120};  // a chosen value
+  return rays;
+}
+
 RayModel make_rays(const ChannelServerConfig& config) {
   const PropagationConfig& p = config.propagation;
-  RayModel rays;
   const auto named = acoustics::sediment(p.sediment);
   require(named || p.sediment == kCustom, "no sediment is called " + p.sediment);
+  RayModel rays = p.rays;
   rays.bottom = named ? *named
                       : acoustics::fluid_bottom(p.bottom_density_ratio, p.bottom_sound_speed_mps,
                                                 p.bottom_attenuation_db);
-  const auto surface = acoustics::surface_model_from_name(p.surface_loss_model);
-  require(surface.has_value(), "no model of the surface is called " + p.surface_loss_model);
-  rays.surface = *surface;
-  rays.options = p.options;
-  rays.bounces_follow_range = p.options.max_bounces < 0;
-  rays.options.max_bounces = std::max(p.options.max_bounces, 0);
-  rays.options.min_amplitude = elementary::exp10(p.min_amplitude_db / 20);
-  rays.options.min_boundary_factor = elementary::exp10(-p.max_bounce_loss_db / 20);
-  rays.speed_tolerance_mps = p.speed_tolerance_mps;
-  rays.reuse_distance_m = p.reuse_distance_m;
-  rays.least_depth_m = p.least_depth_m;
-  rays.greatest_depth_m = p.greatest_depth_m;
-  rays.reuse_for_packets = p.reuse_for_packets;
-  rays.diffuse_below_noise = Decibels{p.diffuse_below_noise_db};
-  rays.weak_below_diffuse = Decibels{p.weak_below_diffuse_db};
-  rays.max_searches_per_tick = config.rules.max_searches_per_tick;
-  rays.profile_reuse_distance_m = config.rules.profile_reuse_distance_m;
-  using Solver = acoustics::RaySolver;
-  for (const Solver solver : {Solver::kImages, Solver::kSnell, Solver::kArcs})
-    if (p.solver == to_name(solver)) rays.solver = solver;
-  if (p.shadow_loss_db > 0) rays.shadow_loss = Decibels{p.shadow_loss_db};
   rays.fading = p.fading;
-  rays.reverberation = p.reverberation;
-  rays.coherent = p.coherent && !p.fading.enabled;
   return rays;
 }
 

@@ -23,24 +23,6 @@
 #include "vehicle_sim/world/terrain_seabed.h"
 
 namespace halocline::clients {
-namespace {
-
-// Uses the scenario's origin as the place of a profile whose own place is not given.
-void resolve(channel_server::ProfileConfig& profile, const bus::Scenario& scenario) {
-  if (profile.position_given) return;
-  profile.latitude_rad = to_radians(scenario.origin_latitude_deg);
-  profile.longitude_rad = to_radians(scenario.origin_longitude_deg);
-}
-
-void resolve(ScenarioConfig& config) {
-  resolve(config.channel_server.environment.profile, config.scenario);
-  for (auto& change : config.channel_server.changes) {
-    if (change.profile) resolve(*change.profile, config.scenario);
-  }
-}
-
-}  // namespace
-
 void visit(bus::ConfigVisitor& v, ScenarioConfig& config) {
   bus::visit(v, config.scenario);
   bathymetry::visit(v, config.terrain);
@@ -101,15 +83,13 @@ CheckedScenario load_checked(const std::string& path, const std::vector<std::str
 }
 
 std::string effective_toml(const ScenarioConfig& config) {
-  ScenarioConfig resolved = config;
-  resolve(resolved);
-  return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, resolved); }, /*with_comments=*/false);
+  ScenarioConfig written = config;
+  return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, written); }, /*with_comments=*/false);
 }
 
 std::string portable_toml(const ScenarioConfig& config) {
-  ScenarioConfig resolved = config;
-  resolve(resolved);
-  return bus::to_portable_toml([&](bus::ConfigVisitor& v) { visit(v, resolved); });
+  ScenarioConfig written = config;
+  return bus::to_portable_toml([&](bus::ConfigVisitor& v) { visit(v, written); });
 }
 
 std::string key_list(bus::KeyClass key_class) {

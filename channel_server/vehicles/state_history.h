@@ -25,7 +25,6 @@
 #include <optional>
 #include <vector>
 
-#include "channel_server/vehicles/unlisted_vehicles.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 
@@ -40,8 +39,6 @@ struct StampedState {
 struct PositionRule {
   SimDuration state_lag = SimDuration::from_milliseconds(50);        // 0 or more
   SimDuration state_timeout = SimDuration::from_milliseconds(5000);  // above 0; older states give no position
-  // Greatest number of vehicles that are tracked without being in the scenario, 0 or more.
-  int max_unlisted_vehicles = UnlistedVehicles::kMaxTracked;
 };
 
 struct Placement {

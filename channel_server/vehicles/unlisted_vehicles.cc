@@ -6,9 +6,9 @@
 namespace halocline::channel_server {
 
 std::string UnlistedVehicles::admit(std::string_view name, VehicleId id, SimTime time) {
-  if (tracked_ >= max_tracked_) {
-    return "too many vehicles; at most " + std::to_string(max_tracked_) +
-           " that are not of the scenario are tracked (channel_server.max_unlisted_vehicles)";
+  if (tracked_ >= kMaxTracked) {
+    return "too many vehicles; at most " + std::to_string(kMaxTracked) +
+           " that are not of the scenario are tracked";
   }
   if (tracked_ >= kMaxAtOnce && !is_steady(name, {id, time})) {
     return "first STATE of a vehicle; beyond " + std::to_string(kMaxAtOnce) +

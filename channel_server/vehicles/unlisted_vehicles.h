@@ -3,7 +3,7 @@
 //
 // Rule. Up to kMaxAtOnce of them are tracked from their first state on. Beyond that, another one is tracked
 // from its second state on: one with the same id and another time, the two no more than the time-out apart.
-// Beyond `max_tracked` no more are admitted.
+// Beyond kMaxTracked no more are admitted.
 //
 // Link tables, and the searches for their paths, grow with the square of the number of vehicles: thousands of
 // vehicles in one place take gigabytes and stop a run in real time. A single datagram for each of thousands
@@ -27,12 +27,11 @@ namespace halocline::channel_server {
 class UnlistedVehicles {
  public:
   static constexpr std::size_t kMaxAtOnce = 64;    // our choice
-  static constexpr std::size_t kMaxTracked = 256;  // the default; our choice, for real time on one core
+  static constexpr std::size_t kMaxTracked = 256;  // our choice, for real time on one core
   static constexpr std::size_t kMaxCandidates = 16'384;
 
-  // `timeout` is that of states, above 0. `max_tracked` is 0 or more.
-  explicit UnlistedVehicles(SimDuration timeout, std::size_t max_tracked = kMaxTracked)
-      : timeout_(timeout), max_tracked_(max_tracked) {}
+  // `timeout` is that of states, above 0.
+  explicit UnlistedVehicles(SimDuration timeout) : timeout_(timeout) {}
 
   // Decides on a vehicle that is not tracked, from a state that holds at `time`. Returns an empty string when
   // the vehicle is tracked from now on, else the reason why not.
@@ -51,7 +50,7 @@ class UnlistedVehicles {
   bool is_steady(std::string_view name, const Candidate& now);
 
   SimDuration timeout_;
-  std::size_t max_tracked_, tracked_ = 0;
+  std::size_t tracked_ = 0;
   LruCache<std::string, Candidate> candidates_{kMaxCandidates};
 };
 

@@ -17,7 +17,7 @@ VehicleRegistry::VehicleRegistry(PositionRule rule, ConfiguredModems modems, Veh
     : rule_(rule),
       modems_(std::move(modems)),
       equipment_(std::move(equipment)),
-      unlisted_(rule.state_timeout, static_cast<std::size_t>(rule.max_unlisted_vehicles)) {
+      unlisted_(rule.state_timeout) {
   require(rule.state_lag >= SimDuration(), "state_lag must not be negative");
   require(rule.state_timeout > SimDuration(), "state_timeout must be positive");
 }

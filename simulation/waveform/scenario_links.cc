@@ -25,7 +25,7 @@ using acoustics::PathGain;
 using channel_server::Reception;
 
 ScenarioConfig with_own_searches(ScenarioConfig config) {
-  config.channel_server.propagation.reuse_distance_m = 0;
+  config.channel_server.propagation.rays.reuse_distance_m = 0;
   return config;
 }
 

@@ -37,11 +37,18 @@ def through_bottom(profile, bottom_m):
     return [(0.0, speed_at(0.0))] + above + [(bottom_m, speed_at(bottom_m))]
 
 
+def write_rows(path, header, rows):
+    path.write_text("\n".join([header] + [",".join(map(repr, row)) for row in rows]) + "\n")
+
+
+def write_water(folder, rows):
+    write_rows(folder / "water.csv", "depth_m,sound_speed_mps", rows)
+
+
 def travel_times(halocline, folder, profile, bottom_m, links):
     """One-way times by `halocline arrivals`: the direct path of each link (source depth, receiver depth, range)."""
-    for name, header, rows in (("water.csv", "depth_m,sound_speed_mps", through_bottom(profile, bottom_m)),
-                               ("links.csv", "src_depth_m,rcv_depth_m,rcv_range_m", links)):
-        (folder / name).write_text("\n".join([header] + [",".join(map(repr, row)) for row in rows]) + "\n")
+    write_water(folder, through_bottom(profile, bottom_m))
+    write_rows(folder / "links.csv", "src_depth_m,rcv_depth_m,rcv_range_m", links)
     text = run(halocline, "arrivals", "--water", folder / "water.csv", "--bottom-depth-m", repr(bottom_m), "--links", folder / "links.csv",
                "--format", "csv", "--steep-direct", "--max-bounces", 0)
     found = {}

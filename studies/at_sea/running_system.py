@@ -8,7 +8,7 @@ import statistics
 import struct
 import sys
 
-from at_sea.predictions import BELOW_TRANSPONDER_M, run, through_bottom
+from at_sea.predictions import BELOW_TRANSPONDER_M, run, through_bottom, write_water
 
 LCM_TYPES = pathlib.Path(__file__).resolve().parents[2] / "lcmtypes"
 TURNAROUND_S = 0.1  # of every modem in Halocline (docs/packets.md)
@@ -29,13 +29,10 @@ spacing_m = {spacing_m!r}
 [terrain.flat]
 depth_m = {bottom_m!r}
 [environment]
-profile = "speed-table"
-speed_depths_m = {depths}
-speeds_mps = {speeds}
+profile = "file"
+profile_file = "water.csv"
 [propagation]
-max_bounces = 0
-speed_tolerance_mps = 0.0
-reuse_distance_m = 0.0
+fading = "none" # times of arrival are exact
 [modem]
 source_level_db = 220.0
 cutoff_level_db = -200.0
@@ -126,9 +123,9 @@ def system_times(halocline, folder, survey, shots, place, types):
     water = water[:-1:math.ceil(len(water) / MAX_ROWS)] + water[-1:]
     reach_m = max(math.dist(place[:2], ship[:2]) for shot in shots for ship in (shot.sent, shot.received))
     size_m = 1000.0 * math.ceil(2 * reach_m / 1000 + 2)
+    write_water(folder, water)
     scenario.write_text(SCENARIO.format(
-        duration_s=duration_s, north_m=place[1], east_m=place[0], size_m=size_m, spacing_m=size_m / 100, bottom_m=bottom_m,
-        depths=[depth for depth, _ in water], speeds=[speed for _, speed in water], ping_s=ping_s))
+        duration_s=duration_s, north_m=place[1], east_m=place[0], size_m=size_m, spacing_m=size_m / 100, bottom_m=bottom_m, ping_s=ping_s))
     run(halocline, "replay", log, "--scenario", scenario, "--log", out, "--no-comparison", "--quiet", "--force")
     run(halocline, "log", "export", out, "--out", folder / "csv", "--channel", r"RECEIVE\.ship", "--force")
     with open(folder / "csv" / "receive.csv") as file:

@@ -29,7 +29,6 @@ water_rows = [[0.0, 22.0, 38.0], [15.0, 22.0, 38.0], [30.0, 15.0, 38.0], [50.0, 
 
 [propagation]
 model = "{model}"
-{rays}
 
 [modem] # carries 2 km: 9 of 10 packets are received there
 profile = "micromodem-fsk"
@@ -37,7 +36,7 @@ source_level_db = {source_level_db}
 
 [channel_server]
 link_rate_hz = 1.0
-{server}
+detail = "{detail}"
 """
 
 VEHICLE = """
@@ -60,20 +59,7 @@ payload_bytes = 32
 
 # Along rays the bottom and the surface scatter.
 SOURCE_LEVEL_DB = {"straight": 132.0, "rays": 145.0}
-# Along rays: how deep the water is, which bounds how far sound gets; energy for paths, and for whole long links, that lie below the
-# noise; packets and tables share searches, one a second for two vehicles. What a receiver would acquire once in 1000 packets is left out.
-RAYS = """least_depth_m = 75.0
-greatest_depth_m = 250.0
-diffuse_below_noise_db = 0.0
-weak_below_diffuse_db = 0.0
-reuse_for_packets = true"""
-SERVER = """reach_below_noise_db = 20.0
-reach_acquired_once_in = 1000.0
-table_range_m = {table_range_m}
-row_reuse_distance_m = 25.0
-max_searches_per_tick = {searches}"""
-TABLE_RANGE_M = 4000.0
-SEARCHES_PER_VEHICLE = 0.5
+DETAIL = {"straight": "exact", "rays": "fast"}
 DENSE_SIDE_M = 2000
 LINE_M = 300.0
 
@@ -98,10 +84,7 @@ def fleet(count, laying, model, duration_s):
     """The scenario as TOML. `laying`: "dense" (a square of 2 km) or "spread" (a vehicle a square kilometre)."""
     side = side_m(laying, count)
     size = 20 * math.ceil((side + 4 * LINE_M) / 20)
-    server = SERVER.format(table_range_m=TABLE_RANGE_M, searches=round(SEARCHES_PER_VEHICLE * count))
-    head = SEA.format(count=count, laying=laying, model=model, duration_s=duration_s,
-                      rays=RAYS if model == "rays" else "",
-                      server=server if model == "rays" else "",
+    head = SEA.format(count=count, laying=laying, model=model, duration_s=duration_s, detail=DETAIL[model],
                       size_m=size, source_level_db=SOURCE_LEVEL_DB[model],
                       slope=f"{min(0.02, 60 / size):.5f}")
     return head + "".join(vehicle(number, count, side) for number in range(1, count + 1))

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/channel_server_config.h"
 
+#include <string>
+#include <tuple>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,8 +15,10 @@
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/water_model.h"
 #include "core/check.h"
+#include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/channel_server/read_config.h"
+#include "tests/ocean/sea_file.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -46,20 +51,39 @@ TEST(ChannelServerConfig, EveryBuiltInProfileCanBeNamed) {
 TEST(ChannelServerConfig, ATableOfWaterIsTaken) {
   const auto water = water_of(
       "[environment]\nprofile = \"water-table\"\nwater_rows = [[0, 20, 35], [100, 10, 36]]\n"
-      "wind_mps = 7\nshipping = 0.25\nacidity_ph = 7.9\nabsorption_model = \"thorp\"");
+      "wind_mps = 7\nshipping = 0.25\nspreading_exponent = 2\nabsorption_model = \"thorp\"\n"
+      "sound_speed_model = \"unesco\"");
   EXPECT_EQ(water.profile.water(50).temperature_degc, 15);
   EXPECT_EQ(water.noise.wind_mps, 7);
   EXPECT_EQ(water.noise.shipping, 0.25);
-  EXPECT_EQ(water.ph, 7.9);
+  EXPECT_EQ(water.spreading_exponent, 2);
   EXPECT_EQ(water.absorption_model, acoustics::AbsorptionModel::kThorp1967);
+  EXPECT_EQ(to_name(water.profile.model()), "unesco");
 }
 
-TEST(ChannelServerConfig, ATableOfSpeedsIsTaken) {
+TEST(ChannelServerConfig, WaterIsAssumedWhereAProfileHasSpeedsAlone) {
   const auto water = water_of(
-      "[environment]\nprofile = \"speed-table\"\nspeed_depths_m = [0, 100]\nspeeds_mps = [1500, 1520]\n"
-      "assumed_temperature_degc = 4");
-  EXPECT_EQ(water.profile.sound_speed_mps(50), 1510);
+      "[environment]\nprofile = \"isovelocity\"\nisovelocity_mps = 1450\n"
+      "assumed_temperature_degc = 4\nassumed_salinity_psu = 1");
+  EXPECT_EQ(water.profile.sound_speed_mps(50), 1450);
   EXPECT_EQ(water.profile.water(50).temperature_degc, 4);
+  EXPECT_EQ(water.profile.water(50).salinity_psu, 1);
+}
+
+TEST(ChannelServerConfig, AGriddedFileGivesTheColumnAtTheOriginAtOneOfItsTimes) {
+  ocean::testing::SeaFile warm, salty;
+  warm.time.values = salty.time.values = {0, 1};
+  warm.degrees = [](double hours, double, double, double) { return 10 + hours; };
+  warm.salinity = {{"standard_name", "none"}};
+  const auto config =
+      read("[environment]\nprofile = \"file\"\nprofile_time_index = 1\nprofile_file = \"" +
+           warm.write("warm") + "\"\nprofile_salinity_file = \"" + salty.write("salty") + "\"");
+  bus::Scenario scenario;
+  scenario.origin_latitude_deg = 43.2;
+  scenario.origin_longitude_deg = 7.3;
+  const auto water = make_environment(config.environment, scenario);
+  EXPECT_NEAR(water.profile.water(50).temperature_degc, 11, 1e-4);
+  EXPECT_NEAR(water.profile.water(50).salinity_psu, 36, 1e-4);
 }
 
 TEST(ChannelServerConfig, AFileThatIsNotThereIsAnErrorThatNamesIt) {
@@ -89,6 +113,15 @@ TEST(ChannelServerConfig, RatesAndTimesAreTaken) {
   EXPECT_EQ(rules.position.state_timeout, for_s(3));
 }
 
+TEST(ChannelServerConfig, SharesOfTheWorkAreTaken) {
+  const auto rules =
+      read("[channel_server]\nthreads = 2\nshards = 3\nshard = 1\npredicted_payload_bytes = 16").rules;
+  EXPECT_EQ(rules.threads, 2);
+  EXPECT_EQ(rules.medium.shard.count, 3);
+  EXPECT_EQ(rules.medium.shard.index, 1);
+  EXPECT_EQ(rules.predicted_payload_bytes, 16);
+}
+
 TEST(ChannelServerConfig, EveryErrorIsReportedAtOnceWithItsPlace) {
   const std::string errors = errors_of(
       "[environment]\nwind_mps = 99\nprofile = \"lake\"\n[modem]\nbandwidth_hz = 60000\n"
@@ -104,8 +137,6 @@ TEST(ChannelServerConfig, ImpossibleTablesAreErrorsOfTheFile) {
       errors_of("[environment]\nprofile = \"water-table\"\nwater_rows = [[100, 20, 35], [0, 10, 36]]"),
       HasSubstr("water_rows"));
   EXPECT_THAT(errors_of("[environment]\nprofile = \"water-table\""), HasSubstr("water_rows"));
-  EXPECT_THAT(errors_of("[environment]\nprofile = \"speed-table\"\nspeeds_mps = [1500]"),
-              HasSubstr("speeds_mps"));
   EXPECT_THAT(errors_of("[environment]\nprofile = \"file\""), HasSubstr("profile_file"));
 }
 
@@ -151,46 +182,54 @@ TEST(ChannelServerConfig, ABottomIsGivenByNameOrByNumbers) {
   EXPECT_EQ(custom.bottom, acoustics::fluid_bottom(2.1, 1800, 0.5));
 }
 
-TEST(ChannelServerConfig, WhatRaysLookForIsTaken) {
-  const auto rays = make_rays(
-      read("[propagation]\nfading = \"none\"\nsurface_loss_model = \"eckart\"\nsolver = "
-           "\"arcs\"\nmax_bounces = 12\n"
-           "max_launch_angle_deg = 60\nmin_amplitude_db = -80\nshadow_loss_db = 110\ncoherent = true"));
-  EXPECT_EQ(rays.surface, acoustics::SurfaceModel::kEckart);
-  EXPECT_EQ(rays.solver, acoustics::RaySolver::kArcs);
-  EXPECT_EQ(rays.options.max_bounces, 12);
-  EXPECT_FALSE(rays.bounces_follow_range);
-  EXPECT_FALSE(make_rays(read("[propagation]\nmax_bounces = 0")).bounces_follow_range);
-  EXPECT_DOUBLE_EQ(rays.options.max_launch_angle_rad, to_radians(60));
-  EXPECT_DOUBLE_EQ(rays.options.min_amplitude, 1e-4);
-  EXPECT_EQ(rays.shadow_loss->value, 110);
-  EXPECT_TRUE(rays.coherent);
-}
-
-TEST(ChannelServerConfig, ALossOfTheCoherentPartAloneIsRefusedInASeaThatFades) {
-  const std::string errors = errors_of("[propagation]\nsurface_loss_model = \"eckart\"");
-  EXPECT_THAT(errors, HasSubstr("test.toml:2: propagation.surface_loss_model"));
-  EXPECT_THAT(errors, HasSubstr("apl-bubbles"));
-}
-
 TEST(ChannelServerConfig, FadingIsTaken) {
-  const auto fading =
-      make_rays(read("[propagation]\nrice_factor_db = 3\nmedium_coherence_s = 5\nlarge_scale_fading_db = 1\n"
-                     "large_scale_fading_s = 60\nbottom_roughness_m = 0.1"))
-          .fading;
+  const auto fading = make_rays(read("[propagation]\nlarge_scale_fading_db = 1\nlarge_scale_fading_s = 60\n"
+                                     "bottom_roughness_m = 0.1\nscattering_loss = \"lambert\""))
+                          .fading;
   EXPECT_EQ(fading, (acoustics::FadingModel{.enabled = true,
-                                            .rice_factor_db = 3,
-                                            .medium_coherence_s = 5,
                                             .large_scale_db = 1,
                                             .large_scale_time_s = 60,
-                                            .bottom_roughness_m = 0.1}));
-  EXPECT_FALSE(make_rays(read("[propagation]\nfading = \"none\"")).fading.enabled);
-  EXPECT_EQ(make_rays(read("[propagation]\nreverberation = \"lambert\"\nbottom_scattering_db = -30\n"
-                           "surface_scattering_db = -35\nreverberation_bounce_loss_db = 2"))
-                .reverberation,
-            (acoustics::Reverberation{true, -30, -35, 2}));
+                                            .bottom_roughness_m = 0.1,
+                                            .scattering_loss = true}));
+}
+
+TEST(ChannelServerConfig, PathsFadeOrTheirPowersAddOrTheirPhasorsAdd) {
+  for (const auto& [way, fades, coherent] :
+       {std::tuple("sea", true, false), {"none", false, false}, {"coherent", false, true}}) {
+    const RayModel rays = make_rays(read("[propagation]\nfading = \"" + std::string(way) + "\""));
+    EXPECT_EQ(rays.fading.enabled, fades) << way;
+    EXPECT_EQ(rays.coherent, coherent) << way;
+  }
+}
+
+TEST(ChannelServerConfig, ReverberationNeedsASeaThatFades) {
+  EXPECT_TRUE(make_rays(read("[propagation]\nreverberation = \"lambert\"")).reverberation.enabled);
   EXPECT_THAT(errors_of("[propagation]\nfading = \"none\"\nreverberation = \"lambert\""),
               HasSubstr("reverberation"));
+}
+
+TEST(ChannelServerConfig, TheDetailOfAnEmptyScenarioIsThatOfItsStructs) {
+  const ChannelServerConfig structs, exact = read("[channel_server]\ndetail = \"exact\"");
+  const RayModel &rays = exact.propagation.rays, &plain = structs.propagation.rays;
+  EXPECT_EQ(rays.diffuse_below_noise, plain.diffuse_below_noise);
+  EXPECT_EQ(rays.weak_below_diffuse, plain.weak_below_diffuse);
+  EXPECT_EQ(rays.reuse_for_packets, plain.reuse_for_packets);
+  EXPECT_EQ(rays.max_searches_per_tick, plain.max_searches_per_tick);
+  EXPECT_EQ(exact.rules.reach.below_noise, structs.rules.reach.below_noise);
+  EXPECT_EQ(exact.rules.reach.acquired_once_in, structs.rules.reach.acquired_once_in);
+  EXPECT_EQ(exact.rules.reach.table_range_m, structs.rules.reach.table_range_m);
+  EXPECT_EQ(exact.rules.row_reuse_distance_m, structs.rules.row_reuse_distance_m);
+}
+
+TEST(ChannelServerConfig, FastLeavesOutWeakSoundAndSearchesForHalfAsManyLinksAsVehicles) {
+  const std::string vehicles =
+      "[[vehicle]]\nname = \"a\"\n[[vehicle]]\nname = \"b\"\n[[vehicle]]\nname = \"c\"";
+  const auto fast = read("[channel_server]\ndetail = \"fast\"\n" + vehicles);
+  EXPECT_EQ(fast.propagation.rays.max_searches_per_tick, 2);
+  EXPECT_TRUE(fast.propagation.rays.reuse_for_packets);
+  EXPECT_EQ(fast.propagation.rays.weak_below_diffuse, Decibels{0});
+  EXPECT_EQ(fast.rules.reach.table_range_m, 4000);
+  EXPECT_EQ(fast.rules.row_reuse_distance_m, 25);
 }
 
 TEST(ChannelServerConfig, AnUnknownSedimentIsRefusedWithLineKeyAndWhatIsAllowed) {
@@ -202,13 +241,16 @@ TEST(ChannelServerConfig, AnUnknownSedimentIsRefusedWithLineKeyAndWhatIsAllowed)
 
 TEST(ChannelServerConfig, ChangesOfTheWaterHoldFromTheirInstantsAndSetTheirKeysOnly) {
   const auto config = read(
-      "[environment]\nwind_mps = 3\n[[environment_change]]\nat_s = 10\nshipping = 0.75\n"
-      "[[environment_change]]\nat_s = 20\nwind_mps = 9\nprofile = \"isovelocity\"\nisovelocity_mps = 1450");
+      "[environment]\nwind_mps = 3\n[[environment_change]]\nat_s = 10\nshipping = 0.75\nrain_mm_per_h = 4\n"
+      "sea_surface_z_m = -1\n[[environment_change]]\nat_s = 20\nwind_mps = 9\nprofile = "
+      "\"isovelocity\"\nisovelocity_mps = 1450");
   EnvironmentTimeline timeline(make_environment(config.environment, {}));
   schedule_changes(config, {}, timeline);
   const auto at = [&](double time_s) { return timeline.at(SimTime::from_seconds(time_s)); };
   EXPECT_EQ(at(9).noise.shipping, 0.5);
   EXPECT_EQ(at(10).noise.shipping, 0.75);
+  EXPECT_EQ(at(10).noise.rain_mm_per_h, 4);
+  EXPECT_EQ(at(10).sea_surface_z_m, -1);
   EXPECT_EQ(at(10).noise.wind_mps, 3);
   EXPECT_EQ(at(20).noise.wind_mps, 9);
   EXPECT_EQ(at(20).profile.sound_speed_mps(70), 1450);

@@ -21,6 +21,7 @@
 #include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "core/elementary.h"
 #include "core/random.h"
@@ -36,7 +37,7 @@ constexpr std::uint64_t kPlaces = 150;
 
 struct Sea {
   const char* name;
-  std::vector<double> depths_m, speeds_mps;  // of sound; empty: the same everywhere
+  std::vector<acoustics::SpeedRow> speeds;  // profile; empty: the same everywhere
   double bottom_m;
   double slope = 0, waves_m = 0;     // of the bottom, of 300 m length
   double greatest_range_m = 10'000;  // searches over waves grow with range
@@ -63,13 +64,12 @@ class LevelBound : public ::testing::TestWithParam<Sea> {
     config.propagation.fading.enabled = sea.fades;
     config.environment.noise.wind_mps = 0;
     config.environment.profile.source = ProfileSource::kIsovelocity;
-    if (!sea.depths_m.empty()) {
-      config.environment.profile.source = ProfileSource::kSpeedTable;
-      config.environment.profile.speed_depths_m = sea.depths_m;
-      config.environment.profile.speeds_mps = sea.speeds_mps;
-    }
-    const auto waters =
-        std::make_shared<EnvironmentTimeline>(make_environment(config.environment, bus::Scenario()));
+    acoustics::Environment water = make_environment(config.environment, bus::Scenario());
+    if (!sea.speeds.empty())
+      water.profile =
+          acoustics::SoundSpeedProfile::from_speeds(sea.speeds, config.environment.profile.assumed);
+    const auto waters = std::make_shared<EnvironmentTimeline>(water);
+    RayModel rays = make_rays(config);
     acoustics::Modem modem;
     modem.centre_frequency_hz = sea.frequency_hz;
     modem.bandwidth_hz = sea.frequency_hz / 5;
@@ -85,14 +85,13 @@ class LevelBound : public ::testing::TestWithParam<Sea> {
       const Vec3 from(0, 0, draw(place, 2, 0.02, 0.98) * bottom_at(0));
       const Vec3 to(range_m, 0, draw(place, 3, 0.02, 0.98) * bottom_at(range_m));
       if (depths_are_known) {
-        config.propagation.least_depth_m = config.propagation.greatest_depth_m = bottom_at(0);
+        rays.least_depth_m = rays.greatest_depth_m = bottom_at(0);
         for (double north_m = 0; north_m <= range_m; north_m += range_m / 1000) {
-          config.propagation.least_depth_m = std::min(config.propagation.least_depth_m, bottom_at(north_m));
-          config.propagation.greatest_depth_m =
-              std::max(config.propagation.greatest_depth_m, bottom_at(north_m));
+          rays.least_depth_m = std::min(rays.least_depth_m, bottom_at(north_m));
+          rays.greatest_depth_m = std::max(rays.greatest_depth_m, bottom_at(north_m));
         }
       }
-      RayPropagation propagation(waters, testing::seabed_around(from, to, bottom_at), make_rays(config));
+      RayPropagation propagation(waters, testing::seabed_around(from, to, bottom_at), rays);
       const Reception reception =
           propagation.reception(at_s(1), {1, from, Vec3::Zero(), &modem}, {2, to, Vec3::Zero(), &modem});
       if (reception.paths.empty()) continue;
@@ -104,7 +103,7 @@ class LevelBound : public ::testing::TestWithParam<Sea> {
         continue;
       }
       const auto weak = propagation.flux_only_links(at_s(1), modem.centre_frequency_hz, deepest_m);
-      const bool is_long = range_m >= 10 * config.propagation.greatest_depth_m;
+      const bool is_long = range_m >= 10 * rays.greatest_depth_m;
       if (is_long && level < reception.budget.noise_level - weak->below_noise)
         excesses.push_back((level - (modem.source_level - weak->loss.at(reception.budget.range_m))).value);
     }
@@ -137,17 +136,17 @@ TEST_P(LevelBound, OfFluxOnlyLinksHoldsAtRandomPlaces) {
 
 INSTANTIATE_TEST_SUITE_P(
     Seas, LevelBound,
-    ::testing::Values(Sea{"Creek", {}, {}, 5}, Sea{"Shallow", {}, {}, 15}, Sea{"Shelf", {}, {}, 100},
-                      Sea{"Deep", {}, {}, 1500}, Sea{"Gravel", {}, {}, 30, 0, 0, 10'000, "SandyGravel"},
-                      Sea{"Rock", {}, {}, 30, 0, 0, 10'000, "Rock"},
-                      Sea{"SurfaceDuct", {0, 40, 60, 300}, {1500, 1504, 1490, 1488}, 300},
-                      Sea{"ThinDuct", {0, 8, 10, 80}, {1500, 1503, 1490, 1490}, 80},
-                      Sea{"Channel", {0, 60, 80, 100, 400}, {1510, 1500, 1480, 1500, 1508}, 400},
-                      Sea{"BottomDuct", {0, 50, 100}, {1520, 1500, 1495}, 100},
-                      Sea{"Upslope", {}, {}, 150, -0.012}, Sea{"Downslope", {}, {}, 8, 0.012},
-                      Sea{"Waves", {}, {}, 60, 0, 3, 1000},
-                      Sea{"WithoutFading", {}, {}, 100, 0, 0, 10'000, "MediumSand", 25'000, false},
-                      Sea{"LowFrequency", {}, {}, 100, 0, 0, 10'000, "MediumSand", 3'000}),
+    ::testing::Values(Sea{"Creek", {}, 5}, Sea{"Shallow", {}, 15}, Sea{"Shelf", {}, 100},
+                      Sea{"Deep", {}, 1500}, Sea{"Gravel", {}, 30, 0, 0, 10'000, "SandyGravel"},
+                      Sea{"Rock", {}, 30, 0, 0, 10'000, "Rock"},
+                      Sea{"SurfaceDuct", {{0, 1500}, {40, 1504}, {60, 1490}, {300, 1488}}, 300},
+                      Sea{"ThinDuct", {{0, 1500}, {8, 1503}, {10, 1490}, {80, 1490}}, 80},
+                      Sea{"Channel", {{0, 1510}, {60, 1500}, {80, 1480}, {100, 1500}, {400, 1508}}, 400},
+                      Sea{"BottomDuct", {{0, 1520}, {50, 1500}, {100, 1495}}, 100},
+                      Sea{"Upslope", {}, 150, -0.012}, Sea{"Downslope", {}, 8, 0.012},
+                      Sea{"Waves", {}, 60, 0, 3, 1000},
+                      Sea{"WithoutFading", {}, 100, 0, 0, 10'000, "MediumSand", 25'000, false},
+                      Sea{"LowFrequency", {}, 100, 0, 0, 10'000, "MediumSand", 3'000}),
     [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace

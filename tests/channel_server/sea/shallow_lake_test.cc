@@ -51,7 +51,7 @@ Link link_at(double range_m, const char* sediment, bool reverberation, double wi
   config.environment.noise.shipping = 0;
   config.propagation.sediment = sediment;
   config.propagation.fading.scattering_loss = true;
-  config.propagation.reverberation.enabled = reverberation;
+  config.propagation.rays.reverberation.enabled = reverberation;
   const acoustics::Modem modem = transmitter();
   const Vec3 from(0, 0, 1), to(range_m, 0, 1.5);
   RayPropagation propagation(

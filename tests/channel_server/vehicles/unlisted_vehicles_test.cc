@@ -71,15 +71,6 @@ TEST(UnlistedVehicles, BeyondTheMostNobodyIsTrackedUntilOneLeaves) {
   EXPECT_EQ(unlisted.admit("more", 1000, at_s(3)), "");
 }
 
-TEST(UnlistedVehicles, AsManyAsTheScenarioSaysAreTracked) {
-  UnlistedVehicles unlisted(for_s(kTimeout_s), 1000);
-  for (VehicleId id = 1; id <= 1000; ++id) {
-    const bool at_once = unlisted.admit(name_of(id), id, at_s(0)).empty();
-    EXPECT_TRUE(at_once || unlisted.admit(name_of(id), id, at_s(0.1)).empty()) << id;
-  }
-  EXPECT_THAT(unlisted.admit("more", 2000, at_s(0)), HasSubstr("at most 1000"));
-}
-
 TEST(UnlistedVehicles, AnotherRunKnowsNobody) {
   UnlistedVehicles unlisted = crowd();
   EXPECT_NE(unlisted.admit("more", 1000, at_s(0)), "");
