@@ -146,9 +146,6 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r, PropagationModel model) 
     v.number("profile_spacing_m", r.seabed.spacing_m,
              {1, 1000, "m", "rays: lattice of the depths that the bottom is made of"});
   });
-  v.number(
-      "row_reuse_distance_m", r.row_reuse_distance_m,
-      {0, 1000, "m", "link tables: how far the ends of a link may move before its row is computed again"});
   with_rays([&] {
     visit_count(v, "max_searches_per_tick", r.max_searches_per_tick,
                 {0, 1e6, "",

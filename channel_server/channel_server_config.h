@@ -129,8 +129,6 @@ struct ServerRules {
   SeabedRule seabed;
   // Size of the lattice of the ends of bottom profiles of link tables, m.
   double profile_reuse_distance_m = 25;
-  // Distance over which rows of link tables are reused, m (links/link_row_cache.h).
-  double row_reuse_distance_m = 0;
   int max_searches_per_tick = 0;     // eigenray searches for link tables; 0: as many as are needed
   int threads = 1;                   // threads that compute link tables and the paths of packets
   int predicted_payload_bytes = 32;  // payload of the packets whose delivery link tables predict

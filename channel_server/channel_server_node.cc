@@ -78,7 +78,6 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
               rules.medium.seed),
       noise_(sounds_),
       predictor_(make_predictor(rules)),
-      link_row_cache_(sounds_.differ() ? 0 : rules.row_reuse_distance_m),
       echoes_(rules.echoes.reuse_distance_m),
       rays_(rules.ray_queries),
       queries_(vehicles_, *water_.propagation, predictor_, noise_, echoes_, rays_,
@@ -92,8 +91,7 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
               rules.echoes, rules.medium.shard),
       exchange_(bus(), publisher_, rules.medium.shard, rules.ray_queries.answer_deadline, hash_of(scenario)),
       packets_(bus(), journal_),
-      tables_(publisher_, bus().log(),
-              {vehicles_, *water_.propagation, predictor_, echoes_, link_row_cache_, noise_},
+      tables_(publisher_, bus().log(), {vehicles_, *water_.propagation, predictor_, echoes_, noise_},
               pool_.sharing_out()),
       processor_(bus(), vehicles_, *water_.waters, *water_.propagation, medium_, packets_),
       scenario_(std::move(scenario)),
@@ -215,15 +213,13 @@ ChannelServerNode::Tables ChannelServerNode::begin_tables(SimTime tick) {
   tables.rows = table_rows(tables.present, tables.ranges_m, rules_.medium.shard);
   if (!rules_.medium.shard.is_alone())
     tables.links_of_all = table_rows(tables.present, tables.ranges_m).links;
-  link_row_cache_.reuse(tick, {water_.waters->water_at(tick), water_.seabed->version()},
-                        water_.propagation->environment(tick), tables.present, tables.rows);
   return tables;
 }
 
 bool ChannelServerNode::prepare(Tables& tables, SimTime steady) {
   Propagation& propagation = *water_.propagation;
   const SimTime tick = tables.tick;
-  const std::vector<EndPair> links = tables.rows.to_compute();
+  const std::vector<EndPair>& links = tables.rows.links;
   // Asked first, so that all missing data are requested at once.
   const bool is_noise_ready = tables_.is_noise_ready(tick, links);
   if (!propagation.are_ready(tick, links) || !is_noise_ready) return false;
@@ -326,7 +322,6 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   queries_.clear();
   places_.clear();
   tables_.clear();
-  link_row_cache_.clear();
   exchange_.clear();
   tables_in_work_.reset();
   journal_.clear();

@@ -30,7 +30,6 @@
 #include "channel_server/links/best_place_service.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_query_service.h"
-#include "channel_server/links/link_row_cache.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
@@ -113,7 +112,6 @@ class ChannelServerNode : public bus::Node {
   PlatformNoise sounds_;
   PlatformReceiverNoise noise_;  // noise in link tables and in answers to queries
   LinkPredictor predictor_;
-  LinkRowCache link_row_cache_;
   MultipathCache echoes_;
   RayQueryClient rays_;
   LinkQueryService queries_;

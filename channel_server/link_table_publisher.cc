@@ -36,7 +36,7 @@ void LinkTablePublisher::publish(SimTime tick, const std::vector<PlacedVehicle>&
   };
   NoiseOfLinks noise(models_.noise, tick);
   for (const LinkTable& table : link_tables(tick, vehicles, rows, models_.propagation, models_.predictor,
-                                            multipath, for_each_, &models_.kept, &noise)) {
+                                            multipath, for_each_, &noise)) {
     const std::string channel = bus::channels::kLinks.of(models_.vehicles.name_of(table.vehicle_id));
     for (const link_table_t& message : to_messages(table, tick)) publisher_.publish(channel, message);
     links_published_ += static_cast<std::int64_t>(table.rows.size());

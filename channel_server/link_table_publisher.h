@@ -12,7 +12,6 @@
 #include "bus/numbered_publisher.h"
 #include "bus/transport/event_log.h"
 #include "channel_server/links/link_predictor.h"
-#include "channel_server/links/link_row_cache.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/receiver_noise.h"
@@ -47,7 +46,6 @@ class LinkTablePublisher {
     Propagation& propagation;
     LinkPredictor& predictor;
     MultipathCache& echoes;
-    LinkRowCache& kept;
     ReceiverNoise& noise;
   };
   LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, ForEach for_each)
@@ -56,7 +54,7 @@ class LinkTablePublisher {
   // True when everything is known that publish() needs about the noise of vehicles for these links.
   bool is_noise_ready(SimTime tick, const std::vector<EndPair>& links);
   // Publishes the tables of a tick. `vehicles` are those present at `tick`; `rows` are those of vehicles that
-  // this server serves, reused or ready to be computed.
+  // this server serves, ready to be computed.
   void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
 
   // Forgets the vehicles present, for another run.

@@ -70,7 +70,6 @@ reuse_for_packets = true"""
 SERVER = """reach_below_noise_db = 20.0
 reach_acquired_once_in = 1000.0
 table_range_m = {table_range_m}
-row_reuse_distance_m = 25.0
 max_searches_per_tick = {searches}"""
 TABLE_RANGE_M = 4000.0
 SEARCHES_PER_VEHICLE = 0.5
