@@ -43,7 +43,7 @@ std::string SeabedClient::client_name(std::int64_t session) {
   return "channel-" + in_base_36(static_cast<std::uint64_t>(session));
 }
 
-bool SeabedClient::take_replies() {
+bool SeabedClient::take_replies(LinkQueryService& queries) {
   bool is_other_terrain = false;
   has_news_ = false;
   for (const ray_reply_t& reply : std::exchange(replies_, {})) {
@@ -59,7 +59,7 @@ bool SeabedClient::take_replies() {
       models_.rays.refuse(reply.request_id);
     }
   }
-  take_finished_surveys();
+  take_finished_surveys(queries);
   return is_other_terrain;
 }
 
@@ -73,9 +73,9 @@ void SeabedClient::forget_terrain() {
   surveyed_tiles_.clear();
 }
 
-void SeabedClient::take_finished_surveys() {
+void SeabedClient::take_finished_surveys(LinkQueryService& queries) {
   for (RayQueryClient::Finished& finished : models_.rays.take_finished()) {
-    if (models_.queries.finish(finished)) continue;
+    if (queries.finish(finished)) continue;
     if (surveyed_tiles_.erase(finished.id) > 0) {
       const TileSurvey& tile = std::get<TileSurvey>(finished.survey);
       if (finished.answered) {
@@ -110,7 +110,7 @@ void SeabedClient::begin_tick(const std::vector<PlacedVehicle>& vehicles, const 
   }
 }
 
-void SeabedClient::publish_queries(const bus::Now& now) {
+void SeabedClient::publish_queries(const bus::Now& now, LinkQueryService& queries) {
   retry_failed_tiles(now.steady);
   for (const TileSurvey& tile : models_.seabed.take_requests()) {
     surveyed_tiles_.insert(models_.rays.submit_urgent(tile));
@@ -118,7 +118,7 @@ void SeabedClient::publish_queries(const bus::Now& now) {
   for (const RayQueryBatch& batch : models_.rays.take_batches(now.steady)) {
     bus_.publish(channels::kRayQuery, to_message(batch, client_name_, now.sim));
   }
-  take_finished_surveys();
+  take_finished_surveys(queries);
   report_presence();
 }
 

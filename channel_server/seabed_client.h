@@ -35,7 +35,6 @@ class SeabedClient {
   // The users of the answers; all must outlive the client.
   struct Models {
     RayQueryClient& rays;
-    LinkQueryService& queries;
     MultipathCache& echoes;
     SeabedMap& seabed;
     const Propagation& propagation;
@@ -49,13 +48,13 @@ class SeabedClient {
   // Returns the client name to which replies to a server of this session are addressed.
   static std::string client_name(std::int64_t session);
 
-  // Takes the replies received. Returns true when they are of another terrain than those before; everything
-  // known of the earlier terrain is then dropped.
-  [[nodiscard]] bool take_replies();
+  // Takes the replies received; `queries` gets the surveys that it has requested. Returns true when they are
+  // of another terrain than those before; everything known of the earlier terrain is then dropped.
+  [[nodiscard]] bool take_replies(LinkQueryService& queries);
   // Submits the echo surveys for the tables of a tick; earlier ones that no batch has taken yet are dropped.
   // `vehicles` are those present at the tick, `links` all links between them.
   void begin_tick(const std::vector<PlacedVehicle>& vehicles, const std::vector<EndPair>& links);
-  void publish_queries(const bus::Now& now);
+  void publish_queries(const bus::Now& now, LinkQueryService& queries);
   // Asks for the version of the terrain, because another server has learned one.
   void ask_for_terrain();
 
@@ -70,7 +69,7 @@ class SeabedClient {
 
  private:
   void forget_terrain();
-  void take_finished_surveys();
+  void take_finished_surveys(LinkQueryService& queries);
   void retry_failed_tiles(SimTime steady);
   void report_presence();
 
