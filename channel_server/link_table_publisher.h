@@ -57,8 +57,6 @@ class LinkTablePublisher {
   // this server serves, ready to be computed.
   void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
 
-  // Forgets the vehicles present, for another run.
-  void clear() { present_.clear(); }
   std::size_t vehicles_present() const { return present_.size(); }
   std::int64_t links_published() const { return links_published_; }
 

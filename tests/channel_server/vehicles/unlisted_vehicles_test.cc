@@ -83,13 +83,5 @@ TEST(UnlistedVehicles, AsManyAsTheScenarioSaysAreTracked) {
   EXPECT_THAT(unlisted.admit("more", 2000, at_s(0)), HasSubstr("at most 1000"));
 }
 
-TEST(UnlistedVehicles, AnotherRunKnowsNobody) {
-  UnlistedVehicles unlisted = crowd();
-  EXPECT_NE(unlisted.admit("more", 1000, at_s(0)), "");
-  unlisted.clear();
-  EXPECT_EQ(unlisted.tracked(), 0u);
-  EXPECT_EQ(unlisted.admit("more", 1000, at_s(1)), "");
-}
-
 }  // namespace
 }  // namespace halocline::channel_server
