@@ -141,8 +141,6 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r, PropagationModel model) 
   v.number("echo_reuse_distance_m", r.echoes.reuse_distance_m,
            {0, 1e5, "m", "how far the ends of a link may move before its echoes are surveyed again"});
   with_rays([&] {
-    v.number("profile_reuse_distance_m", r.profile_reuse_distance_m,
-             {0.1, 1000, "m", "rays, link tables: lattice of the ends of bottom profiles"});
     v.number("profile_spacing_m", r.seabed.spacing_m,
              {1, 1000, "m", "rays: lattice of the depths that the bottom is made of"});
   });

@@ -127,8 +127,6 @@ struct ServerRules {
   int bottom_points = 9;  // points on the bottom under each link, for its echoes
   EchoRule echoes;
   SeabedRule seabed;
-  // Size of the lattice of the ends of bottom profiles of link tables, m.
-  double profile_reuse_distance_m = 25;
   int max_searches_per_tick = 0;     // eigenray searches for link tables; 0: as many as are needed
   int threads = 1;                   // threads that compute link tables and the paths of packets
   int predicted_payload_bytes = 32;  // payload of the packets whose delivery link tables predict

@@ -239,7 +239,7 @@ void visit_rays(bus::ConfigVisitor& v, PropagationConfig& p) {
   v.number("speed_tolerance_mps", p.speed_tolerance_mps,
            {0, 1, "m/s", "rays: water rows within this of the line between their neighbours are left out"});
   v.number("reuse_distance_m", p.reuse_distance_m,
-           {0, 1000, "m", "rays, link tables: length of cells that share a search, a tenth high; 0: none"});
+           {0, 1000, "m", "rays, link tables: length of cells whose links share a search; 0: none"});
   v.number("least_depth_m", p.least_depth_m,
            {0, acoustics::kDeepestWater, "m", "rays: of the water anywhere; more shortens the reach"});
   v.number("greatest_depth_m", p.greatest_depth_m,
@@ -397,7 +397,6 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.diffuse_below_noise = Decibels{p.diffuse_below_noise_db};
   rays.weak_below_diffuse = Decibels{p.weak_below_diffuse_db};
   rays.max_searches_per_tick = config.rules.max_searches_per_tick;
-  rays.profile_reuse_distance_m = config.rules.profile_reuse_distance_m;
   using Solver = acoustics::RaySolver;
   for (const Solver solver : {Solver::kImages, Solver::kSnell, Solver::kArcs})
     if (p.solver == to_name(solver)) rays.solver = solver;

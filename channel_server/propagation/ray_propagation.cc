@@ -14,11 +14,11 @@
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/extrapolate_arrivals.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/link_tracks.h"
+#include "channel_server/propagation/path_reuse.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_tracks.h"
 #include "channel_server/propagation/received_path.h"
@@ -156,7 +156,8 @@ Reception RayPropagation::answer(const Task& task, const FoundPaths& found,
   Reception reception;
   reception.used = found.beyond_terrain ? PropagationUsed::kRaysBeyondTerrain : PropagationUsed::kRays;
   reception.paths_age = task.age;
-  const std::optional<acoustics::Arrivals> elsewhere = arrivals_at(task, found);
+  const std::optional<acoustics::Arrivals> elsewhere =
+      reused_arrivals(task.link, task.query, *task.water, *task.environment, found.arrivals);
   const acoustics::Arrivals& arrivals = elsewhere ? *elsewhere : found.arrivals;
   reception.paths = with_reverberation(model_.reverberation, {found.mean_depth_m, boundaries_.trapped_share},
                                        sound_paths(task, arrivals));
@@ -177,17 +178,6 @@ PathState RayPropagation::state_without_path(const FoundPaths& found) {
   if (found.arrivals.lack == PathLack::kTooWeak) return PathState::kTooWeak;
   if (found.arrivals.lack == PathLack::kTooSteep) return PathState::kTooSteep;
   return found.blocked ? PathState::kBlocked : PathState::kShadow;
-}
-
-std::optional<acoustics::Arrivals> RayPropagation::arrivals_at(const Task& task,
-                                                               const FoundPaths& found) const {
-  const acoustics::RayLink &searched = task.query.link, &link = task.link;
-  const bool itself = searched.range_m == link.range_m && searched.source_depth_m == link.source_depth_m &&
-                      searched.receiver_depth_m == link.receiver_depth_m;
-  if (itself) return std::nullopt;
-  const acoustics::EndSpeeds speeds = end_speeds(*task.water, *task.environment, task.query);
-  return acoustics::Arrivals{found.arrivals.solver,
-                             extrapolate_arrivals(found.arrivals.paths, searched, speeds, link)};
 }
 
 std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,

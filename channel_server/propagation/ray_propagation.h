@@ -30,10 +30,9 @@
 // the two are reciprocal to the last bit, except for what the receiver's noise makes diffuse
 // (RayModel::diffuse_below_noise).
 //
-// reception() searches every link by itself. receptions(), for tables, may let links share searches, whose
-// paths are extrapolated to each link (link_searches.h, acoustics/rays/extrapolate_arrivals.h); so may
-// packets. With a limited number of searches a tick, a link may keep the paths of an earlier tick,
-// extrapolated in the same way: Reception::paths_age.
+// reception() searches every link by itself. receptions(), for tables, may let links share searches
+// (path_reuse.h); so may packets. With a limited number of searches a tick, a link may keep the paths of an
+// earlier tick: Reception::paths_age.
 //
 // Ends above the surface are placed on it. Left out: the slope of the bottom across the link
 // (acoustics/rays/eigenray.h).
@@ -143,8 +142,6 @@ class RayPropagation : public Propagation {
                              acoustics::Capacity capacity = acoustics::Capacity::kComputed);
   Reception answer(const Task& task, const FoundPaths& found, acoustics::Capacity capacity) const;
   static PathState state_without_path(const FoundPaths& found);
-  // Returns the arrivals extrapolated to the ends of the task; empty when they were found at these ends.
-  std::optional<acoustics::Arrivals> arrivals_at(const Task& task, const FoundPaths& found) const;
   std::vector<SoundPath> sound_paths(const Task& task, const acoustics::Arrivals& arrivals) const;
   Decibels received_level(const Task& task, const acoustics::Arrivals& arrivals,
                           const std::vector<SoundPath>& paths) const;

@@ -47,8 +47,6 @@ TEST_F(IdleKeys, KeysThatLackTheirChoiceAreWarnedOf) {
       {"[propagation]\nfading = \"sea\"\ncoherent = true\n", "propagation.coherent", "fading = \"none\""},
       {"[propagation]\nfading = \"sea\"\nlarge_scale_fading_db = 0\nlarge_scale_fading_s = 9\n",
        "propagation.large_scale_fading_s", "large_scale_fading_db above 0"},
-      {"[propagation]\nmodel = \"straight\"\n[channel_server]\nprofile_reuse_distance_m = 9\n",
-       "channel_server.profile_reuse_distance_m", "propagation.model = \"rays\""},
       {"[propagation]\nmodel = \"straight\"\n[channel_server]\nprofile_spacing_m = 9\n",
        "channel_server.profile_spacing_m", "propagation.model = \"rays\""},
       {"[propagation]\nmodel = \"straight\"\n[channel_server]\nmax_searches_per_tick = 9\n",
