@@ -136,10 +136,6 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r, PropagationModel model) 
   });
   v.number("table_range_m", r.reach.table_range_m,
            {0, 4e7, "m", "link tables: peers further away have no row; 0: only those who cannot be heard"});
-  visit_count(v, "bottom_points", r.bottom_points,
-              {1, 64, "", "points of the bottom surveyed for each link"});
-  v.number("echo_reuse_distance_m", r.echoes.reuse_distance_m,
-           {0, 1e5, "m", "how far the ends of a link may move before its echoes are surveyed again"});
   with_rays([&] {
     v.number("profile_spacing_m", r.seabed.spacing_m,
              {1, 1000, "m", "rays: lattice of the depths that the bottom is made of"});
@@ -157,14 +153,6 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r, PropagationModel model) 
               {1, kMaxShards, "", "channel servers that share the vehicles, by where they start"});
   visit_count(v, "shard", r.medium.shard.index,
               {0, kMaxShards - 1.0, "", "which of them this one is; in one process all run"});
-  bus::seconds(v, "echo_deadline_s", r.ray_queries.answer_deadline,
-               {0.001, 60, "s", "the bathymetry service is away when it has not answered by then"});
-  visit_count(v, "echo_rays_per_message", r.ray_queries.rays_per_batch,
-              {128, 4096, "", "rays in one RAY_QUERY"});
-  visit_count(v, "echo_messages_in_flight", r.ray_queries.batches_in_flight,
-              {1, 64, "", "RAY_QUERYs without an answer"});
-  visit_count(v, "echo_surveys_per_table", r.echoes.surveys_per_table,
-              {1, 1e6, "", "pairs whose echoes are surveyed for one link table, of all servers"});
 }
 
 void visit_extra_loss(bus::ConfigVisitor& v, ExtraLoss& loss) {

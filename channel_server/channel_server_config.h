@@ -21,9 +21,7 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/config/config.h"
 #include "bus/config/scenario.h"
-#include "channel_server/links/echo_plan.h"
 #include "channel_server/links/link_predictor.h"
-#include "channel_server/links/ray_query_client.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"
@@ -123,9 +121,6 @@ struct ServerRules {
   PositionRule position;
   MediumRule medium;
   ReachRule reach;
-  RayQueryRule ray_queries;
-  int bottom_points = 9;  // points on the bottom under each link, for its echoes
-  EchoRule echoes;
   SeabedRule seabed;
   int max_searches_per_tick = 0;     // eigenray searches for link tables; 0: as many as are needed
   int threads = 1;                   // threads that compute link tables and the paths of packets

@@ -7,6 +7,7 @@
 
 #include "bus/messages/channels.h"
 #include "channel_server/input_processor.h"
+#include "channel_server/links/ray_query_client.h"
 #include "channel_server/scenario_messages.h"
 #include "channel_server/vehicles/shard.h"
 #include "core/check.h"
@@ -38,23 +39,19 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       setup_{rules, modems, std::move(equipment), std::move(scenario)},
       pool_(rules.threads),
       water_(std::move(water)),
-      echoes_(rules.echoes.reuse_distance_m),
-      rays_(rules.ray_queries),
       publisher_(bus()),
       journal_(bus(), publisher_),
       inbox_(bus(), rules.medium.shard, setup_.equipment),
-      seabed_(bus(), {rays_, echoes_, *water_.seabed, *water_.propagation}, rules.bottom_points, rules.echoes,
-              rules.medium.shard),
-      exchange_(bus(), publisher_, rules.medium.shard, rules.ray_queries.answer_deadline,
+      seabed_(bus(), *water_.seabed, *water_.propagation),
+      exchange_(bus(), publisher_, rules.medium.shard, RayQueryClient::kAnswerDeadline,
                 hash_of(setup_.scenario)),
       shares_searches_(!rules.medium.shard.is_alone() && water_.propagation->share_searches(exchange_)) {
   begin_run();
 }
 
 void ChannelServerNode::begin_run() {
-  run_.emplace(ServerRun::Parts{setup_, water_, echoes_, rays_, seabed_,
-                                shares_searches_ ? &exchange_ : nullptr, bus(), publisher_, journal_,
-                                pool_.sharing_out()});
+  run_.emplace(ServerRun::Parts{setup_, water_, seabed_, shares_searches_ ? &exchange_ : nullptr, bus(),
+                                publisher_, journal_, pool_.sharing_out()});
 }
 
 void ChannelServerNode::open_journal(const std::string& path, std::uint64_t digest) {
@@ -87,13 +84,12 @@ SimTime ChannelServerNode::on_lookahead(const ChannelTest& matters) const {
 }
 
 void ChannelServerNode::on_step(const bus::Now& now) {
-  if (seabed_.take_replies(run_->link_queries())) {
+  if (seabed_.take_replies()) {
     exchange_.set_terrain(seabed_.terrain_version(), now.sim, /*tells=*/!recovery_);
     run_->take_terrain();
   }
   if (exchange_.take_news_of_terrain()) seabed_.ask_for_terrain();
-  if (recovery_ && !(now.sim_known && recover(now)))
-    return seabed_.publish_queries(now, run_->link_queries());
+  if (recovery_ && !(now.sim_known && recover(now))) return seabed_.publish_queries(now);
   if (now.sim_known) {
     journal_.write_inputs(now.sim);
     run_->apply(inbox_.take_inputs(), now.sim, now.latest());

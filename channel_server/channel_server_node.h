@@ -27,8 +27,6 @@
 #include "bus/transport/node_identity.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/inbox.h"
-#include "channel_server/links/multipath_cache.h"
-#include "channel_server/links/ray_query_client.h"
 #include "channel_server/seabed_client.h"
 #include "channel_server/server_recovery.h"
 #include "channel_server/server_run.h"
@@ -70,8 +68,6 @@ class ChannelServerNode : public bus::Node {
   ServerSetup setup_;
   bus::ThreadPool pool_;
   WaterModel water_;
-  MultipathCache echoes_;
-  RayQueryClient rays_;
   bus::NumberedPublisher publisher_;
   bus::CrashJournal journal_;
   Inbox inbox_;

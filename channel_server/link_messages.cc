@@ -104,18 +104,6 @@ link_answer_t to_message(const LinkAnswer& answer) {
   return message;
 }
 
-std::int8_t mode_of(RayKind kind) {
-  switch (kind) {
-    case RayKind::kDepths:
-      return ray_query_t::DEPTH;
-    case RayKind::kWays:
-      return ray_query_t::OCCLUDED;
-    case RayKind::kTiles:
-      break;
-  }
-  return ray_query_t::DEPTH_TILES;
-}
-
 }  // namespace
 
 link_t to_message(const LinkRow& row) {
@@ -218,13 +206,13 @@ ray_query_t to_message(const RayQueryBatch& batch, std::string_view client, SimT
   message.utime = asked_at.to_utime();
   message.client_name = client;
   message.request_id = batch.request_id;
-  message.query_mode = mode_of(batch.kind);
+  message.query_mode = ray_query_t::DEPTH_TILES;
   message.sample_spacing_m = batch.spacing_m;
-  message.num_rays = static_cast<std::int32_t>(batch.rays.size());
-  for (const TerrainRay& ray : batch.rays) {
-    message.offset_m.push_back(as_vector(ray.origin_ned_m));
-    message.direction.push_back(as_vector(ray.direction));
-    message.max_range_m.push_back(ray.max_range_m);
+  message.num_rays = static_cast<std::int32_t>(batch.origins_ned_m.size());
+  for (const Vec3& origin_ned_m : batch.origins_ned_m) {
+    message.offset_m.push_back(as_vector(origin_ned_m));
+    message.direction.push_back(as_vector(Vec3::UnitZ()));
+    message.max_range_m.push_back(1);  // not read: a depth belongs to a place
   }
   return message;
 }

@@ -12,7 +12,7 @@
 #include "channel_server/links/link_query_service.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/ray_query_client.h"
-#include "channel_server/propagation/terrain_rays.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {

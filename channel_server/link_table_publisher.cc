@@ -31,12 +31,9 @@ bool LinkTablePublisher::is_noise_ready(SimTime tick, const std::vector<EndPair>
 
 void LinkTablePublisher::publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles,
                                  const TableRows& rows) {
-  const auto multipath = [&](const PlacedVehicle& from, const PlacedVehicle& to) {
-    return models_.echoes.at_last_tick(tick, from, to, models_.propagation);
-  };
   NoiseOfLinks noise(models_.noise, tick);
-  for (const LinkTable& table : link_tables(tick, vehicles, rows, models_.propagation, models_.predictor,
-                                            multipath, for_each_, &noise)) {
+  for (const LinkTable& table :
+       link_tables(tick, vehicles, rows, models_.propagation, models_.predictor, for_each_, &noise)) {
     const std::string channel = bus::channels::kLinks.of(models_.vehicles.name_of(table.vehicle_id));
     for (const link_table_t& message : to_messages(table, tick)) publisher_.publish(channel, message);
     links_published_ += static_cast<std::int64_t>(table.rows.size());

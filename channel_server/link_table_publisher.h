@@ -13,7 +13,6 @@
 #include "bus/transport/event_log.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
-#include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/receiver_noise.h"
 #include "channel_server/packets/platform_noise.h"
 #include "channel_server/propagation/propagation.h"
@@ -45,7 +44,6 @@ class LinkTablePublisher {
     const VehicleRegistry& vehicles;
     Propagation& propagation;
     LinkPredictor& predictor;
-    MultipathCache& echoes;
     ReceiverNoise& noise;
   };
   LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, ForEach for_each)

@@ -7,6 +7,7 @@
 
 #include "bus/messages/channels.h"
 #include "channel_server/link_messages.h"
+#include "channel_server/links/ray_query_client.h"
 #include "channel_server/packets/medium_event.h"
 #include "channel_server/world_messages.h"
 
@@ -50,15 +51,13 @@ ServerRun::ServerRun(const Parts& parts)
               rules_.medium.seed),
       noise_(sounds_),
       predictor_(make_predictor(rules_)),
-      queries_(vehicles_, *parts.water.propagation, predictor_, noise_, parts.echoes, parts.rays,
-               {rules_.bottom_points, rules_.ray_queries.answer_deadline}),
-      places_(vehicles_, *parts.water.propagation, predictor_, noise_, rules_.ray_queries.answer_deadline,
+      queries_(vehicles_, *parts.water.propagation, predictor_, noise_, RayQueryClient::kAnswerDeadline),
+      places_(vehicles_, *parts.water.propagation, predictor_, noise_, RayQueryClient::kAnswerDeadline,
               parts.for_each),
       packets_(parts.bus, parts.journal),
       processor_(parts.bus, vehicles_, *parts.water.waters, *parts.water.propagation, medium_, packets_),
       table_publisher_(parts.publisher, parts.bus.log(),
-                       {vehicles_, *parts.water.propagation, predictor_, parts.echoes, noise_},
-                       parts.for_each) {
+                       {vehicles_, *parts.water.propagation, predictor_, noise_}, parts.for_each) {
   for (const scenario_info_t& part : parts.setup.scenario) {
     for (const scenario_vehicle_t& vehicle : part.vehicles)
       vehicles_.reserve(vehicle.vehicle_name, vehicle.vehicle_id);
@@ -113,7 +112,7 @@ bool ServerRun::run_tick(SimTime tick, SimTime steady) {
   if (!tables_ || tables_->tick() != tick)
     tables_.emplace(
         TableTick::Parts{vehicles_, reach_, *parts_.water.propagation, predictor_, table_publisher_,
-                         parts_.seabed, parts_.exchange, rules_.medium.shard, parts_.for_each},
+                         *parts_.water.seabed, parts_.exchange, rules_.medium.shard, parts_.for_each},
         tick);
   if (!tables_->publish(steady)) return false;
   tables_.reset();
@@ -125,7 +124,6 @@ void ServerRun::advance_medium(SimTime time) {
 }
 
 void ServerRun::publish_environment(SimTime instant) {
-  parts_.echoes.forget_verdicts();
   if (rules_.medium.shard.index == 0 && !parts_.journal.is_recovering()) {
     parts_.publisher.publish(channels::kEnvironment,
                              to_message(parts_.water.propagation->environment(instant),
@@ -163,7 +161,7 @@ void ServerRun::answer_queries(Inbox& inbox, const bus::Now& now) {
   for (const best_place_query_t& query : inbox.take_place_queries())
     places_.submit(to_query(query), sim, now.steady);
   const auto places = places_.take_replies(now.steady);  // requests the seabed that the places need
-  parts_.seabed.publish_queries(now, queries_);
+  parts_.seabed.publish_queries(now);
   const auto publish = [&](const auto& replies, const bus::Family& family) {
     for (const auto& reply : replies) {
       auto message = to_message(reply);

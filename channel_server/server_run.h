@@ -21,8 +21,6 @@
 #include "channel_server/links/best_place_service.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_query_service.h"
-#include "channel_server/links/multipath_cache.h"
-#include "channel_server/links/ray_query_client.h"
 #include "channel_server/packet_publisher.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/packets/platform_noise.h"
@@ -55,8 +53,6 @@ class ServerRun {
   struct Parts {
     const ServerSetup& setup;
     const WaterModel& water;
-    MultipathCache& echoes;
-    RayQueryClient& rays;
     SeabedClient& seabed;
     ShardExchange* exchange;  // null when this server shares no searches with others
     bus::Bus& bus;
@@ -88,7 +84,6 @@ class ServerRun {
   // Takes the queries of a step, and publishes the replies that are complete.
   void answer_queries(Inbox& inbox, const bus::Now& now);
 
-  LinkQueryService& link_queries() { return queries_; }
   const PacketPublisher& packets() const { return packets_; }
   std::string status_text() const;
 

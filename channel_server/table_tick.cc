@@ -22,11 +22,13 @@ bool TableTick::publish(SimTime steady) {
   if (!is_prepared_ && !prepare(steady)) return false;
   if (parts_.exchange != nullptr && parts_.exchange->must_wait(steady)) return false;
   parts_.publisher.publish(tick_, present_, rows_);
-  parts_.seabed.begin_tick(present_, all_links());
+  parts_.seabed.forget_unused();
   return true;
 }
 
 bool TableTick::prepare(SimTime steady) {
+  // The seabed under a large fleet comes in hundreds of answers; the links are examined again after the last.
+  if (std::exchange(is_examined_, true) && parts_.seabed.awaits_tiles()) return false;
   Propagation& propagation = parts_.propagation;
   // Asked first, so that all missing data are requested at once.
   const bool is_noise_ready = parts_.publisher.is_noise_ready(tick_, rows_.links);

@@ -11,7 +11,7 @@
 #include "channel_server/links/link_table.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/reach.h"
-#include "channel_server/seabed_client.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/shards/shard_exchange.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/shard.h"
@@ -30,7 +30,7 @@ class TableTick {
     Propagation& propagation;
     LinkPredictor& predictor;
     LinkTablePublisher& publisher;
-    SeabedClient& seabed;
+    SeabedMap& seabed;
     ShardExchange* exchange;  // null when this server shares no searches with others
     const Shard& shard;
     ForEach for_each;
@@ -58,7 +58,8 @@ class TableTick {
   std::vector<PlacedVehicle> present_;
   TableRows rows_;
   std::vector<EndPair> links_of_all_;  // links of all servers; empty when this server is alone
-  bool is_prepared_ = false;
+  bool is_examined_ = false;           // the missing tiles of the seabed are requested
+  bool is_prepared_ = false;           // this server's eigenray searches are done
 };
 
 }  // namespace halocline::channel_server

@@ -52,8 +52,9 @@ void set_field(const bus::Scenario& scenario, acoustics::Environment& environmen
 namespace {
 
 WaterModel straight_in(std::shared_ptr<EnvironmentTimeline> waters, const acoustics::FadingModel& fading) {
-  auto propagation = std::make_unique<StraightPropagation>(waters, fading);
-  return {waters, std::make_shared<SeabedMap>(SeabedRule{}), std::move(propagation), {"straight", {}, {}}};
+  auto seabed = std::make_shared<SeabedMap>(SeabedRule{});
+  auto propagation = std::make_unique<StraightPropagation>(waters, fading, seabed);
+  return {waters, seabed, std::move(propagation), {"straight", {}, {}}};
 }
 
 WaterModel rays_in(std::shared_ptr<EnvironmentTimeline> waters, const RayModel& rays,

@@ -20,9 +20,9 @@
 #include "bathymetry/terrain/terrain.h"
 #include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/links/link_table.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_map.h"
-#include "channel_server/propagation/terrain_rays.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/check.h"
 #include "core/csv_table.h"
@@ -35,7 +35,10 @@ namespace halocline::clients {
 namespace {
 
 using channel_server::RayAnswer;
-using channel_server::TerrainRay;
+
+// The distance from its other end at which the straight line between two points ends for is_cut(), m: more
+// than the error of a stored seabed, less than any relief that matters to sound.
+constexpr double kShortOfEndM = 0.01;
 
 RayAnswer::Kind kind_of(bathymetry::RayStatus status) {
   using Status = bathymetry::RayStatus;
@@ -57,10 +60,8 @@ RayAnswer::Kind kind_of(bathymetry::RayStatus status) {
 }
 
 std::vector<RayAnswer> query(const bathymetry::Terrain& terrain, bathymetry::QueryMode mode,
-                             const std::vector<TerrainRay>& rays, double spacing_m = 0) {
-  if (rays.empty()) return {};
-  bathymetry::RayBatch batch{.mode = mode, .sample_spacing_m = spacing_m};
-  for (const TerrainRay& ray : rays) batch.rays.push_back({ray.origin_ned_m, ray.direction, ray.max_range_m});
+                             const bathymetry::Ray& ray, double spacing_m = 0) {
+  const bathymetry::RayBatch batch{.mode = mode, .sample_spacing_m = spacing_m, .rays = {ray}};
   const auto answers = bathymetry::answer(terrain, bathymetry::version_text(terrain.version()), batch);
   std::vector<RayAnswer> out;
   for (std::size_t i = 0; i < answers.statuses.size(); ++i) {
@@ -146,12 +147,13 @@ acoustics::Arrivals arrivals_of(LinkSurveyor& surveyor, const channel_server::Li
                                  : straight_arrival(reception, {from.modem->beam, to.modem->beam});
 }
 
-channel_server::Multipath echo_likelihood(const ScenarioConfig& config, const bathymetry::Terrain& terrain,
-                                          const LinkSurveyEnd& from, const LinkSurveyEnd& to,
-                                          channel_server::Propagation& propagation) {
-  const auto echoes = survey_echoes(terrain, from.position_ned_m, to.position_ned_m,
-                                    config.channel_server.rules.bottom_points);
-  return multipath_of(echoes, /*reversed=*/false, SimTime(), propagation, from.modem.modem, to.modem.modem);
+// True when the terrain obstructs the straight line between two points; false where the terrain is not known.
+bool is_cut(const bathymetry::Terrain& terrain, const Vec3& from_ned_m, const Vec3& to_ned_m) {
+  const Vec3 way = to_ned_m - from_ned_m;
+  const double length = way.norm() - kShortOfEndM;
+  if (length <= 0) return false;
+  return query(terrain, bathymetry::QueryMode::kOccluded, {from_ned_m, way, length}).front().kind ==
+         RayAnswer::Kind::kHit;
 }
 
 // Returns remarks that a reader of the prediction needs.
@@ -211,26 +213,11 @@ void require_above_seabed(const bathymetry::Terrain& terrain, const LinkSurveyEn
               " m");
 }
 
-bool is_cut(const bathymetry::Terrain& terrain, const Vec3& from_ned_m, const Vec3& to_ned_m) {
-  const Vec3 way = to_ned_m - from_ned_m;
-  const double length = way.norm() - channel_server::EchoSurvey::kShortOfBottomM;
-  if (length <= 0) return false;
-  return query(terrain, bathymetry::QueryMode::kOccluded, {{from_ned_m, way, length}}).front().kind ==
-         RayAnswer::Kind::kHit;
-}
-
-channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
-                                         const Vec3& to_ned_m, int bottom_points) {
-  channel_server::EchoSurvey survey(from_ned_m, to_ned_m, bottom_points);
-  survey.take_depths(query(terrain, bathymetry::QueryMode::kDepth, survey.depth_rays()));
-  survey.take_ways(query(terrain, bathymetry::QueryMode::kOccluded, survey.way_rays()));
-  return survey;
-}
-
 void answer_requests(const bathymetry::Terrain& terrain, channel_server::SeabedMap& seabed) {
   for (channel_server::TileSurvey& tile : seabed.take_requests()) {
-    static_assert(bathymetry::kTileSide == channel_server::kTileSide);
-    tile.take(query(terrain, bathymetry::QueryMode::kDepthTiles, tile.rays(), tile.spacing_m()));
+    static_assert(bathymetry::kTileSide == channel_server::TileSurvey::kPoints);
+    const bathymetry::Ray place{tile.points_ned_m().front(), Vec3::UnitZ(), 1};  // only the origin is read
+    tile.take(query(terrain, bathymetry::QueryMode::kDepthTiles, place, tile.spacing_m()));
     seabed.store(tile);
   }
 }
@@ -254,9 +241,7 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
   answer.arrivals =
       link_arrivals(config, from, to, answer.reception, arrivals_of(surveyor, here, there, answer.reception));
   answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
-  answer.multipath = surveyor.along_rays()
-                         ? multipath_of(answer.reception, receiver.min_receivable_level)
-                         : echo_likelihood(config, *terrain, from, to, surveyor.propagation());
+  answer.multipath = multipath_of(answer.reception, receiver.min_receivable_level);
   return answer;
 }
 

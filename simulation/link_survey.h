@@ -2,8 +2,7 @@
 // Survey of one link of a scenario between two points: link budget, paths, and whether the bottom sends
 // echoes.
 //
-// The computation is that of the scenario's channel server (link_surveyor.h). With straight paths,
-// echo_survey.h looks for bottom echoes over the scenario's terrain.
+// The computation is that of the scenario's channel server (link_surveyor.h).
 #pragma once
 
 #include <memory>
@@ -11,9 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "channel_server/links/echo_survey.h"
 #include "channel_server/links/link_predictor.h"
-#include "channel_server/links/link_table.h"
+#include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/vehicles/modem_schedule.h"
@@ -58,15 +56,8 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
 // known depth, as sound uses it. Empty for a position that is not finite.
 std::optional<double> seabed_z_m(const bathymetry::Terrain& terrain, const Vec3& place_ned_m);
 
-// True when the terrain obstructs the straight line between two points; false where the terrain is not known.
-bool is_cut(const bathymetry::Terrain& terrain, const Vec3& from_ned_m, const Vec3& to_ned_m);
-
 // Throws InvalidArgument when the end is inside the seabed.
 void require_above_seabed(const bathymetry::Terrain& terrain, const LinkSurveyEnd& end);
-
-// Returns the bottom echoes that are possible between two points of a terrain.
-channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
-                                         const Vec3& to_ned_m, int bottom_points);
 
 // Answers the map's pending requests for depths from the terrain.
 void answer_requests(const bathymetry::Terrain& terrain, channel_server::SeabedMap& seabed);

@@ -24,10 +24,8 @@ constexpr double kClock = 82, kStatus = 230, kState = 180, kSensors = 209, kComm
 // Bytes of a RAY_QUERY with its RAY_REPLY, of each ray in both together, and of each depth in a tile.
 constexpr double kRayQuery = 270, kRay = 65, kTileDepth = 10;
 constexpr int kNodes = 7, kBeamsOfDvl = 4;
-// Rays per second for each link along a straight path, whose bottom is surveyed again as its ends move.
-constexpr double kSurveyedRaysPerSecond = 4;
 constexpr double kReceivedShare = 0.3;
-// Depths that a link along rays requests for each step of its profile, once.
+// Depths that a link requests for each step along it, once.
 constexpr double kDepthsAStep = 16;
 constexpr double kScenarioPeriod_s = 60;
 
@@ -72,16 +70,12 @@ double of_packets(const ScenarioConfig& config) {
 double of_links(const ScenarioConfig& config) {
   const auto n = static_cast<double>(config.scenario.vehicles.size());
   const double links = n * std::max(n - 1, 0.0);
-  const bool straight =
-      config.channel_server.propagation.model == channel_server::PropagationModel::kStraight;
-  return per_second(config.channel_server.rules.link_period) * (n * kLinks + links * kLink) +
-         (straight ? links * kSurveyedRaysPerSecond * kRay : 0);
+  return per_second(config.channel_server.rules.link_period) * (n * kLinks + links * kLink);
 }
 
-// Bytes written once per run: the terrain, and the depths below links along rays, which are no more than the
-// terrain has.
+// Bytes written once per run: the terrain, and the depths below links, which are no more than the terrain
+// has.
 double once(const ScenarioConfig& config) {
-  if (config.channel_server.propagation.model == channel_server::PropagationModel::kStraight) return kTerrain;
   const double spacing_m = config.channel_server.rules.seabed.spacing_m;
   const auto& vehicles = config.scenario.vehicles;
   double steps = 0;

@@ -4,7 +4,7 @@
 //
 // Each message counts with its size in a log: 28 bytes of the event, the channel's name, and the content as
 // measured on the shipped scenarios. Accuracy: 15 % on those (a test runs some of them); a factor of 2 when
-// bottom echoes are surveyed for straight paths, or when packets are many and large.
+// packets are many and large.
 #pragma once
 
 #include "simulation/composition.h"

@@ -19,7 +19,7 @@
 //   const LinkModel model(environment, transmitter, receiver);  // once for a pair of modems
 //   const LinkBudget link = model.budget(from_ned_m, to_ned_m); // microseconds, any number of times
 //
-// Left out: refraction, echoes (acoustics/link/multipath.h), terrain, motion during the time of flight.
+// Left out: refraction, echoes (acoustics/link/bottom_echo.h), terrain, motion during the time of flight.
 #pragma once
 
 #include <vector>

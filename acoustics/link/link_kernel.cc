@@ -171,13 +171,8 @@ LinkBudget LinkKernel::budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned
   return link;
 }
 
-double LinkKernel::delay_s(const Vec3& from_ned_m, const Vec3& to_ned_m) const {
-  return (to_ned_m - from_ned_m).norm() * slowness_s_per_m(leg_between(from_ned_m, to_ned_m));
-}
-
-PathLoss LinkKernel::path_loss(double from_depth_m, double to_depth_m, double path_length_m) const {
-  const double alpha = absorption_db_per_km(leg_between(from_depth_m, to_depth_m));
-  return {alpha, transmission_loss(path_length_m, environment().spreading_exponent, alpha).total};
+double LinkKernel::absorption_db_per_km(double from_depth_m, double to_depth_m) const {
+  return absorption_db_per_km(leg_between(from_depth_m, to_depth_m));
 }
 
 LinkBudget link_budget(const Environment& environment, const Modem& transmitter, const Modem& receiver,

@@ -30,12 +30,6 @@
 
 namespace halocline::acoustics {
 
-// Loss along a straight path at one frequency.
-struct PathLoss {
-  double absorption_db_per_km;  // mean along the path
-  Decibels total;               // dB; 0 below 1 m
-};
-
 // The capacity takes two thirds of a budget's time; kLeftOut skips it and leaves it 0.
 enum class Capacity { kComputed, kLeftOut };
 
@@ -56,11 +50,8 @@ class LinkKernel {
   LinkBudget budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned_m, Decibels loss, double path_length_m,
                             Capacity capacity, Decibels above_ambient = {}) const;
 
-  // One-way travel time, s.
-  double delay_s(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
-  // Loss at the transmitter's centre frequency over `path_length_m` between two depths; also used for the
-  // legs of echoes.
-  PathLoss path_loss(double from_depth_m, double to_depth_m, double path_length_m) const;
+  // Mean absorption at the transmitter's centre frequency along a straight line between two depths, dB/km.
+  double absorption_db_per_km(double from_depth_m, double to_depth_m) const;
 
   const Environment& environment() const { return terms_.environment(); }
   const Modem& transmitter() const { return terms_.transmitter(); }

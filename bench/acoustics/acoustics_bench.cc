@@ -9,9 +9,9 @@
 #include <benchmark/benchmark.h>
 
 #include "acoustics/link/band_capacity.h"
+#include "acoustics/link/bottom_echo.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
-#include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/waveform/analytic_signal.h"
@@ -60,20 +60,14 @@ void link_model(benchmark::State& state) {
 }
 BENCHMARK(link_model);
 
-void travel_time(benchmark::State& state) {
-  const LinkKernel kernel = default_kernel();
-  int i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(kernel.delay_s({0, 0, 100}, moving_node(++i, 1000)));
-  state.SetItemsProcessed(state.iterations());
-}
-BENCHMARK(travel_time);
-
+// All echoes of a link whose receiver is deaf to them.
 void nine_echoes(benchmark::State& state) {
-  const LinkKernel kernel = default_kernel();
-  std::vector<BottomPoint> points;
-  for (const double fraction : bottom_point_fractions(9))
-    points.push_back({{1000 * fraction, 0, 900}, false, false});
-  for (auto _ : state) benchmark::DoNotOptimize(assess_echoes(kernel, {0, 0, 100}, {1000, 0, 300}, points));
+  Modem deaf;
+  deaf.min_receivable_level = {200};
+  const LinkKernel kernel(Environment{}, deaf, deaf);
+  const std::vector<double> bottom_z_m(kBottomDepths, 900);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(is_echo_likely(kernel, {0, 0, 100}, {1000, 0, 300}, bottom_z_m));
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(nine_echoes);

@@ -13,10 +13,8 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/runtime/thread_pool.h"
 #include "channel_server/links/best_place_service.h"
-#include "channel_server/links/echo_survey.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
-#include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/receiver_noise.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
@@ -26,7 +24,6 @@
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/straight_propagation.h"
-#include "channel_server/propagation/terrain_rays.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
@@ -56,27 +53,6 @@ void add_states(VehicleRegistry& fleet, int vehicles, SimTime end, double speed_
   }
 }
 
-// All ordered pairs of a fleet, positions and echoes looked up, as for one tick of LINKS.
-void link_table(benchmark::State& state) {
-  const int vehicles = static_cast<int>(state.range(0));
-  VehicleRegistry fleet({}, {});
-  StraightPropagation propagation(acoustics::Environment{});
-  LinkPredictor predictor({});
-  MultipathCache echoes(5);
-  const SimTime end = SimTime::from_seconds(100);
-  add_states(fleet, vehicles, end);
-  SimTime now = end;
-  for (auto _ : state) {
-    now = now + SimDuration::from_microseconds(1);
-    const auto placed = place_all(fleet, now);
-    benchmark::DoNotOptimize(link_tables(
-        now, placed, table_rows(placed), propagation, predictor,
-        [&](const auto& from, const auto& to) { return echoes.at_last_tick(now, from, to, propagation); }));
-  }
-  state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
-}
-BENCHMARK(link_table)->Arg(3)->Arg(20)->Arg(100);
-
 // A hill of 120 m in water of 200 m, as smooth as a cosine, 3 km across.
 double seamount_z_m(const Vec3& place) {
   const double from_top_m = std::hypot(place.x() - 1500, place.y());
@@ -97,10 +73,31 @@ void answer_requests(SeabedMap& seabed, DepthAt seabed_z_m) {
 
 void answer_requests(SeabedMap& seabed) { answer_requests(seabed, seamount_z_m); }
 
-void survey_tables(RayPropagation& propagation, SeabedMap& seabed, const std::vector<PlacedVehicle>& vehicles,
+void survey_tables(Propagation& propagation, SeabedMap& seabed, const std::vector<PlacedVehicle>& vehicles,
                    SimTime now) {
   while (!propagation.are_ready(now, table_rows(vehicles).links)) answer_requests(seabed);
 }
+
+// All ordered pairs of a fleet, positions and the echoes of a seamount looked up, as for one tick of LINKS.
+void link_table(benchmark::State& state) {
+  const int vehicles = static_cast<int>(state.range(0));
+  VehicleRegistry fleet({}, {});
+  const auto seabed = std::make_shared<SeabedMap>(SeabedRule{});
+  StraightPropagation propagation(std::make_shared<EnvironmentTimeline>(acoustics::Environment{}), {},
+                                  seabed);
+  LinkPredictor predictor({});
+  const SimTime end = SimTime::from_seconds(100);
+  add_states(fleet, vehicles, end);
+  SimTime now = end;
+  for (auto _ : state) {
+    now = now + SimDuration::from_microseconds(1);
+    const auto placed = place_all(fleet, now);
+    survey_tables(propagation, *seabed, placed, now);
+    benchmark::DoNotOptimize(link_tables(now, placed, table_rows(placed), propagation, predictor));
+  }
+  state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
+}
+BENCHMARK(link_table)->Arg(3)->Arg(20)->Arg(100);
 
 // The same along rays over a seamount, in the global mean profile. Everybody moves between two ticks, so
 // every pair's paths are searched. Items are links (both ways of a pair share a search).
@@ -125,8 +122,7 @@ void ray_link_table(benchmark::State& state) {
     for (PlacedVehicle& vehicle : placed) vehicle.placement.position_ned_m.x() += 2e-3 * (vehicle.id % 3 + 1);
     survey_tables(propagation, *seabed, placed, now);
     state.ResumeTiming();
-    benchmark::DoNotOptimize(link_tables(now, placed, table_rows(placed), propagation, predictor,
-                                         [](const auto&, const auto&) { return Multipath::kUnknown; }));
+    benchmark::DoNotOptimize(link_tables(now, placed, table_rows(placed), propagation, predictor));
   }
   state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
 }
@@ -280,19 +276,6 @@ void packets_that_overlap(benchmark::State& state) {
       static_cast<double>(state.iterations()) * 2 * vehicles * (vehicles - 1), benchmark::Counter::kIsRate);
 }
 BENCHMARK(packets_that_overlap)->Arg(3)->Arg(20);
-
-// What a link table costs more when every pair's echoes are judged anew (a modem changed, or a survey came).
-void judge_echoes(benchmark::State& state) {
-  StraightPropagation propagation(acoustics::Environment{});
-  EchoSurvey survey({0, 0, 50}, {900, 0, 60}, 9);
-  survey.take_depths(std::vector<RayAnswer>(9, {RayAnswer::Kind::kHit, 200}));
-  survey.take_ways(std::vector<RayAnswer>(18, {RayAnswer::Kind::kMiss, 0}));
-  const acoustics::Modem modem;
-  for (auto _ : state)
-    benchmark::DoNotOptimize(multipath_of(survey, false, SimTime(), propagation, modem, modem));
-  state.SetItemsProcessed(state.iterations());
-}
-BENCHMARK(judge_echoes);
 
 }  // namespace
 }  // namespace halocline::channel_server

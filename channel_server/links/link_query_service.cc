@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/sound_speed_profile.h"
-#include "channel_server/links/echo_survey.h"
 #include "channel_server/links/waiting_queries.h"
 #include "core/check.h"
 #include "core/names.h"
@@ -48,23 +46,14 @@ std::string problem_of_modem(const acoustics::Modem& modem) {
 }  // namespace
 
 LinkQueryService::LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation,
-                                   LinkPredictor& predictor, ReceiverNoise& noise, MultipathCache& echoes,
-                                   RayQueryClient& rays, Rule rule)
-    : fleet_(fleet),
-      propagation_(propagation),
-      predictor_(predictor),
-      noise_(noise),
-      echoes_(echoes),
-      rays_(rays),
-      rule_(rule) {
-  require(rule.bottom_points >= 1, "at least one bottom point is needed");
-}
+                                   LinkPredictor& predictor, ReceiverNoise& noise, SimDuration timeout)
+    : fleet_(fleet), propagation_(propagation), predictor_(predictor), noise_(noise), timeout_(timeout) {}
 
 void LinkQueryService::submit(const LinkQuery& query, std::optional<SimTime> sim, SimTime steady) {
   if (is_among(waiting_, query)) return;
   Waiting waiting;
   waiting.reply = {query.client, query.request_id, sim.value_or(SimTime()), refusal_of(query), {}};
-  waiting.deadline = steady + rule_.timeout;
+  waiting.deadline = steady + timeout_;
   waiting.wants_paths = query.wants_paths;
   if (waiting.reply.refusal.empty()) {
     NoiseOfLinks noise(noise_, waiting.reply.at);
@@ -148,16 +137,18 @@ void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, No
   answer.row.transmitter_age = from.placement.age;
   answer.row.receiver_age = to.placement.age;
   set_reception(from, to, waiting.reply.at, noise, answer);
-  const bool tables_know = from.id != 0 && to.id != 0 && from.id != to.id && !propagation_.uses_bottom();
-  if (tables_know) {
-    answer.row.multipath = echoes_.at(waiting.reply.at, from.placed(), to.placed(), propagation_);
-  }
   waiting.reply.answers.push_back(answer);
-  if (waiting.wants_paths) waiting.ends.emplace(waiting.reply.answers.size() - 1, std::pair(from, to));
   const bool refused = answer.status != LinkAnswer::Status::kAnswered;
-  if (refused) return;
-  const bool is_noise_ready = noise.are_ready({link_of(from, to)});
-  if (!is_noise_ready || answer.row.multipath == Multipath::kUnknown) wait_for_terrain(from, to, waiting);
+  const bool waits = !refused && !is_ready(waiting.reply.at, link_of(from, to), noise);
+  const std::size_t index = waiting.reply.answers.size() - 1;
+  if (waits) waiting.bottoms.insert(index);
+  if (waits || waiting.wants_paths) waiting.ends.emplace(index, std::pair(from, to));
+}
+
+// Both are asked, so that all missing data are requested together.
+bool LinkQueryService::is_ready(SimTime at, const EndPair& link, NoiseOfLinks& noise) {
+  const bool is_noise_ready = noise.are_ready({link});
+  return propagation_.is_ready(at, link.from, link.to) && is_noise_ready;
 }
 
 // Vehicles are not checked: they rest on the terrain's seabed, which may lie below the smooth one of rays.
@@ -190,41 +181,11 @@ void LinkQueryService::set_reception(const ResolvedEnd& from, const ResolvedEnd&
   row.multipath = multipath_of(reception, receiver.min_receivable_level);
 }
 
-void LinkQueryService::wait_for_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting) {
-  const std::size_t index = waiting.reply.answers.size() - 1;
-  waiting.ends.emplace(index, std::pair(from, to));
-  if (propagation_.uses_bottom()) {
-    waiting.bottoms.insert(index);
-    return take_bottoms(waiting);
-  }
-  const EchoSurvey survey(from.placement.position_ned_m, to.placement.position_ned_m, rule_.bottom_points);
-  waiting.surveys.emplace(rays_.submit_urgent(survey), index);
-}
-
-bool LinkQueryService::finish(const RayQueryClient::Finished& finished) {
-  for (Waiting& waiting : waiting_) {
-    const auto survey = waiting.surveys.find(finished.id);
-    if (survey == waiting.surveys.end()) continue;
-    const auto& [from, to] = waiting.ends.at(survey->second);
-    if (finished.answered) {
-      waiting.reply.answers[survey->second].row.multipath =
-          multipath_of(std::get<EchoSurvey>(finished.survey), /*reversed=*/false, waiting.reply.at,
-                       propagation_, from.modem.modem, to.modem.modem);
-    }
-    waiting.surveys.erase(survey);
-    return true;
-  }
-  return false;
-}
-
 void LinkQueryService::take_bottoms(Waiting& waiting) {
   NoiseOfLinks noise(noise_, waiting.reply.at);
   std::erase_if(waiting.bottoms, [&](std::size_t index) {
     const auto& [from, to] = waiting.ends.at(index);
-    const EndPair link = link_of(from, to);
-    // Asked first, so that all missing data are requested at once.
-    const bool is_noise_ready = noise.are_ready({link});
-    if (!propagation_.is_ready(waiting.reply.at, link.from, link.to) || !is_noise_ready) return false;
+    if (!is_ready(waiting.reply.at, link_of(from, to), noise)) return false;
     set_reception(from, to, waiting.reply.at, noise, waiting.reply.answers[index]);
     return true;
   });

@@ -4,9 +4,8 @@
 //
 // Each link is answered or refused on its own. Its noise is that of receiver_noise.h; a position without a
 // vehicle has no own noise. The budget of a straight path is computed at once. Whether an echo is likely, and
-// rays, need the terrain: a reply waits for it for at most `timeout` of steady time, then states kUnknown and
-// the straight path. Echoes are surveyed urgently unless the link tables have a survey of the two vehicles.
-// The seabed that rays need is requested by the propagation itself.
+// rays, need the seabed, which the propagation requests: a reply waits for it for at most `timeout` of steady
+// time, then states kUnknown and the straight path.
 //
 // The position of a named vehicle is the one predicted for the simulation time of the query
 // (state_history.h). Every named vehicle is unknown while no simulation time is known. Not thread-safe.
@@ -23,8 +22,6 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
-#include "channel_server/links/multipath_cache.h"
-#include "channel_server/links/ray_query_client.h"
 #include "channel_server/links/receiver_noise.h"
 #include "channel_server/propagation/link_tracks.h"
 #include "channel_server/propagation/propagation.h"
@@ -93,20 +90,13 @@ class LinkQueryService {
   static constexpr std::size_t kMaxLinks = 200;   // links of one query
   static constexpr std::size_t kMaxWaiting = 64;  // queries that wait for the terrain
 
-  struct Rule {
-    int bottom_points = 9;  // points on the bottom of an echo survey
-    SimDuration timeout = SimDuration::from_milliseconds(250);
-  };
-
   // The references must outlive the service.
   LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation, LinkPredictor& predictor,
-                   ReceiverNoise& noise, MultipathCache& echoes, RayQueryClient& rays, Rule rule);
+                   ReceiverNoise& noise, SimDuration timeout);
 
   // Takes a query. A repetition of a query that is still waiting changes nothing. `sim` is empty while the
   // simulation time is unknown.
   void submit(const LinkQuery& query, std::optional<SimTime> sim, SimTime steady);
-  // Takes a finished survey; returns true when it belongs to this service.
-  [[nodiscard]] bool finish(const RayQueryClient::Finished& finished);
   // Returns the replies that are complete at `steady` or whose deadline has passed.
   std::vector<LinkReply> take_replies(SimTime steady);
   // Returns the earliest deadline; at_once() while a reply is complete.
@@ -125,11 +115,10 @@ class LinkQueryService {
     LinkReply reply;
     SimTime deadline;
     bool wants_paths = false;
-    // Surveys and links whose terrain is awaited, and the ends of these links, by the index of the answer.
-    std::map<RayQueryClient::SurveyId, std::size_t> surveys;
+    // Links whose terrain is awaited, and the ends of these links, by the index of the answer.
     std::set<std::size_t> bottoms;
     std::map<std::size_t, std::pair<ResolvedEnd, ResolvedEnd>> ends;
-    bool is_done() const { return surveys.empty() && bottoms.empty(); }
+    bool is_done() const { return bottoms.empty(); }
   };
   [[nodiscard]] std::string refusal_of(const LinkQuery& query) const;
   ResolvedEnd resolve(const LinkEndRequest& end, std::optional<SimTime> sim) const;
@@ -141,7 +130,7 @@ class LinkQueryService {
   void set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at, NoiseOfLinks& noise,
                      LinkAnswer& answer);
   [[nodiscard]] std::string problem_with_seabed(const ResolvedEnd& end) const;
-  void wait_for_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
+  bool is_ready(SimTime at, const EndPair& link, NoiseOfLinks& noise);
   void take_bottoms(Waiting& waiting);
   void add_details(Waiting& waiting);
 
@@ -149,9 +138,7 @@ class LinkQueryService {
   Propagation& propagation_;
   LinkPredictor& predictor_;
   ReceiverNoise& noise_;
-  MultipathCache& echoes_;
-  RayQueryClient& rays_;
-  Rule rule_;
+  SimDuration timeout_;
   std::deque<Waiting> waiting_;
 };
 

@@ -10,7 +10,7 @@
 
 namespace halocline::channel_server {
 Multipath multipath_of(const Reception& reception, Decibels cutoff) {
-  if (!is_along_rays(reception.used)) return Multipath::kUnknown;
+  if (!is_along_rays(reception.used)) return reception.bottom_echo;
   const bool echoes = std::any_of(reception.paths.begin(), reception.paths.end(), [&](const SoundPath& path) {
     return path.bottom_bounces > 0 && path.level > cutoff;
   });
@@ -63,8 +63,7 @@ TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vect
 
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
-                                   const MultipathFunction& multipath, const ForEach& for_each,
-                                   NoiseOfLinks* noise) {
+                                   const ForEach& for_each, NoiseOfLinks* noise) {
   std::vector<EndPair> links = rows.links;
   for (EndPair& link : links) {
     if (noise != nullptr) noise->set(link);
@@ -94,7 +93,6 @@ std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehi
       row.multipath = multipath_of(receptions[link], to.modem->modem.min_receivable_level);
       row.transmitter_age = from.placement.age;
       row.receiver_age = to.placement.age;
-      if (row.used == PropagationUsed::kStraight) row.multipath = multipath(from, to);
       table.rows.push_back(row);
       ++link;
     }

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "acoustics/link/least_loss.h"
@@ -22,15 +21,8 @@
 
 namespace halocline::channel_server {
 
-// The knowledge about bottom echoes on a link.
-enum class Multipath {
-  kUnlikely,
-  kLikely,   // an echo reaches the receiver above its cut-off
-  kUnknown,  // the terrain is not known
-};
-
-// Returns the verdict from the paths of a reception: a path that bounced off the bottom above the cut-off is
-// an echo. kUnknown for straight paths.
+// Returns the verdict of a reception. Among rays, a path that bounced off the bottom above the cut-off is an
+// echo; beside a straight path the verdict is Reception::bottom_echo.
 Multipath multipath_of(const Reception& reception, Decibels cutoff);
 
 // The quality of one link, as a link table or the answer to a link query states it.
@@ -84,16 +76,11 @@ struct TableRows {
 TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vector<double>& ranges_m = {},
                      Shard shard = {});
 
-using MultipathFunction =
-    std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
-
 // Returns one table for each transmitter, for links whose sound leaves at `instant`; a vehicle without others
 // has an empty table. `rows` holds links between `vehicles`, for which the propagation must be ready.
-// `multipath` is called for links whose paths are straight by choice, because rays include the echoes of the
-// bottom. `noise`, unless null, replaces the ambient noise of levels, capacity and forecasts.
+// `noise`, unless null, replaces the ambient noise of levels, capacity and forecasts.
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
-                                   const MultipathFunction& multipath,
                                    const ForEach& for_each = one_after_the_other,
                                    NoiseOfLinks* noise = nullptr);
 

@@ -20,7 +20,6 @@
 #include "acoustics/fading/measured_channel.h"
 #include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_kernel.h"
-#include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
@@ -85,11 +84,6 @@ class MeasuredPropagation : public Propagation {
   LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
     return reception(at, from, to).measured ? Propagation::tracks(at, from, to)
                                             : model_->tracks(at, from, to);
-  }
-  bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
-                          const Vec3& from_ned_m, const Vec3& to_ned_m,
-                          const std::vector<acoustics::BottomPoint>& points) override {
-    return model_->echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
   }
   // A record's level holds at every range, so levels have no bound by range.
   std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,

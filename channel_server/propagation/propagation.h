@@ -28,7 +28,6 @@
 #include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
-#include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
@@ -96,6 +95,13 @@ inline bool is_along_rays(PropagationUsed used) {
   return used == PropagationUsed::kRays || used == PropagationUsed::kRaysBeyondTerrain;
 }
 
+// The knowledge about echoes off the bottom on a link.
+enum class Multipath {
+  kUnlikely,
+  kLikely,   // an echo reaches the receiver above its cut-off
+  kUnknown,  // the terrain is not known
+};
+
 // Sound that one link delivers. In the budget, `delay_s` is the delay of the strongest path in the receiver's
 // guard window, and `received_level` is the mean power of all paths together (acoustics/fading/link_fading.h;
 // without fading, the sum of their powers); the other fields follow from these. Without a path, the delay is
@@ -115,6 +121,9 @@ struct Reception {
   SimDuration paths_age = {};
   // Measured channel whose taps are the paths and whose fading they have; null: they fade by the model.
   std::shared_ptr<const acoustics::MeasuredChannel> measured = {};
+  // Echoes beside a straight path over a known bottom; kUnknown otherwise, also along rays, among which the
+  // echoes are.
+  Multipath bottom_echo = Multipath::kUnknown;
 };
 
 // Bound on flux-only links, for which only the incoherent energy flux is computed: all links whose level lies
@@ -143,7 +152,8 @@ class Propagation {
 
   // Throws InvalidArgument when a modem is out of range.
   virtual Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) = 0;
-  // Returns reception() for callers such as packets that do not read the capacity: it may be 0.
+  // Returns reception() for callers such as packets that do not read capacity and bottom echo: they may be 0
+  // and kUnknown.
   virtual Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) {
     return reception(at, from, to);
   }
@@ -177,7 +187,7 @@ class Propagation {
     return is_ready(at, from, to);
   }
   virtual bool are_ready(SimTime /*at*/, const std::vector<EndPair>& /*links*/) { return true; }
-  // True when results depend on the bottom along the link. Then reception() uses the known seabed and
+  // True when paths depend on the bottom along the link. Then reception() uses the known seabed and
   // reception_over() the given one, from one end to the other (null: unknown). reception_over() must not be
   // called otherwise.
   virtual bool uses_bottom() const { return false; }
@@ -188,11 +198,6 @@ class Propagation {
                                    const std::shared_ptr<const SeabedProfile>& seabed);
   // Returns the link in full detail, with the paths that reception() computes; here along the straight line.
   virtual LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to);
-  // True when an echo off one of these points of the bottom reaches the receiver above its cut-off level.
-  virtual bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
-                                  const acoustics::Modem& receiver, const Vec3& from_ned_m,
-                                  const Vec3& to_ned_m,
-                                  const std::vector<acoustics::BottomPoint>& points) = 0;
   // Returns a lower bound of the loss of every link at a frequency between ends no deeper than
   // `deepest_end_m` (acoustics/link/least_loss.h); empty: levels have no bound by range.
   virtual std::optional<acoustics::LeastLoss> least_loss(SimTime /*at*/, double /*frequency_hz*/,

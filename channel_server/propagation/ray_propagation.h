@@ -48,7 +48,6 @@
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_kernel.h"
-#include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
@@ -119,11 +118,6 @@ class RayPropagation : public Propagation {
   // their order. Amplitudes exclude the beams of the modems.
   acoustics::Arrivals arrivals(SimTime at, const LinkEnd& from, const LinkEnd& to);
   LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
-  bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
-                          const Vec3& from_ned_m, const Vec3& to_ned_m,
-                          const std::vector<acoustics::BottomPoint>& points) override {
-    return straight_.echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
-  }
   std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
                                                  double deepest_end_m) const override;
   std::optional<FluxOnlyLinks> flux_only_links(SimTime at, double frequency_hz,

@@ -35,8 +35,6 @@ std::vector<Vec3> TileSurvey::points_ned_m() const {
   return points;
 }
 
-std::vector<TerrainRay> TileSurvey::rays() const { return {depth_ray(points_ned_m().front())}; }
-
 void TileSurvey::take(std::span<const RayAnswer> answers) {
   require(answers.size() == static_cast<std::size_t>(kSide * kSide), "one answer a depth");
   for (const RayAnswer& answer : answers) {
@@ -168,6 +166,12 @@ SeabedMap::Line SeabedMap::line_between(const Vec3& from, const Vec3& to) const 
   return line;
 }
 
+SeabedMap::Line SeabedMap::line_of_places(const Vec3& from, const Vec3& to, int count) const {
+  Line line = line_between(from, to);
+  line.spacing_m = elementary::hypot(to.x() - from.x(), to.y() - from.y()) / (2 * count);
+  return line;
+}
+
 std::shared_ptr<const SeabedProfile> SeabedMap::between(const Vec3& from, const Vec3& to) const {
   const Line line = line_between(from, to);
   Reader reader(*this);
@@ -191,8 +195,7 @@ std::shared_ptr<const SeabedProfile> SeabedMap::between(const Vec3& from, const 
 std::optional<SeabedPlaces> SeabedMap::places_between(const Vec3& from, const Vec3& to) const {
   SeabedPlaces places;
   const int count = static_cast<int>(places.z_m.size());
-  Line line = line_between(from, to);
-  line.spacing_m = elementary::hypot(to.x() - from.x(), to.y() - from.y()) / (2 * count);
+  const Line line = line_of_places(from, to, count);
   Reader reader(*this);
   SlopeSums slopes;
   for (int i = 0; i < count; ++i) {
@@ -204,6 +207,18 @@ std::optional<SeabedPlaces> SeabedMap::places_between(const Vec3& from, const Ve
   }
   places.mean_square_slope = slopes.variance();
   return places;
+}
+
+bool SeabedMap::read_between(const Vec3& from, const Vec3& to, std::span<double> z_m) const {
+  const Line line = line_of_places(from, to, static_cast<int>(z_m.size()));
+  Reader reader(*this);
+  int sample = 1;
+  for (double& z : z_m) {
+    z = reader.seabed(line, sample);
+    if (std::isnan(z)) return false;
+    sample += 2;
+  }
+  return true;
 }
 
 std::optional<double> SeabedMap::seabed_z_m(const Vec3& place) const {
@@ -218,19 +233,31 @@ std::size_t SeabedMap::EndsHash::operator()(const Ends& ends) const {
 
 // When many tiles are kept, every line is looked up, to mark its tiles as in use.
 bool SeabedMap::is_surveyed(const Vec3& from, const Vec3& to) {
-  if (tiles_.size() > kMaxTiles / 2) return look_up_tiles(line_between(from, to));
+  if (tiles_.size() > kMaxTiles / 2) return look_up_line(line_between(from, to));
   const Ends ends{from.x(), from.y(), to.x(), to.y()};
   if (surveyed_.contains(ends)) return true;
   if (auto earlier = surveyed_a_tick_ago_.extract(ends)) {
     surveyed_.insert(std::move(earlier));
     return true;
   }
-  const bool surveyed = look_up_tiles(line_between(from, to));
+  const bool surveyed = look_up_line(line_between(from, to));
   if (surveyed) surveyed_.insert(ends);
   return surveyed;
 }
 
-bool SeabedMap::look_up_tiles(const Line& line) {
+bool SeabedMap::are_places_surveyed(const Vec3& from, const Vec3& to, int count) {
+  return look_up_tiles(line_of_places(from, to, count), {1, 2 * count, 2, 0});
+}
+
+// Every fourth sample is visited, with as many more lattice points on each side as lie between visited
+// samples.
+bool SeabedMap::look_up_line(const Line& line) {
+  constexpr int kStride = 4;
+  const auto beside = static_cast<std::int64_t>(std::ceil(kStride / 2 * line.spacing_m / rule_.spacing_m));
+  return look_up_tiles(line, {-kBeyond, line.last + kBeyond + kStride, kStride, beside});
+}
+
+bool SeabedMap::look_up_tiles(const Line& line, const Samples& samples) {
   const auto tile_coordinate = [&](double at_m) {
     return static_cast<std::int64_t>(std::floor(at_m / rule_.spacing_m));
   };
@@ -245,17 +272,14 @@ bool SeabedMap::look_up_tiles(const Line& line) {
     surveyed = false;
     if (!queried_.contains(index)) requested_.insert(index);
   };
-  // Every fourth sample is visited, with as many more lattice points on each side as lie between visited
-  // samples.
-  constexpr int kStride = 4;
-  const auto beside = static_cast<std::int64_t>(std::ceil(kStride / 2 * line.spacing_m / rule_.spacing_m));
   constexpr TileIndex kNone{std::numeric_limits<std::int64_t>::min(), 0};
   TileIndex last_near = kNone, last_far = kNone;
-  for (int sample = -kBeyond; sample < line.last + kBeyond + kStride; sample += kStride) {
+  for (int sample = samples.first; sample < samples.end; sample += samples.stride) {
     const double way = sample * line.spacing_m;
     const std::int64_t north = tile_coordinate(line.north_m + way * line.along_north),
                        east = tile_coordinate(line.east_m + way * line.along_east);
-    const std::int64_t before = kReachBefore + beside, after = kReach - 1 - kReachBefore + beside;
+    const std::int64_t before = kReachBefore + samples.beside,
+                       after = kReach - 1 - kReachBefore + samples.beside;
     const TileIndex near{tile_of(north - before), tile_of(east - before)},
         far{tile_of(north + after), tile_of(east + after)};
     if (near == last_near && far == last_far) continue;

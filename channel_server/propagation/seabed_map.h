@@ -41,7 +41,6 @@
 #include <vector>
 
 #include "channel_server/propagation/seabed_profile.h"
-#include "channel_server/propagation/terrain_rays.h"
 #include "core/frames.h"
 
 namespace halocline::channel_server {
@@ -59,22 +58,26 @@ struct TileIndex {
   auto operator<=>(const TileIndex&) const = default;
 };
 
+// The terrain service's answer for one point of a tile.
+struct RayAnswer {
+  enum class Kind { kHit, kMiss, kOutside, kNoData, kBelowBottom, kBadInput };
+  Kind kind = Kind::kMiss;
+  // z of the seabed for kHit, m; with kOutside or kNoData the last known depth.
+  double result_m = 0;
+};
+
 // Queries the depths of one tile.
 class TileSurvey {
  public:
-  static constexpr int kPoints = kTileSide;
+  static constexpr int kPoints = 8;  // along each side
 
   TileSurvey() = default;
   TileSurvey(TileIndex tile, double spacing_m) : tile_(tile), spacing_m_(spacing_m) {}
 
-  // Interface as EchoSurvey's; a tile needs one query.
-  std::optional<RayKind> next_query() const {
-    return z_m_.empty() ? std::optional(RayKind::kTiles) : std::nullopt;
-  }
-  std::vector<TerrainRay> rays() const;  // one ray
   // Returns the positions of the depths, row by row, each from west to east; z is 0.
   std::vector<Vec3> points_ned_m() const;
   double spacing_m() const { return spacing_m_; }
+  // Takes one answer for each point; throws if the count differs.
   void take(std::span<const RayAnswer> answers);
 
   const TileIndex& tile() const { return tile_; }
@@ -104,14 +107,21 @@ class SeabedMap {
   // Returns the seabed at the middles of equal parts of the line between the ends. Slopes are those between
   // the lattice points that contribute there. Empty where a place is unknown.
   std::optional<SeabedPlaces> places_between(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
+  // Sets z of the seabed at the middles of equal parts of the line between the ends, as many as `z_m` has
+  // elements. Returns false where a place is unknown.
+  [[nodiscard]] bool read_between(const Vec3& from_ned_m, const Vec3& to_ned_m, std::span<double> z_m) const;
   // Returns z of the seabed at a place; empty where it is unknown.
   std::optional<double> seabed_z_m(const Vec3& place_ned_m) const;
   // True when every tile that between() needs is answered. Missing tiles are requested. A true result for the
   // same two ends since the last tick but one is not looked up again while few tiles are kept.
   bool is_surveyed(const Vec3& from_ned_m, const Vec3& to_ned_m);
+  // The same for read_between() at `count` places, which needs few tiles however long the line is.
+  bool are_places_surveyed(const Vec3& from_ned_m, const Vec3& to_ned_m, int count);
 
   // Returns the tiles requested since the last call, by rising index.
   std::vector<TileSurvey> take_requests();
+  // True while a requested tile has neither been answered nor failed.
+  bool awaits_tiles() const { return !requested_.empty() || !queried_.empty(); }
   void store(const TileSurvey& answered);
   void note_failed(const TileSurvey& survey);
   // Allows the tiles whose queries failed to be requested again when they are needed.
@@ -157,9 +167,18 @@ class SeabedMap {
     double spacing_m;
     int last = 0;  // the first sample at the other end or beyond it
   };
+  // Samples of a line to look up: every `stride`-th from `first` on, before `end`, each with the lattice
+  // points as far as `beside` points from its own.
+  struct Samples {
+    int first, end, stride;
+    std::int64_t beside;
+  };
   Line line_between(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
-  // Marks the tiles of the line as in use and requests the missing ones; true when none is missing.
-  bool look_up_tiles(const Line& line);
+  // Returns the line whose odd samples are the middles of `count` equal parts.
+  Line line_of_places(const Vec3& from_ned_m, const Vec3& to_ned_m, int count) const;
+  bool look_up_line(const Line& line);
+  // Marks the tiles of the samples as in use and requests the missing ones; true when none is missing.
+  bool look_up_tiles(const Line& line, const Samples& samples);
   static Place place_of(const TileIndex& tile);
   Tile& keep(const TileIndex& tile);
   template <class Predicate>

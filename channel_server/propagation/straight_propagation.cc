@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/link/bottom_echo.h"
 #include "acoustics/link/line_means.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/ray_doppler.h"
@@ -50,11 +51,31 @@ void take_field(const acoustics::LinkKernel& kernel, const acoustics::Environmen
 
 StraightPropagation::StraightPropagation(acoustics::Environment environment, std::size_t max_kernels)
     : StraightPropagation(std::make_shared<const EnvironmentTimeline>(std::move(environment)),
-                          acoustics::FadingModel(), max_kernels) {}
+                          acoustics::FadingModel(), nullptr, max_kernels) {}
 
 StraightPropagation::StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
-                                         const acoustics::FadingModel& fading, std::size_t max_kernels)
-    : waters_(std::move(waters)), fading_(fading), kernels_(max_kernels) {}
+                                         const acoustics::FadingModel& fading,
+                                         std::shared_ptr<SeabedMap> seabed, std::size_t max_kernels)
+    : waters_(std::move(waters)), fading_(fading), seabed_(std::move(seabed)), kernels_(max_kernels) {}
+
+// Every link is examined, so that all missing tiles are requested together.
+bool StraightPropagation::are_ready(SimTime, const std::vector<EndPair>& links) {
+  bool ready = true;
+  for (const auto& [from, to] : links) {
+    if (seabed_)
+      ready =
+          seabed_->are_places_surveyed(from.position_ned_m, to.position_ned_m, acoustics::kBottomDepths) &&
+          ready;
+  }
+  return ready;
+}
+
+Multipath StraightPropagation::bottom_echo(const acoustics::LinkKernel& kernel, const EndPair& ends) const {
+  const Vec3 &from = ends.from.position_ned_m, &to = ends.to.position_ned_m;
+  std::array<double, acoustics::kBottomDepths> bottom_z_m{};
+  if (!seabed_ || !seabed_->read_between(from, to, bottom_z_m)) return Multipath::kUnknown;
+  return is_echo_likely(kernel, from, to, bottom_z_m) ? Multipath::kLikely : Multipath::kUnlikely;
+}
 
 Reception StraightPropagation::along_line(const acoustics::LinkKernel& kernel,
                                           const acoustics::Environment& water, const EndPair& ends,
@@ -65,6 +86,7 @@ Reception StraightPropagation::along_line(const acoustics::LinkKernel& kernel,
   if (water.field) take_field(kernel, water, ends, capacity, reception.budget);
   SoundPath& path = reception.paths.emplace_back(straight_path(water, reception.budget, from, to));
   path.fading = path_fading(fading_, water.noise.wind_mps, from.modem->centre_frequency_hz, 0, 0);
+  if (capacity == acoustics::Capacity::kComputed) reception.bottom_echo = bottom_echo(kernel, ends);
   return reception;
 }
 
@@ -91,14 +113,6 @@ Reception StraightPropagation::blocked(SimTime at, const LinkEnd& from, const Li
                            distance_m, acoustics::Capacity::kComputed, to.above_ambient);
   reception.budget.receivable = false;
   return reception;
-}
-
-bool StraightPropagation::echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
-                                             const acoustics::Modem& receiver, const Vec3& from_ned_m,
-                                             const Vec3& to_ned_m,
-                                             const std::vector<acoustics::BottomPoint>& points) {
-  return assess_echoes(*kernel_of(at, transmitter, receiver), from_ned_m, to_ned_m, points).likelihood ==
-         acoustics::EchoLikelihood::kLikely;
 }
 
 StraightPropagation::ModemKey StraightPropagation::key_of(const acoustics::Modem& modem) {

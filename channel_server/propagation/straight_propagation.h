@@ -13,11 +13,11 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_kernel.h"
-#include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "core/for_each.h"
 #include "core/frames.h"
 #include "core/lru_cache.h"
@@ -29,6 +29,9 @@ namespace halocline::channel_server {
 // a field, delay and absorption are those along the line (acoustics/link/line_means.h); echoes off the bottom
 // and the variation of the capacity over the band are those of the profile at the world's origin.
 //
+// The path meets no terrain. Link tables and link queries state if an echo off the bottom is likely
+// (acoustics/link/bottom_echo.h), for which they wait for the seabed between the ends.
+//
 // Constructing a LinkKernel takes a millisecond and evaluating it a fraction of a microsecond, so one is kept
 // for each pair of different modems, `max_kernels` at most.
 class StraightPropagation : public Propagation {
@@ -36,8 +39,10 @@ class StraightPropagation : public Propagation {
   static constexpr std::size_t kMaxKernels = 1024;
   // Throws InvalidArgument when the environment is out of range.
   explicit StraightPropagation(acoustics::Environment environment, std::size_t max_kernels = kMaxKernels);
+  // Without a `seabed`, echoes are unknown and nothing waits.
   explicit StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
                                const acoustics::FadingModel& fading = {},
+                               std::shared_ptr<SeabedMap> seabed = nullptr,
                                std::size_t max_kernels = kMaxKernels);
 
   // Returns one straight path, never in a shadow and never blocked. Doppler: acoustics/link/ray_doppler.h.
@@ -55,9 +60,11 @@ class StraightPropagation : public Propagation {
                                     const ForEach& for_each) override;
   // Returns the link where the terrain is known to cut the line: no path, silence.
   Reception blocked(SimTime at, const LinkEnd& from, const LinkEnd& to);
-  bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
-                          const Vec3& from_ned_m, const Vec3& to_ned_m,
-                          const std::vector<acoustics::BottomPoint>& points) override;
+  bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    return are_ready(at, {EndPair{from, to}});
+  }
+  bool is_ready_for_packet(SimTime, const LinkEnd&, const LinkEnd&) override { return true; }
+  bool are_ready(SimTime at, const std::vector<EndPair>& links) override;
   std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
                                                  double deepest_end_m) const override {
     return acoustics::LeastLoss::of_straight_path(waters_->at(at), frequency_hz, deepest_end_m);
@@ -77,9 +84,11 @@ class StraightPropagation : public Propagation {
   static bool are_alike(const acoustics::Modem& a, const acoustics::Modem& b);
   Reception along_line(const acoustics::LinkKernel& kernel, const acoustics::Environment& water,
                        const EndPair& ends, acoustics::Capacity capacity) const;
+  Multipath bottom_echo(const acoustics::LinkKernel& kernel, const EndPair& ends) const;
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
   acoustics::FadingModel fading_;
+  std::shared_ptr<SeabedMap> seabed_;
   LruCache<PairKey, std::shared_ptr<const acoustics::LinkKernel>> kernels_;
   // Most recent kernel, which most calls use again.
   EnvironmentTimeline::WaterId last_water_ = 0;

@@ -2,7 +2,8 @@
 """Whether an echo off the bottom is likely (the paper's query GETML) for receivers on both sides of a ridge.
 
 Expected by an evaluation that shares no code with Halocline: straight legs to nine points of the bottom and on to the receiver, 15 log10
-of the whole length and Thorp's absorption, compared with the cut-off; a leg is blocked when a post of the terrain stands above it.
+of the whole length and Thorp's absorption, compared with the cut-off; a leg is blocked when the bottom stands above it at one of 45 points,
+in the middles of equal parts of the way.
 """
 import math
 
@@ -12,8 +13,8 @@ from paper.runs import vehicle
 DEPTH_M, HEIGHT_M, HALF_WIDTH_M, SPACING_M = 200.0, 90.0, 80.0, 5.0
 SENDER = (-500.0, 50.0)  # north, depth
 SOURCE_LEVEL_DB, CUTOFF_LEVEL_DB = 149.0, 100.0
-BOTTOM_POINTS = 9
-CLOSE_DB, CLOSE_M = 1e-6, 0.02  # legs stop 0.01 m short of the bottom: what is closer than these is not compared
+ECHOES, DEPTHS_PER_ECHO = 9, 5
+CLOSE_DB, CLOSE_M = 0.02, 0.2  # what is closer is not compared: the bottom between posts 25 m apart is 0.07 m off at most
 RECEIVERS_A_RUN = 60  # each has a link to each other
 WATER = f"""
 [scenario]
@@ -42,8 +43,6 @@ center_frequency_hz = 25000
 bandwidth_hz = 5000
 source_level_db = {SOURCE_LEVEL_DB}
 cutoff_level_db = {CUTOFF_LEVEL_DB}
-[channel_server]
-bottom_points = {BOTTOM_POINTS}
 """
 ABSORPTION_DB_PER_KM = 1.0936 * (0.1 * 625 / 626 + 40 * 625 / 4725)  # Thorp 1967 at 25 kHz
 
@@ -60,25 +59,24 @@ def bottom_m(north_m):
     return (1 - share) * post_m(i) + share * post_m(i + 1)
 
 
-def clearance_m(end, point):
-    """Of the leg between an end and a point of the bottom, over the posts between them."""
+def clearance_m(end, point, bottom):
+    """Of the leg between an end and a point of the bottom, over the other points of the bottom between them."""
     first, last = sorted((end[0], point[0]))
-    posts = range(math.floor(first / SPACING_M) + 1, math.ceil(last / SPACING_M))
-    return min((post_m(i) - (end[1] + (point[1] - end[1]) * (i * SPACING_M - end[0]) / (point[0] - end[0])) for i in posts),
-               default=math.inf)
+    return min((depth - (end[1] + (point[1] - end[1]) * (north - end[0]) / (point[0] - end[0]))
+                for north, depth in bottom if first < north < last), default=math.inf)
 
 
 def expected(receiver):
     """1: likely, 0: unlikely, None: too close to tell."""
+    count = ECHOES * DEPTHS_PER_ECHO
+    norths = [SENDER[0] + (receiver[0] - SENDER[0]) * (i + 0.5) / count for i in range(count)]
+    bottom = [(north, bottom_m(north)) for north in norths]
     likely = close = False
-    for i in range(BOTTOM_POINTS):
-        north_m = SENDER[0] + (receiver[0] - SENDER[0]) * (i + 0.5) / BOTTOM_POINTS
-        point = (north_m, bottom_m(north_m))
+    for point in bottom[DEPTHS_PER_ECHO // 2::DEPTHS_PER_ECHO]:
         length_m = math.dist(SENDER, point) + math.dist(point, receiver)
         excess_db = SOURCE_LEVEL_DB - 15 * math.log10(length_m) - ABSORPTION_DB_PER_KM * length_m / 1000 - CUTOFF_LEVEL_DB
-        free_m = min(clearance_m(SENDER, point), clearance_m(receiver, point))
-        counts = excess_db > 0 and free_m > 0
-        likely |= counts and free_m > CLOSE_M and excess_db > CLOSE_DB
+        free_m = min(clearance_m(end, point, bottom) for end in (SENDER, receiver))
+        likely |= free_m > CLOSE_M and excess_db > CLOSE_DB
         close |= excess_db > -CLOSE_DB and free_m > -CLOSE_M
     return 1 if likely else None if close else 0
 

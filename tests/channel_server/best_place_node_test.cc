@@ -165,7 +165,8 @@ TEST(BestPlaceAmongNoise, ListenersHearTheirOwnNoiseAndThatOfOthersButTheTalker)
     const VehicleId id = loud == "v1" ? 1 : 2;
     const VehicleEquipment equipment{
         .noise = VehicleNoise({{loud, id, spectrum, NoiseDriver::kNone, 1, Decibels{20}}}, SimDuration())};
-    NodeBench bench({}, {testing::quick_modem(), {}}, straight_model(testing::even_water()), equipment);
+    NodeBench bench({}, {testing::quick_modem(), {}}, testing::without_bottom(testing::even_water()),
+                    equipment);
     std::vector<best_place_reply_t> replies;
     bench.bus().subscribe<best_place_reply_t>("BEST_PLACE_REPLY.tester",
                                               [&](const best_place_reply_t& m) { replies.push_back(m); });

@@ -15,7 +15,6 @@
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_map.h"
-#include "channel_server/propagation/terrain_rays.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
 #include "channel_server/vehicles/vehicle_id.h"

@@ -83,12 +83,10 @@ TEST(ChannelServerConfig, TheScenariosSurfaceAndLatitudeEnterTheWater) {
 
 TEST(ChannelServerConfig, RatesAndTimesAreTaken) {
   const auto rules =
-      read("[channel_server]\nlink_rate_hz = 4\nstate_lag_s = 0.1\nstate_timeout_s = 3\nbottom_points = 5\n")
-          .rules;
+      read("[channel_server]\nlink_rate_hz = 4\nstate_lag_s = 0.1\nstate_timeout_s = 3\n").rules;
   EXPECT_EQ(rules.link_period, for_s(0.25));
   EXPECT_EQ(rules.position.state_lag, for_s(0.1));
   EXPECT_EQ(rules.position.state_timeout, for_s(3));
-  EXPECT_EQ(rules.bottom_points, 5);
 }
 
 TEST(ChannelServerConfig, EveryErrorIsReportedAtOnceWithItsPlace) {

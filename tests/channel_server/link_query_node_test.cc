@@ -63,7 +63,7 @@ class LinkQueryTest : public ::testing::Test {
     EXPECT_THAT(answer.problem, HasSubstr("receiver"));
   }
 
-  NodeBench bench_;
+  NodeBench bench_{{}, {testing::quick_modem(), {}}, straight_model(testing::even_water())};
   FlatBottom bottom_;
 };
 

@@ -21,7 +21,7 @@
 #include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/propagation/terrain_rays.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
 #include "channel_server/vehicles/vehicle_id.h"
@@ -327,14 +327,14 @@ TEST(ChannelServerMessages, AModemThatCannotBeReadIsTheProblemOfItsEndAlone) {
   EXPECT_FALSE(converted.receivers[0].modem);
 }
 
-TEST(ChannelServerMessages, ABatchOfRaysStaysBelowSixtyKilobytes) {
-  RayQueryBatch batch{7, RayKind::kWays, std::vector<TerrainRay>(1024, {{1, 2, 3}, {0, 0, 1}, 50})};
+TEST(ChannelServerMessages, ABatchOfTilesNamesTheirOriginsAndSpacing) {
+  const RayQueryBatch batch{7, std::vector<Vec3>(64, Vec3(1, 2, 3)), 25};
   const ray_query_t message = to_message(batch, "channel-xyz", at_s(9));
   EXPECT_EQ(bus::problem_in(message), "");
-  EXPECT_EQ(message.query_mode, ray_query_t::OCCLUDED);
-  EXPECT_EQ(message.offset_m.at(1023), (std::vector<double>{1, 2, 3}));
-  EXPECT_EQ(message.max_range_m.at(1023), 50);
-  EXPECT_LT(message.getEncodedSize(), 60'000);
+  EXPECT_EQ(message.query_mode, ray_query_t::DEPTH_TILES);
+  EXPECT_EQ(message.num_rays, 64);
+  EXPECT_EQ(message.offset_m.at(63), (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(message.sample_spacing_m, 25);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@
 #include "channel_server/channel_server_node.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/packet_messages.h"
+#include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
@@ -43,13 +44,20 @@ struct ReceivedOn {
   Message message;
 };
 
+// Straight paths over a bottom that nobody asks for.
+inline WaterModel without_bottom(const acoustics::Environment& water) {
+  WaterModel model = straight_model(water);
+  model.propagation = std::make_unique<StraightPropagation>(model.waters);
+  return model;
+}
+
 class NodeBench {
  public:
   static constexpr std::int64_t kSession = 4711;
 
   explicit NodeBench(ServerRules rules = {}, ConfiguredModems modems = {quick_modem(), {}},
                      const acoustics::Environment& water = even_water())
-      : NodeBench(std::move(rules), std::move(modems), straight_model(water)) {}
+      : NodeBench(std::move(rules), std::move(modems), without_bottom(water)) {}
   NodeBench(ServerRules rules, ConfiguredModems modems, WaterModel water, VehicleEquipment equipment = {})
       : lcm_("memq://"),
         node_(lcm_, {"channel-server", kSession}, std::move(water), modems, rules, {}, std::move(equipment)),

@@ -17,7 +17,6 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/fading/sound_path.h"
-#include "acoustics/link/multipath.h"
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
@@ -76,10 +75,6 @@ class ScriptedPropagation : public Propagation {
     budget.range_m = (to.position_ned_m - from.position_ned_m).norm();
     reception.delay_spread_s = channel_server::delay_spread_s(reception.paths);
     return reception;
-  }
-  bool echo_is_receivable(SimTime, const acoustics::Modem&, const acoustics::Modem&, const Vec3&, const Vec3&,
-                          const std::vector<acoustics::BottomPoint>&) override {
-    return false;
   }
   const acoustics::Environment& environment(SimTime) const override { return water_; }
 

@@ -214,10 +214,9 @@ TEST_F(EmbeddedRunTest, ShardsAndBlocksOnThreadsWriteTheSameBytesAsInTurn) {
 
 TEST_F(EmbeddedRunTest, ShardsTogetherPublishWhatOneServerPublishes) {
   const std::vector<std::string> rays{"scenario.duration_s=25"};
-  const std::vector<std::string> few_echoes{"scenario.duration_s=25", "propagation.model=\"straight\"",
-                                            "channel_server.echo_surveys_per_table=1"};
+  const std::vector<std::string> straight{"scenario.duration_s=25", "propagation.model=\"straight\""};
   for (auto [scenario, settings] :
-       {std::pair{"harbour", rays}, {"ranging", rays}, {"harbour", few_echoes}}) {  // the second pings
+       {std::pair{"harbour", rays}, {"ranging", rays}, {"harbour", straight}}) {  // the second pings
     const auto one = published(run(load(scenario, settings), "one"));
     EXPECT_GT(one.size(), 100u);
     for (const char* shards : {"channel_server.shards=2", "channel_server.shards=3"}) {

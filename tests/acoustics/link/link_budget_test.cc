@@ -247,12 +247,11 @@ TEST(LinkBudget, CutOffDecidesWhatIsReceivable) {
   EXPECT_FALSE(c.budget().receivable);
 }
 
-TEST(LinkBudget, PathLossOfALegIsTheLinksLoss) {
+TEST(LinkBudget, AbsorptionBetweenTwoDepthsIsTheLinks) {
   const Case c;
   const LinkKernel model(c.sea, c.tx, c.rx);
   const LinkBudget link = model.budget(c.from, c.to, Capacity::kLeftOut);
-  EXPECT_EQ(model.path_loss(30, 430, link.range_m).total, link.transmission_loss);
-  EXPECT_EQ(model.delay_s(c.from, c.to), link.delay_s);
+  EXPECT_EQ(model.absorption_db_per_km(30, 430), link.absorption_db_per_km);
 }
 
 TEST(LinkBudget, RefusesImpossibleSeas) {

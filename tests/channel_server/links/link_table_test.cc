@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/links/link_table.h"
 
+#include <memory>
+
 #include <gtest/gtest.h>
 
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
 #include "channel_server/links/receiver_noise.h"
+#include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_id.h"
@@ -26,15 +29,11 @@ using testing::kSpeedMps;
 using testing::quick_modem;
 using testing::state_at;
 
-const MultipathFunction kUnknownMultipath = [](const PlacedVehicle&, const PlacedVehicle&) {
-  return Multipath::kUnknown;
-};
-
 class LinkTableTest : public ::testing::Test {
  protected:
-  std::vector<LinkTable> tables_at(double time_s, const MultipathFunction& multipath = kUnknownMultipath) {
+  std::vector<LinkTable> tables_at(double time_s) {
     const auto placed = place_all(fleet_, at_s(time_s));
-    return link_tables(at_s(time_s), placed, table_rows(placed), propagation_, predictor_, multipath);
+    return link_tables(at_s(time_s), placed, table_rows(placed), propagation_, predictor_);
   }
   VehicleRegistry fleet_{{for_s(0.05), for_s(5)}, {quick_modem(), {}}};
   StraightPropagation propagation_{even_water()};
@@ -99,7 +98,7 @@ TEST_F(LinkTableTest, AnotherNoiseMovesRatiosCapacityAndForecasts) {
   LouderNoise louder(Decibels{7});
   NoiseOfLinks noise(louder, at_s(1));
   const LinkRow row = link_tables(at_s(1), placed, table_rows(placed), propagation_, predictor_,
-                                  kUnknownMultipath, one_after_the_other, &noise)[0]
+                                  one_after_the_other, &noise)[0]
                           .rows[0];
   EXPECT_NEAR((ambient.budget.snr - row.budget.snr).value, 7, tolerance(1e-9));
   EXPECT_NEAR((ambient.budget.snr_narrowband - row.budget.snr_narrowband).value, 7, tolerance(1e-9));
@@ -118,8 +117,8 @@ TEST_F(LinkTableTest, ReceiversBeyondATransmittersRangeAreCounted) {
   EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {500, 0, 50})), "");
   EXPECT_EQ(fleet_.add_state("v3", 3, state_at(0, {1500, 0, 50})), "");
   const auto placed = place_all(fleet_, at_s(1));
-  const auto tables = link_tables(at_s(1), placed, table_rows(placed, {600, 1100, 0}), propagation_,
-                                  predictor_, kUnknownMultipath);
+  const auto tables =
+      link_tables(at_s(1), placed, table_rows(placed, {600, 1100, 0}), propagation_, predictor_);
   ASSERT_EQ(tables.size(), 3u);
   EXPECT_EQ(tables[0].range_m, 600);
   ASSERT_EQ(tables[0].rows.size(), 1u);
@@ -159,12 +158,19 @@ TEST_F(LinkTableTest, EachDirectionHasTheLevelOfItsTransmitter) {
   EXPECT_NEAR(there - back, 7, tolerance(1e-9));
 }
 
+// The receiver of the second row is deaf to echoes.
 TEST_F(LinkTableTest, RowsHoldTheMultipathOfTheirOwnDirection) {
+  VehicleModem deaf = quick_modem();
+  deaf.modem.min_receivable_level = quick_modem().modem.source_level;
+  fleet_.announce_modem("v1", at_s(0), deaf, at_s(0));
   EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
   EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {500, 0, 50})), "");
-  const auto tables = tables_at(1, [](const PlacedVehicle& from, const PlacedVehicle&) {
-    return from.id == 1 ? Multipath::kLikely : Multipath::kUnlikely;
-  });
+  EXPECT_EQ(tables_at(1)[0].rows[0].multipath, Multipath::kUnknown);
+  StraightPropagation over_bottom(
+      std::make_shared<const EnvironmentTimeline>(even_water()), {},
+      testing::seabed_around({0, 0, 50}, {500, 0, 50}, [](double) { return 100.0; }));
+  const auto placed = place_all(fleet_, at_s(1));
+  const auto tables = link_tables(at_s(1), placed, table_rows(placed), over_bottom, predictor_);
   EXPECT_EQ(tables[0].rows[0].multipath, Multipath::kLikely);
   EXPECT_EQ(tables[1].rows[0].multipath, Multipath::kUnlikely);
 }

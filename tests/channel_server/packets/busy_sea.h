@@ -15,7 +15,6 @@
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/sound_path.h"
-#include "acoustics/link/multipath.h"
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
@@ -77,10 +76,6 @@ class ThreePaths : public Propagation {
     budget.received_level = total_level(reception.paths);
     reception.delay_spread_s = reception.paths.back().delay_s - reception.paths.front().delay_s;
     return reception;
-  }
-  bool echo_is_receivable(SimTime, const acoustics::Modem&, const acoustics::Modem&, const Vec3&, const Vec3&,
-                          const std::vector<acoustics::BottomPoint>&) override {
-    return false;
   }
   const acoustics::Environment& environment(SimTime) const override { return water_; }
 

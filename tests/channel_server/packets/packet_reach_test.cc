@@ -12,7 +12,6 @@
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/link/least_loss.h"
-#include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/packets/packet.h"
@@ -81,10 +80,6 @@ class RaysThroughField : public Propagation {
 
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
     return rays_.reception_over(at, from, to, bottom_);
-  }
-  bool echo_is_receivable(SimTime, const acoustics::Modem&, const acoustics::Modem&, const Vec3&, const Vec3&,
-                          const std::vector<acoustics::BottomPoint>&) override {
-    return false;
   }
   std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
                                                  double deepest_end_m) const override {

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/link/bottom_echo.h"
 #include "acoustics/link/link_kernel.h"
-#include "acoustics/link/multipath.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/modem/modem.h"
@@ -22,7 +22,6 @@
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/propagation/straight_propagation.h"
-#include "channel_server/propagation/terrain_rays.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/frames.h"
 #include "core/units.h"
@@ -223,11 +222,10 @@ TEST(Beams, TwoModemsThatDifferInTheirBeamsAloneAreNotTakenForEachOther) {
 
 TEST(Beams, AnEchoOffTheBottomIsWeighedByBothWhereTheyLookDown) {
   const Vec3 from(0, 0, 50), to(100, 0, 50);
-  const acoustics::BottomPoint middle{Vec3(50, 0, 100)};  // 45 degrees down
+  const Vec3 middle(50, 0, 100);  // 45 degrees down
   const acoustics::Modem plain, beam = flat_looking();
   const auto level = [&](const acoustics::Modem& transmitter, const acoustics::Modem& receiver) {
-    return echo_path(acoustics::LinkKernel(even_water(), transmitter, receiver), from, to, middle)
-        .level.value;
+    return echo_level(acoustics::LinkKernel(even_water(), transmitter, receiver), from, to, middle).value;
   };
   EXPECT_NEAR(level(beam, plain), level(plain, plain) - kDown20Db, tolerance(1e-9));
   EXPECT_NEAR(level(beam, beam), level(plain, plain) - 2 * kDown20Db, tolerance(1e-9));

@@ -11,7 +11,6 @@
 #include "acoustics/link/link_budget.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/links/link_table.h"
-#include "channel_server/propagation/terrain_rays.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/random.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -145,6 +146,23 @@ TEST_F(SeabedMapTest, BeyondTheTerrainTheLastDepthIsHeldAndSaidSo) {
   EXPECT_TRUE(profile->beyond_terrain);
   EXPECT_TRUE(map_.places_between({0, 0, 10}, {900, 0, 10})->beyond_terrain);
   EXPECT_FALSE(map_.places_between({0, 0, 10}, {400, 0, 10})->beyond_terrain);
+}
+
+// Nine places of four tiles at most, where the whole line lies in hundreds of thousands.
+TEST_F(SeabedMapTest, PlacesOfALongLineNeedTheTilesAroundThemAlone) {
+  const Vec3 from(0, 0, 10), to(1e6, 3e5, 10);
+  std::vector<double> z_m(9);
+  EXPECT_FALSE(map_.are_places_surveyed(from, to, 9));
+  EXPECT_FALSE(map_.read_between(from, to, z_m));
+  std::vector<TileSurvey> requests = map_.take_requests();
+  EXPECT_LE(requests.size(), 36u);
+  for (TileSurvey& tile : requests) {
+    tile.take(std::vector<RayAnswer>(64, {RayAnswer::Kind::kHit, 70}));
+    map_.store(tile);
+  }
+  EXPECT_TRUE(map_.are_places_surveyed(from, to, 9));
+  EXPECT_TRUE(map_.read_between(from, to, z_m));
+  EXPECT_EQ(z_m, std::vector<double>(9, 70));
 }
 
 TEST_F(SeabedMapTest, ATileThatFailedIsUnknownUntilFailuresAreForgotten) {

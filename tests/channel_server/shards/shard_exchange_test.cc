@@ -24,6 +24,7 @@
 #include "bus/transport/node_identity.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/channel_server_node.h"
+#include "channel_server/links/ray_query_client.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/shards/path_messages.h"
 #include "channel_server/vehicles/shard.h"
@@ -291,7 +292,7 @@ TEST_F(ShardExchangeTest, WhoHearsNothingOfTheOtherWaitsOnceUntilTheDeadline) {
   two.run(6, [](found_paths_t&) { return false; });
   EXPECT_EQ(two.tables(), one.tables());
   const auto& steady_s = two.all[0]->table_steady_s;
-  EXPECT_GE(steady_s.front(), 1 + ServerRules().ray_queries.answer_deadline.seconds());
+  EXPECT_GE(steady_s.front(), 1 + RayQueryClient::kAnswerDeadline.seconds());
   for (std::size_t i = kVehicles / 2; i < steady_s.size(); ++i)
     EXPECT_EQ(at_s(steady_s[i]).to_utime(), two.all[0]->tables[i].utime) << i;
 }
