@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "bathymetry/terrain/height_grid.h"
-#include "bathymetry/terrain/profile.h"
 #include "bathymetry/terrain/terrain.h"
 #include "core/frames.h"
 
@@ -16,8 +15,6 @@ namespace {
 static_assert(static_cast<int>(QueryMode::kClosestHit) == ray_query_t::CLOSEST_HIT);
 static_assert(static_cast<int>(QueryMode::kOccluded) == ray_query_t::OCCLUDED);
 static_assert(static_cast<int>(QueryMode::kDepth) == ray_query_t::DEPTH);
-static_assert(static_cast<int>(QueryMode::kUniformProfile) == ray_query_t::UNIFORM_PROFILE);
-static_assert(static_cast<int>(QueryMode::kExactProfile) == ray_query_t::EXACT_PROFILE);
 static_assert(static_cast<int>(QueryMode::kDepthTiles) == ray_query_t::DEPTH_TILES);
 static_assert(static_cast<int>(RayStatus::kHit) == ray_reply_t::HIT);
 static_assert(static_cast<int>(RayStatus::kMiss) == ray_reply_t::MISS);
@@ -30,7 +27,6 @@ static_assert(static_cast<int>(Refusal::kTooMany) == ray_reply_t::REFUSED_TOO_MA
 static_assert(static_cast<int>(Refusal::kOtherTerrain) == ray_reply_t::REFUSED_OTHER_TERRAIN);
 static_assert(static_cast<int>(Refusal::kBadQuery) == ray_reply_t::REFUSED_BAD_QUERY);
 
-std::vector<double> as_list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 Vec3 as_vector(const std::vector<double>& list) { return {list[0], list[1], list[2]}; }
 
 }  // namespace
@@ -54,24 +50,6 @@ RayBatch from_message(const ray_query_t& message) {
   return batch;
 }
 
-ray_query_t to_message(const QueryHeader& header, const RayBatch& batch, const Vec3& base_ned_m) {
-  ray_query_t message;
-  message.utime = header.utime;
-  message.client_name = header.client_name;
-  message.request_id = header.request_id;
-  message.expected_terrain = batch.expected_terrain;
-  message.query_mode = static_cast<std::int8_t>(batch.mode);
-  message.sample_spacing_m = batch.sample_spacing_m;
-  for (int axis = 0; axis < 3; ++axis) message.base_origin_ned_m[axis] = base_ned_m[axis];
-  message.num_rays = static_cast<std::int32_t>(batch.rays.size());
-  for (const Ray& ray : batch.rays) {
-    message.offset_m.push_back(as_list(ray.origin_ned_m - base_ned_m));
-    message.direction.push_back(as_list(ray.direction));
-    message.max_range_m.push_back(ray.max_range_m);
-  }
-  return message;
-}
-
 ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
                        const std::string& terrain_version, std::int64_t session) {
   ray_reply_t message;
@@ -85,29 +63,7 @@ ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
   for (const RayStatus status : answers.statuses)
     message.ray_status.push_back(static_cast<std::int8_t>(status));
   message.result_m = answers.results_m;
-  message.num_samples = static_cast<std::int32_t>(answers.samples.size());
-  for (const ProfilePoint& sample : answers.samples) {
-    const bool valid = sample.status == DepthStatus::kOk;
-    message.sample_distance_m.push_back(sample.distance_m);
-    message.sample_seabed_z_m.push_back(valid ? sample.z_m : 0);
-    message.sample_valid.push_back(valid ? 1 : 0);
-  }
   return message;
-}
-
-RayAnswers from_message(const ray_reply_t& message) {
-  RayAnswers answers;
-  answers.refusal = static_cast<Refusal>(message.reply_status);
-  answers.reason = message.refusal;
-  for (const std::int8_t status : message.ray_status)
-    answers.statuses.push_back(static_cast<RayStatus>(status));
-  answers.results_m = message.result_m;
-  for (std::size_t n = 0; n < message.sample_distance_m.size(); ++n) {
-    const bool valid = message.sample_valid[n] != 0;
-    answers.samples.push_back({message.sample_distance_m[n], valid ? message.sample_seabed_z_m[n] : kUnknown,
-                               valid ? DepthStatus::kOk : DepthStatus::kNoData});
-  }
-  return answers;
 }
 
 QueryHeader header_of(const terrain_query_t& message) {

@@ -3,7 +3,7 @@
 // that the service computes with.
 //
 // Queries are converted without checks: the service gives invalid rays their status and refuses an invalid
-// mode, count or spacing. Both directions exist for the ray messages, for clients and for round-trip tests.
+// mode, count or spacing.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,6 @@
 #include "bathymetry/terrain/terrain.h"
 #include "bathymetry/tile_service.h"
 #include "bus/messages/messages.h"
-#include "core/frames.h"
 
 namespace halocline::bathymetry {
 
@@ -30,15 +29,9 @@ QueryHeader header_of(const ray_query_t& message);
 // refuses.
 RayBatch from_message(const ray_query_t& message);
 
-// Ray origins are stored relative to `base_ned_m`, so that offsets stay short far from the origin.
-ray_query_t to_message(const QueryHeader& header, const RayBatch& batch, const Vec3& base_ned_m);
-
 // `session` is that of the service's current start.
 ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
                        const std::string& terrain_version, std::int64_t session);
-
-// A sample that is invalid on the bus becomes one without data.
-RayAnswers from_message(const ray_reply_t& message);
 
 QueryHeader header_of(const terrain_query_t& message);
 TileQuery from_message(const terrain_query_t& message);

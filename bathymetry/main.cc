@@ -17,8 +17,7 @@ int main(int argc, char** argv) {
   TerrainRecipe recipe;
   NodeProgram program;
   program.program = "halocline-bathymetry";
-  program.purpose =
-      "Answers batches of ray, depth and profile queries, and tiles, over the scenario's seabed.";
+  program.purpose = "Answers batches of ray and depth queries, and tiles, over the scenario's seabed.";
   program.node_name = "bathymetry";
   program.stage = halocline::bus::Stage::kTerrain;
   program.interface =

@@ -9,11 +9,7 @@
 namespace halocline::bathymetry {
 namespace {
 
-RayAnswers refused(Refusal refusal, std::string reason) { return {refusal, std::move(reason), {}, {}, {}}; }
-
-bool is_profile(QueryMode mode) {
-  return mode == QueryMode::kUniformProfile || mode == QueryMode::kExactProfile;
-}
+RayAnswers refused(Refusal refusal, std::string reason) { return {refusal, std::move(reason), {}, {}}; }
 
 std::size_t results_a_ray(QueryMode mode) {
   return mode == QueryMode::kDepthTiles ? kTileSide * kTileSide : 1;
@@ -61,70 +57,20 @@ void append_tile(const Terrain& terrain, const Vec3& origin, double spacing_m, R
   }
 }
 
-RayAnswers too_many_samples(double count) {
-  return refused(Refusal::kTooMany, "the profile has " + std::to_string(static_cast<long long>(count)) +
-                                        " samples; allowed are " + std::to_string(kMaxRays));
-}
-
-std::vector<ProfilePoint> spaced_samples(const Terrain& terrain, PlanePoint from, const Vec3& along,
-                                         double spacing_m, std::size_t count) {
-  if (count == 1) {
-    const DepthSample only = terrain.depth_at(from.x_m, from.y_m);
-    return {{0, only.z_m, only.status}};
-  }
-  const double length = spacing_m * static_cast<double>(count - 1);
-  return uniform_profile(terrain, from, {from.x_m + length * along.x(), from.y_m + length * along.y()},
-                         count);
-}
-
-RayAnswers answer_profile(const Terrain& terrain, const RayBatch& batch) {
-  const Ray& ray = batch.rays.front();
-  const Vec3 level(ray.direction.x(), ray.direction.y(), 0);
-  const double length = level.norm();
-  RayAnswers answers;
-  const bool possible = ray.origin_ned_m.allFinite() && std::isfinite(length) && length > 0 &&
-                        std::isfinite(ray.max_range_m) && ray.max_range_m >= 0;
-  if (!possible) {
-    append(answers, RayStatus::kBadInput, 0);
-    return answers;
-  }
-  const Vec3 along = level / length;
-  const PlanePoint from{ray.origin_ned_m.x(), ray.origin_ned_m.y()};
-  if (batch.mode == QueryMode::kUniformProfile) {
-    // A range that is a multiple of the spacing up to rounding includes its end.
-    constexpr double kRounding = 1e-9;
-    const double count = std::floor(ray.max_range_m / batch.sample_spacing_m + kRounding) + 1;
-    if (count > static_cast<double>(kMaxRays)) return too_many_samples(count);
-    answers.samples =
-        spaced_samples(terrain, from, along, batch.sample_spacing_m, static_cast<std::size_t>(count));
-  } else {
-    answers.samples = exact_profile(
-        terrain, from, {from.x_m + ray.max_range_m * along.x(), from.y_m + ray.max_range_m * along.y()});
-    if (answers.samples.size() > kMaxRays)
-      return too_many_samples(static_cast<double>(answers.samples.size()));
-  }
-  append(answers, RayStatus::kHit, answers.samples.back().distance_m);
-  return answers;
-}
-
 // Returns why the whole batch cannot be answered; Refusal::kNone when it can.
 RayAnswers refusal_of(const std::string& terrain_version, const RayBatch& batch) {
   const std::size_t count = batch.rays.size();
   if (batch.mode > QueryMode::kDepthTiles)
-    return refused(Refusal::kBadQuery, "query_mode is none of the six");
+    return refused(Refusal::kBadQuery, "query_mode is none of the four");
   if (count == 0) return refused(Refusal::kBadQuery, "there is no ray");
   const std::size_t max_count = kMaxRays / results_a_ray(batch.mode);
   if (count > max_count) {
     return refused(Refusal::kTooMany,
                    "there are " + std::to_string(count) + " rays; allowed are " + std::to_string(max_count));
   }
-  if (is_profile(batch.mode) && count != 1)
-    return refused(Refusal::kBadQuery, "a profile takes exactly one ray");
   const bool spacing_possible = std::isfinite(batch.sample_spacing_m) && batch.sample_spacing_m > 0;
-  if ((batch.mode == QueryMode::kUniformProfile || batch.mode == QueryMode::kDepthTiles) &&
-      !spacing_possible) {
+  if (batch.mode == QueryMode::kDepthTiles && !spacing_possible)
     return refused(Refusal::kBadQuery, "sample_spacing_m must be above 0");
-  }
   if (!batch.expected_terrain.empty() && batch.expected_terrain != terrain_version) {
     return refused(Refusal::kOtherTerrain, "the terrain served is another");
   }
@@ -136,7 +82,6 @@ RayAnswers refusal_of(const std::string& terrain_version, const RayBatch& batch)
 RayAnswers answer(const Terrain& terrain, const std::string& terrain_version, const RayBatch& batch) {
   RayAnswers answers = refusal_of(terrain_version, batch);
   if (answers.refusal != Refusal::kNone) return answers;
-  if (is_profile(batch.mode)) return answer_profile(terrain, batch);
   const std::size_t results = batch.rays.size() * results_a_ray(batch.mode);
   answers.statuses.reserve(results);
   answers.results_m.reserve(results);

@@ -15,7 +15,7 @@
 #include "acoustics/fading/reverberation.h"
 #include "acoustics/noise/noise_table_reader.h"
 #include "acoustics/noise/noise_variation.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
 #include "acoustics/sea/sound_speed_profile.h"

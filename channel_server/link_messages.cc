@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <utility>
 
-#include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/fading/arrival.h"
+#include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/messages/message_checks.h"
-#include "channel_server/propagation/link_tracks.h"
+#include "channel_server/propagation/link_chart.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"
 #include "core/frames.h"
@@ -38,48 +38,49 @@ LinkEndRequest to_end_request(const link_end_t& message) {
   return end;
 }
 
-ray_path_t to_message(const PathTrack& track) {
-  ray_path_t message{};
-  message.path_delay_s = track.path.delay_s;
-  message.path_level_db = track.path.level.value;
-  message.phase_rad = track.path.phase_rad;
-  message.launch_angle_rad = track.path.launch_angle_rad;
-  message.arrival_angle_rad = track.path.arrival_angle_rad;
-  message.surface_bounces = track.path.surface_bounces;
-  message.bottom_bounces = track.path.bottom_bounces;
-  message.caustics = track.caustics;
-  message.guard_weight = track.guard_weight;
-  message.doppler_factor = track.path.doppler_factor;
-  message.path_length_m = track.length_m;
-  message.spreading_loss_db = track.spreading_db;
-  message.absorption_loss_db = track.absorption_db;
-  message.surface_loss_db = track.surface_db;
-  message.bottom_loss_db = track.bottom_db;
-  message.beam_loss_db = track.beam_db;
+arrival_t to_message(const LinkChart::Row& row) {
+  const acoustics::Arrival& arrival = row.arrival;
+  arrival_t message{};
+  message.path_delay_s = arrival.delay_s;
+  message.path_level_db = arrival.level.value;
+  message.phase_rad = arrival.phase_rad;
+  message.launch_angle_rad = arrival.launch_angle_rad;
+  message.arrival_angle_rad = arrival.arrival_angle_rad;
+  message.surface_bounces = arrival.surface_bounces;
+  message.bottom_bounces = arrival.bottom_bounces;
+  message.caustics = arrival.caustics;
+  message.guard_weight = row.guard_weight;
+  message.doppler_factor = arrival.doppler_factor;
+  message.path_length_m = arrival.path_length_m;
+  message.spreading_loss_db = row.spreading_db;
+  message.absorption_loss_db = arrival.absorption_db;
+  message.surface_loss_db = row.surface_db;
+  message.bottom_loss_db = row.bottom_db;
+  message.beam_loss_db = row.beam_db;
   return message;
 }
 
 link_paths_t to_message(const LinkDetails& details) {
-  const LinkTracks& tracks = details.tracks;
+  const LinkChart& chart = details.chart;
   link_paths_t message{};
   message.source_level_db = details.source_level.value;
   message.directivity_index_db = details.directivity_index.value;
-  message.link_range_m = tracks.link.range_m;
-  message.source_depth_m = tracks.link.source_depth_m;
-  message.receiver_depth_m = tracks.link.receiver_depth_m;
-  message.paths_left_out = static_cast<std::int32_t>(tracks.paths_left_out);
-  message.num_paths = static_cast<std::int32_t>(tracks.paths.size());
-  for (std::size_t i = 0; i < tracks.paths.size(); ++i) {
-    message.paths.push_back(to_message(tracks.paths[i]));
-    for (const acoustics::RayPoint& point : tracks.paths[i].points) {
+  message.link_range_m = chart.link.range_m;
+  message.source_depth_m = chart.link.source_depth_m;
+  message.receiver_depth_m = chart.link.receiver_depth_m;
+  message.paths_left_out = static_cast<std::int32_t>(chart.paths_left_out);
+  message.num_paths = static_cast<std::int32_t>(chart.rows.size());
+  for (std::size_t i = 0; i < chart.rows.size(); ++i) {
+    message.paths.push_back(to_message(chart.rows[i]));
+    for (const acoustics::RayPoint& point : chart.rows[i].course) {
       message.point_path.push_back(static_cast<std::int32_t>(i));
       message.point_range_m.push_back(static_cast<float>(point.range_m));
       message.point_depth_m.push_back(static_cast<float>(point.depth_m));
     }
   }
   message.num_points = static_cast<std::int32_t>(message.point_path.size());
-  message.num_seabed = static_cast<std::int32_t>(tracks.seabed.size());
-  for (const acoustics::RayPoint& point : tracks.seabed) {
+  message.num_seabed = static_cast<std::int32_t>(chart.seabed.size());
+  for (const acoustics::RayPoint& point : chart.seabed) {
     message.seabed_range_m.push_back(static_cast<float>(point.range_m));
     message.seabed_depth_m.push_back(static_cast<float>(point.depth_m));
   }

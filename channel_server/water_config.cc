@@ -12,7 +12,7 @@
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/profile_reader.h"

@@ -5,8 +5,12 @@
 #include <string>
 #include <utility>
 
+#include "acoustics/fading/path_fading.h"
+#include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed.h"
 #include "channel_server/propagation/measured_propagation.h"
+#include "channel_server/propagation/path_search.h"
+#include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/replay_config.h"
 #include "core/check.h"
@@ -65,15 +69,6 @@ WaterModel rays_in(std::shared_ptr<EnvironmentTimeline> waters, const RayModel& 
 }
 
 }  // namespace
-
-WaterModel straight_model(const acoustics::Environment& environment, const acoustics::FadingModel& fading) {
-  return straight_in(std::make_shared<EnvironmentTimeline>(environment), fading);
-}
-
-WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
-                     const SeabedRule& rule) {
-  return rays_in(std::make_shared<EnvironmentTimeline>(environment), rays, rule);
-}
 
 WaterSources read_water(const ChannelServerConfig& config, const bus::Scenario& scenario) {
   WaterSources sources{EnvironmentTimeline(make_environment(config.environment, scenario)), {}};

@@ -5,15 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "acoustics/fading/path_fading.h"
-#include "acoustics/sea/environment.h"
 #include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/measured_propagation.h"
-#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/world_messages.h"
 
@@ -32,10 +28,6 @@ struct WaterSources {
   EnvironmentTimeline timeline;  // includes the scenario's changes
   MeasuredLinks measured;
 };
-
-WaterModel straight_model(const acoustics::Environment& environment,
-                          const acoustics::FadingModel& fading = {});
-WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays, const SeabedRule& rule);
 
 // Adds the scenario's changes to the timeline. Throws InvalidArgument when a change is impossible.
 void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,

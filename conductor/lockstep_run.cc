@@ -90,9 +90,8 @@ class Run {
   void begin(const bus::Scenario& scenario) {
     JournalContents journal;
     if (!run_.journal_path.empty()) journal = read_journal(run_.journal_path);
-    if (journal.bytes_cut_off > 0 || journal.bits_mended > 0)
-      events_.warning("journal-repaired", "bytes_cut_off=" + std::to_string(journal.bytes_cut_off) +
-                                              " bits_mended=" + std::to_string(journal.bits_mended));
+    if (journal.bytes_cut_off > 0)
+      events_.warning("journal-repaired", "bytes_cut_off=" + std::to_string(journal.bytes_cut_off));
     if (!run_.journal_path.empty()) journal_.emplace(run_.journal_path);
     LockstepRules rules;
     rules.expected = run_.expected;

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "core/check.h"
 #include "core/csv_table.h"
 #include "core/elementary.h"
@@ -71,7 +71,7 @@ int find_arrivals(const ArrivalsArguments& arguments) {
   const auto solver = solver_of(arguments.solver);
   std::vector<LinkArrivals> found;
   for (const acoustics::RayLink& link : links_of(arguments))
-    found.push_back({link, arrivals(sea, link, solver)});
+    found.push_back({link, eigenrays(sea, link, solver)});
   note_steep_paths(found, arguments.sea.max_launch_angle_deg);
   if (!arguments.plot.empty()) write_plot(arrival_plot(found, "Arrivals"), arguments.plot);
   std::ostringstream text;  // nothing is written unless everything succeeds

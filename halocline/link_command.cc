@@ -93,7 +93,7 @@ void print_paths(const LinkOptions& options, const LinkSurveyEnd& from, const Li
     write_plot(arrival_plot({found}, options.from + " to " + options.to), options.plot);
   if (options.impulse_rate_hz > 0) {
     print_impulse_response(std::cout, found, from.modem.modem.centre_frequency_hz, options.impulse_rate_hz);
-    if (found.arrivals.silent()) std::cerr << why_silent(found) << "\n";
+    if (found.eigenrays.silent()) std::cerr << why_silent(found) << "\n";
     return;
   }
   const bool json = options.json || options.format == "json";
@@ -154,7 +154,7 @@ void add_link_command(CLI::App& app, int& exit_code) {
   add_force_option(*command, options->force);
   command->footer(
       footer("  halocline link scenarios/seamount.toml --from auv-1 --to auv-2 --arrivals --plot a.svg\n"
-             "  halocline link scenarios/figure6.toml --from 0,0,100 --to 180,0,100 --json"));
+             "  halocline link scenarios/shelf.toml --from 0,0,60 --to 2000,0,60 --json"));
   command->callback([options, &exit_code] { exit_code = link(*options); });
 }
 

@@ -79,12 +79,12 @@ void add_log_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<LogArguments>();
   CLI::App* command = app.add_subcommand("log", "Inspect an LCM log, or export it");
   command->require_subcommand(1);
-  command->footer(footer("  halocline log info runs/seamount/seamount.lcm"));
+  command->footer(footer("  halocline log info results/seamount/seamount.lcm"));
   CLI::App* info_command =
       command->add_subcommand("info", "Print what a log holds: messages, packets, damage");
   info_command->add_option("log", arguments->logs, "LCM log, or the parts of one in order")->required();
   info_command->add_flag("--json", arguments->json, "as JSON");
-  info_command->footer(footer("  halocline log info runs/seamount/seamount.lcm --json"));
+  info_command->footer(footer("  halocline log info results/seamount/seamount.lcm --json"));
   info_command->callback([arguments, &exit_code] { exit_code = info(*arguments); });
   CLI::App* export_command =
       command->add_subcommand("export", "Write a log as CSV files, MCAP, netCDF, GeoJSON or GPX");

@@ -83,8 +83,8 @@ void add_outcomes_command(CLI::App& app, int& exit_code) {
       "  out of reach  so far away that its sound cannot matter; counted, in one row a packet\n"
       "  foreign       the packet's waveform is not of the receiver's family\n"
       "  not acquired  the preamble was missed; bit errors: the bits after it\n\n" +
-      footer("  halocline outcomes runs/harbour/harbour.lcm\n"
-             "  halocline outcomes runs/harbour/harbour.lcm --format outcomes > outcomes.csv"));
+      footer("  halocline outcomes results/harbour/harbour.lcm\n"
+             "  halocline outcomes results/harbour/harbour.lcm --format outcomes > outcomes.csv"));
   command->callback([arguments, &exit_code] { exit_code = show_outcomes(*arguments); });
 }
 

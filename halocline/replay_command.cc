@@ -185,7 +185,7 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   add_force_option(*command, options->force);
   command->add_flag("--quiet", options->quiet, "no progress line, no table, errors only");
   command->footer(
-      footer("  halocline replay runs/seamount/seamount.lcm --log calm.lcm --set environment.wind_mps=0\n"
+      footer("  halocline replay results/seamount/seamount.lcm --log calm.lcm --set environment.wind_mps=0\n"
              "  halocline replay at-sea.lcm --scenario scenarios/seamount.toml --log again.lcm"));
   command->callback([options, &exit_code] { exit_code = replay(*options); });
 }
@@ -197,7 +197,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
       "List the packets of one mission whose outcome differs between two logs, with the inputs that differ");
   command->add_option("logs", options->logs, "the log before and the log after")->required()->expected(2);
   add_format_option(*command, options->format);
-  command->footer(footer("  halocline compare runs/seamount/seamount.lcm calm.lcm"));
+  command->footer(footer("  halocline compare results/seamount/seamount.lcm calm.lcm"));
   command->callback([options, &exit_code] { exit_code = compare(*options); });
 }
 

@@ -59,8 +59,8 @@ void add_report_command(CLI::App& app, int& exit_code) {
                       "HTML file; default: the (second) log's name, ending in .html");
   add_force_option(*command, arguments->force);
   command->footer(
-      footer("  halocline report runs/seamount/seamount.lcm\n"
-             "  halocline report runs/seamount/seamount.lcm calm.lcm --out calm.html"));
+      footer("  halocline report results/seamount/seamount.lcm\n"
+             "  halocline report results/seamount/seamount.lcm calm.lcm --out calm.html"));
   command->callback([arguments, &exit_code] { exit_code = write_report(*arguments); });
 }
 

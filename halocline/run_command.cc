@@ -68,7 +68,8 @@ void print_end(const RunOptions& options, const RunFiles& files, const ScenarioC
 RunFiles files_of(const RunOptions& options, const std::string& name,
                   const std::vector<std::string>& inputs) {
   const bool all_named = !options.log.empty() && (options.no_csv || !options.csv.empty());
-  const std::string out = !options.out.empty() || all_named ? options.out : make_new_folder("runs/" + name);
+  const std::string out =
+      !options.out.empty() || all_named ? options.out : make_new_folder("results/" + name);
   RunFiles files = run_files(out, name, options.log, options.csv, options.scenario);
   OutputFiles outputs{files_of_log(files.log), options.force};
   outputs.paths.push_back(files.config);
@@ -163,7 +164,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   command->add_option(
       "--out", options->out,
-      "folder of the results; default: runs/<scenario>, or runs/<scenario>-2, ...: a new one");
+      "folder of the results; default: results/<scenario>, or results/<scenario>-2, ...: a new one");
   command->add_option("--log", options->log, "LCM log; default: <out>/<scenario>.lcm");
   add_rotation_options(*command, options->rotate, options->keep_parts);
   command->add_option("--csv", options->csv, "folder of the CSVs; default: <out>/csv");

@@ -32,7 +32,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("view", "Show a log, or a running bus, in the browser: starts halocline-monitor");
   command->prefix_command();
   command->footer(
-      footer("  halocline view runs/seamount/seamount.lcm\n  halocline view\n"
+      footer("  halocline view results/seamount/seamount.lcm\n  halocline view\n"
              "Options are those of halocline-monitor --help; ./scripts/monitor builds the page."));
   command->callback([command, &exit_code] {
     exit_code = kFailed;

@@ -20,8 +20,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "bus/logs/log_reader.h"
 #include "core/check.h"
 #include "core/frames.h"
@@ -157,7 +157,7 @@ std::string arrivals_json(const acoustics::RayLink& link, const std::string& sol
   const py::gil_scoped_release release;
   const acoustics::RaySea sea = make_sea(description);
   std::ostringstream paths;
-  print_arrivals(paths, {{link, arrivals(sea, link, solver_of(solver))}}, OutputFormat::kJson);
+  print_arrivals(paths, {{link, eigenrays(sea, link, solver_of(solver))}}, OutputFormat::kJson);
   return paths.str();
 }
 

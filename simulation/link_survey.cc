@@ -3,17 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <sstream>
 #include <utility>
 #include <vector>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/reverberation.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/modem/modem.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/published_range.h"
 #include "bathymetry/ray_service.h"
@@ -83,48 +84,42 @@ bool parse_position(const std::string& text, Vec3& position) {
   return count == 3;
 }
 
-// Returns measured taps as arrivals. A measured level does not tell its causes apart: all of the loss counts
-// as spreading.
-acoustics::Arrivals measured_arrivals(const channel_server::Reception& reception, Decibels source_level) {
-  acoustics::Arrivals arrivals;
-  for (const channel_server::SoundPath& tap : reception.paths) {
-    acoustics::Arrival path;
+// Returns the eigenrays of measured taps. A measured level does not tell its causes apart: all of the loss
+// counts as spreading.
+acoustics::Eigenrays measured_eigenrays(const channel_server::Reception& reception, Decibels source_level) {
+  acoustics::Eigenrays eigenrays;
+  for (const acoustics::Arrival& tap : reception.paths) {
+    acoustics::Eigenray path;
     path.delay_s = tap.delay_s;
     path.amplitude = elementary::exp10((tap.level - source_level).value / 20);
     path.phase_rad = tap.phase_rad;
-    arrivals.paths.push_back(path);
+    eigenrays.paths.push_back(path);
   }
-  return arrivals;
+  return eigenrays;
 }
 
-// Returns the single straight path as an arrival. The transmission loss without absorption and beam patterns
-// is its spreading loss:
+// Returns the eigenray of the single straight path. The transmission loss without absorption and beam
+// patterns is its spreading loss:
 //   amplitude = 10^((absorption_db + beam_loss_db - transmission_loss_db) / 20)
-acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
-                                     const acoustics::Transducers& beams) {
-  const acoustics::LinkBudget& budget = reception.budget;
-  acoustics::Arrival path;
-  path.delay_s = budget.delay_s;
-  path.path_length_m = budget.range_m;
-  path.absorption_db = budget.absorption_db_per_km * budget.range_m / 1000;
-  path.launch_angle_rad = reception.paths.front().launch_angle_rad;
-  path.arrival_angle_rad = reception.paths.front().arrival_angle_rad;
+acoustics::Eigenrays straight_eigenray(const channel_server::Reception& reception,
+                                       const acoustics::Transducers& beams) {
+  acoustics::Eigenray path = reception.paths.front();
   const Decibels weighed =
       beams.source.loss(path.launch_angle_rad) + beams.receiver.loss(-path.arrival_angle_rad);
   path.amplitude =
-      elementary::exp10((path.absorption_db + weighed.value - budget.transmission_loss.value) / 20);
+      elementary::exp10((path.absorption_db + weighed.value - reception.budget.transmission_loss.value) / 20);
   return {.paths = {path}};
 }
 
 // Describes the paths of a reception, for any propagation model.
 LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to,
-                           const channel_server::Reception& reception, acoustics::Arrivals arrivals) {
+                           const channel_server::Reception& reception, acoustics::Eigenrays eigenrays) {
   const Vec3 way = to.position_ned_m - from.position_ned_m;
   const double surface_z_m = config.scenario.sea_surface_z_m;
   LinkArrivals all{
       .link = {depth_below_surface_m(from.position_ned_m, surface_z_m),
                depth_below_surface_m(to.position_ned_m, surface_z_m), elementary::hypot(way.x(), way.y())},
-      .arrivals = std::move(arrivals)};
+      .eigenrays = std::move(eigenrays)};
   all.modems_known = true;
   all.beams = {from.modem.modem.beam, to.modem.modem.beam};
   all.blocked = reception.state == channel_server::PathState::kBlocked;
@@ -132,19 +127,28 @@ LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& fr
     all.found_by = "measured";
   else if (!is_along_rays(reception.used))
     all.found_by = "straight";
-  for (const channel_server::SoundPath& path : reception.paths) {
-    if (!is_reverberation(path)) all.received.push_back({path.level.value, path.doppler_factor});
-  }
+  std::remove_copy_if(reception.paths.begin(), reception.paths.end(), std::back_inserter(all.received),
+                      acoustics::is_reverberation);
   return all;
 }
 
-acoustics::Arrivals arrivals_of(LinkSurveyor& surveyor, const channel_server::LinkEnd& from,
-                                const channel_server::LinkEnd& to,
-                                const channel_server::Reception& reception) {
-  if (reception.measured) return measured_arrivals(reception, from.modem->source_level);
-  if (is_along_rays(reception.used)) return surveyor.arrivals(from, to);
-  return reception.paths.empty() ? acoustics::Arrivals()
-                                 : straight_arrival(reception, {from.modem->beam, to.modem->beam});
+acoustics::PathLack lack_of(channel_server::PathState state) {
+  if (state == channel_server::PathState::kTooWeak) return acoustics::PathLack::kTooWeak;
+  if (state == channel_server::PathState::kTooSteep) return acoustics::PathLack::kTooSteep;
+  return acoustics::PathLack::kShadow;
+}
+
+acoustics::Eigenrays eigenrays_of(const channel_server::Reception& reception,
+                                  const acoustics::Modem& transmitter, const acoustics::Modem& receiver) {
+  if (reception.measured) return measured_eigenrays(reception, transmitter.source_level);
+  if (is_along_rays(reception.used)) {
+    acoustics::Eigenrays eigenrays{reception.solver, {}, lack_of(reception.state)};
+    std::remove_copy_if(reception.paths.begin(), reception.paths.end(), std::back_inserter(eigenrays.paths),
+                        acoustics::is_reverberation);
+    return eigenrays;
+  }
+  return reception.paths.empty() ? acoustics::Eigenrays()
+                                 : straight_eigenray(reception, {transmitter.beam, receiver.beam});
 }
 
 // True when the terrain obstructs the straight line between two points; false where the terrain is not known.
@@ -238,8 +242,8 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
   auto [reception, forecast] = surveyor.survey(here, there);
   answer.reception = std::move(reception);
   answer.forecast = forecast;
-  answer.arrivals =
-      link_arrivals(config, from, to, answer.reception, arrivals_of(surveyor, here, there, answer.reception));
+  answer.arrivals = link_arrivals(config, from, to, answer.reception,
+                                  eigenrays_of(answer.reception, transmitter, receiver));
   answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
   answer.multipath = multipath_of(answer.reception, receiver.min_receivable_level);
   return answer;

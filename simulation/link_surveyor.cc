@@ -79,10 +79,6 @@ LinkSurveyor::Answer LinkSurveyor::survey(const LinkEnd& from, const LinkEnd& to
                         : propagation().reception_without_capacity(SimTime(), link.from, link.to));
 }
 
-acoustics::Arrivals LinkSurveyor::arrivals(const LinkEnd& from, const LinkEnd& to) {
-  return rays_->arrivals(SimTime(), from, to);
-}
-
 Decibels LinkSurveyor::noise_level(const acoustics::Modem& transmitter) {
   const acoustics::Band band = transmitter.band();
   return noise_level_over_band(band.low_hz, band.high_hz, propagation().environment(SimTime()).noise);

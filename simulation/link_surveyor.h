@@ -12,7 +12,6 @@
 #include <optional>
 
 #include "acoustics/modem/modem.h"
-#include "acoustics/rays/arrivals.h"
 #include "bathymetry/terrain/terrain.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/link_table_publisher.h"
@@ -54,8 +53,6 @@ class LinkSurveyor {
   // null: the link has a search of its own.
   Answer survey(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to, const Seabed& seabed,
                 channel_server::SharedLine* line);
-  // Returns the paths that survey(from, to) found along rays.
-  acoustics::Arrivals arrivals(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to);
   // Returns the ambient noise level over the transmitter's band, dB re 1 uPa.
   Decibels noise_level(const acoustics::Modem& transmitter);
   channel_server::Propagation& propagation() { return *water_.propagation; }

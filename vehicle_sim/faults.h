@@ -54,7 +54,6 @@ class VehicleFaults {
 
   // Lets water in or out over `seconds`; `water_density_kg_m3` above 0.
   void leak(double seconds, double water_density_kg_m3);
-  double water_inside_kg() const { return water_kg_; }
 
   // False while the model is that of the vehicle without faults.
   bool changes_model() const { return lost_propeller_ || water_kg_ > 0; }

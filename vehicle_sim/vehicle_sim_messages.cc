@@ -53,26 +53,6 @@ vehicle_state_t to_state_message(SimTime when, std::int32_t vehicle_id, const Ki
   return m;
 }
 
-KinematicState from_message(const vehicle_state_t& m) {
-  const double* q = m.orientation_wxyz;
-  return {{read(m.position_ned_m), Quaternion(q[0], q[1], q[2], q[3])},
-          read(m.velocity_ned_mps),
-          read(m.angular_velocity_body_radps)};
-}
-
-vehicle_command_t to_command_message(const TimedCommand& command) {
-  vehicle_command_t m{};
-  m.utime = command.from.to_utime();
-  m.propeller_rpm = command.actuators.propeller_hz * kSecondsPerMinute;
-  m.rudder_rad = command.actuators.rudder_rad;
-  m.stern_plane_rad = command.actuators.stern_planes_rad;
-  write_rpm(command.actuators.thruster_hz, m.thruster_rpm);
-  m.buoyancy_m3 = command.actuators.buoyancy_m3;
-  m.moving_mass_m = command.actuators.moving_mass_m;
-  m.release_weight = command.actuators.weight == DropWeightState::kReleased ? 1 : 0;
-  return m;
-}
-
 TimedCommand from_message(const vehicle_command_t& m) {
   return {SimTime::from_utime(m.utime),
           {m.rudder_rad, m.stern_plane_rad, m.propeller_rpm / kSecondsPerMinute, read_rpm(m.thruster_rpm),
@@ -106,25 +86,6 @@ vehicle_sensors_t to_sensors_message(SimTime when, const SensorReading& r) {
   return m;
 }
 
-SensorReading from_message(const vehicle_sensors_t& m) {
-  SensorReading r;
-  r.depth_m = m.depth_m;
-  r.altitude = {static_cast<AltitudeStatus>(m.altitude_status), m.altitude_m};
-  r.depth_fresh = m.depth_fresh != 0;
-  r.water_speed_fresh = m.water_speed_fresh != 0;
-  r.attitude_fresh = m.attitude_fresh != 0;
-  r.angular_rate_fresh = m.angular_rate_fresh != 0;
-  r.water_speed_mps = m.water_speed_mps;
-  r.attitude = {m.roll_rad, m.pitch_rad, m.heading_rad};
-  r.angular_velocity_body_radps = read(m.angular_rate_body_radps);
-  r.actuators = {m.rudder_angle_rad,          m.stern_angle_rad, m.shaft_rpm / kSecondsPerMinute,
-                 read_rpm(m.thruster_rpm),    m.buoyancy_m3,     m.moving_mass_m,
-                 weight_of(m.weight_released)};
-  r.safe_state = m.safe_state != 0;
-  r.on_seabed = m.on_seabed != 0;
-  return r;
-}
-
 CurrentSettings from_message(const current_change_t& m) {
   CurrentSettings c;
   c.uniform_ned_mps = read(m.uniform_ned_mps);
@@ -133,25 +94,6 @@ CurrentSettings from_message(const current_change_t& m) {
   c.tide = {m.tide_amplitude_mps, m.tide_period_s, m.tide_phase_rad, m.tide_toward_rad};
   c.random = {m.random_deviation_mps, m.random_time_s};
   return c;
-}
-
-current_change_t to_current_message(SimTime from, const CurrentSettings& c) {
-  current_change_t m{};
-  m.utime = from.to_utime();
-  write(c.uniform_ned_mps, m.uniform_ned_mps);
-  m.num_depths = static_cast<std::int32_t>(c.by_depth.size());
-  for (const DepthCurrent& row : c.by_depth) {
-    m.depth_m.push_back(row.depth_m);
-    m.north_mps.push_back(row.north_mps);
-    m.east_mps.push_back(row.east_mps);
-  }
-  m.tide_amplitude_mps = c.tide.amplitude_mps;
-  m.tide_period_s = c.tide.period_s;
-  m.tide_phase_rad = c.tide.phase_rad;
-  m.tide_toward_rad = c.tide.toward_rad;
-  m.random_deviation_mps = c.random.deviation_mps;
-  m.random_time_s = c.random.time_s;
-  return m;
 }
 
 vehicle_dvl_t to_dvl_message(SimTime when, const DvlReading& r, double deviation_mps) {

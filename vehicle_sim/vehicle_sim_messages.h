@@ -25,15 +25,11 @@
 namespace halocline::vehicle_sim {
 
 vehicle_state_t to_state_message(SimTime when, std::int32_t vehicle_id, const KinematicState& state);
-KinematicState from_message(const vehicle_state_t& message);
 
-vehicle_command_t to_command_message(const TimedCommand& command);
 TimedCommand from_message(const vehicle_command_t& message);
 
 vehicle_sensors_t to_sensors_message(SimTime when, const SensorReading& reading);
-SensorReading from_message(const vehicle_sensors_t& message);
 
-current_change_t to_current_message(SimTime from, const CurrentSettings& current);
 CurrentSettings from_message(const current_change_t& message);
 
 vehicle_dvl_t to_dvl_message(SimTime when, const DvlReading& reading, double deviation_mps);

@@ -20,7 +20,7 @@ constexpr char kFooter[] =
     "page and starts this.\n\n"
     "Examples:\n"
     "  halocline-monitor\n"
-    "  halocline-monitor runs/seamount/seamount.lcm\n"
+    "  halocline-monitor results/seamount/seamount.lcm\n"
     "  halocline-monitor --address 0.0.0.0 --port 8080 --token \"$(openssl rand -hex 16)\"\n\n"
     "Exit codes: 0 done, 1 failed, 2 wrong command line or configuration.";
 

@@ -39,9 +39,9 @@ struct MediumPlace {
 };
 
 // Mean of the delays, weighted by power.
-double mean_delay_s(const std::vector<SoundPath>& paths) {
+double mean_delay_s(const std::vector<Arrival>& paths) {
   double sum = 0, weight = 0;
-  for (const SoundPath& path : paths) {
+  for (const Arrival& path : paths) {
     const double power = to_power_ratio(path.level).value;
     sum += power * (path.delay_s - paths.front().delay_s);
     weight += power;
@@ -49,7 +49,7 @@ double mean_delay_s(const std::vector<SoundPath>& paths) {
   return paths.front().delay_s + (weight > 0 ? sum / weight : 0);
 }
 
-MediumPlace place_of(const SoundPath& path, double mean_delay_s, const Band& band, bool reversed) {
+MediumPlace place_of(const Arrival& path, double mean_delay_s, const Band& band, bool reversed) {
   const double launch = reversed ? -path.arrival_angle_rad : path.launch_angle_rad;
   const double arrival = reversed ? -path.launch_angle_rad : path.arrival_angle_rad;
   return {2 * band.width_hz() * (path.delay_s - mean_delay_s), launch / kAngleScale, arrival / kAngleScale};
@@ -113,8 +113,8 @@ struct MediumField {
 };
 
 // The scattered component of a path as a sum of complex exponentials.
-TurningSines scattered_sines(const FadingLink& link, const SoundPath& path, double time_s, double step_s) {
-  const ComplexNoise noise(address_of(link, "fading-scattered", path.identity));
+TurningSines scattered_sines(const FadingLink& link, const Arrival& path, double time_s, double step_s) {
+  const ComplexNoise noise(address_of(link, "fading-scattered", path.identity.number()));
   TurningSines sines;
   for (std::size_t k = 0; k < kSines; ++k) {
     const double rate_hz = noise.frequencies()[k] * path.fading.doppler_spread_hz;
@@ -133,7 +133,7 @@ struct CrossingPath {
   MediumPlace place;
 };
 
-CrossingPath crossing_path(const SoundPath& path, double mean_delay_s, const Band& band) {
+CrossingPath crossing_path(const Arrival& path, double mean_delay_s, const Band& band) {
   const double power = to_power_ratio(path.level).value;
   const double phase = path.phase_rad - 2 * pi * std::fmod(band.centre_hz() * path.delay_s, 1.0);
   const double turns = band.width_hz() * (path.delay_s - mean_delay_s);
@@ -178,16 +178,15 @@ double LinkFading::large_scale(SimTime time) const {
   return elementary::exp10(level_db / 20);
 }
 
-std::vector<Complex> LinkFading::responses(const std::vector<SoundPath>& paths, const Band& band,
-                                           SimTime start, const FadingTimes& times,
-                                           double large_scale) const {
+std::vector<Complex> LinkFading::responses(const std::vector<Arrival>& paths, const Band& band, SimTime start,
+                                           const FadingTimes& times, double large_scale) const {
   std::vector<Complex> all;
   all.reserve(paths.size() * static_cast<std::size_t>(times.count));
   if (paths.empty()) return all;
   const double time_s = start.seconds() + times.begin_s, mean_s = mean_delay_s(paths);
   const double medium_spread_hz = doppler_spread_of(model_.medium_coherence_s);
   std::optional<MediumField> medium;
-  for (const SoundPath& path : paths) {
+  for (const Arrival& path : paths) {
     // The medium modulates the coherent component:
     //   h = sqrt(P) 10^(X/20) (sqrt(c) e^(j phi) + e^(j phi) sqrt(m) g_m + sqrt(s) g_s)
     const PathFading& shares = path.fading;
@@ -218,14 +217,14 @@ std::vector<Complex> LinkFading::responses(const std::vector<SoundPath>& paths, 
   return all;
 }
 
-double mean_power(const FadingModel& model, const std::vector<SoundPath>& paths, const Band& band) {
+double mean_power(const FadingModel& model, const std::vector<Arrival>& paths, const Band& band) {
   double total = 0;
-  for (const SoundPath& path : paths) total += to_power_ratio(path.level).value;
+  for (const Arrival& path : paths) total += to_power_ratio(path.level).value;
   if (!model.enabled || paths.size() < 2) return total;
   const double mean_s = mean_delay_s(paths);
   std::vector<CrossingPath> crossing;
   crossing.reserve(paths.size());
-  for (const SoundPath& path : paths) crossing.push_back(crossing_path(path, mean_s, band));
+  for (const Arrival& path : paths) crossing.push_back(crossing_path(path, mean_s, band));
   double crossed = 0;
   for (std::size_t p = 1; p < crossing.size(); ++p) {
     for (std::size_t q = 0; q < p; ++q) crossed += cross_power(crossing[p], crossing[q], kNegligible * total);

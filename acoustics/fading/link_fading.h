@@ -19,10 +19,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/complex_noise.h"
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/path_responses.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/math/frequency_band.h"
 #include "core/gauss_markov.h"
 #include "core/sim_time.h"
@@ -46,7 +46,7 @@ class LinkFading : public PathResponses {
   // Factor of large-scale fading at `time`, 10^(X/20); 1 when nothing fades.
   double large_scale(SimTime time) const;
 
-  std::vector<std::complex<double>> responses(const std::vector<SoundPath>& paths, const Band& band,
+  std::vector<std::complex<double>> responses(const std::vector<Arrival>& paths, const Band& band,
                                               SimTime start, const FadingTimes& times,
                                               double large_scale) const override;
 
@@ -60,6 +60,6 @@ class LinkFading : public PathResponses {
 //     sqrt(P_p P_q) (sqrt(c_p c_q) + sqrt(m_p m_q) corr_pq)
 //     cos(phase difference at the centre) sinc(B (delay_p - delay_q))
 // A model that is not enabled adds the powers only.
-double mean_power(const FadingModel& model, const std::vector<SoundPath>& paths, const Band& band);
+double mean_power(const FadingModel& model, const std::vector<Arrival>& paths, const Band& band);
 
 }  // namespace halocline::acoustics

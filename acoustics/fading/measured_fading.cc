@@ -5,20 +5,21 @@
 #include <cstdint>
 #include <utility>
 
+#include "acoustics/rays/eigenray.h"
 #include "core/check.h"
 #include "core/random.h"
 
 namespace halocline::acoustics {
 
-std::vector<SoundPath> measured_paths(const MeasuredChannel& channel, const SoundPath& reference,
-                                      Decibels level) {
-  std::vector<SoundPath> paths;
+std::vector<Arrival> measured_paths(const MeasuredChannel& channel, const Arrival& reference,
+                                    Decibels level) {
+  std::vector<Arrival> paths;
   for (const MeasuredTap& tap : channel.taps()) {
-    SoundPath path = reference;
+    Arrival path = reference;
     path.delay_s += tap.delay_s;
     path.level = level + to_decibels(PowerRatio{tap.power / channel.power()});
     path.phase_rad = tap.phase_rad;
-    path.identity = paths.size();
+    path.identity = PathIdentity::of_number(paths.size());
     path.fading = {tap.coherent, 0, 1 - tap.coherent, tap.doppler_spread_hz};
     paths.push_back(path);
   }
@@ -34,7 +35,7 @@ MeasuredFading::MeasuredFading(std::shared_ptr<const MeasuredChannel> channel, c
   offset_s_ = uniform_at(address) * channel_->duration_s();
 }
 
-std::vector<std::complex<double>> MeasuredFading::responses(const std::vector<SoundPath>& paths, const Band&,
+std::vector<std::complex<double>> MeasuredFading::responses(const std::vector<Arrival>& paths, const Band&,
                                                             SimTime start, const FadingTimes& times,
                                                             double large_scale) const {
   const std::vector<MeasuredTap>& taps = channel_->taps();

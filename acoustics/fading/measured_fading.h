@@ -15,10 +15,10 @@
 #include <memory>
 #include <vector>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/measured_channel.h"
 #include "acoustics/fading/path_responses.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/math/frequency_band.h"
 #include "core/sim_time.h"
 #include "core/units.h"
@@ -26,8 +26,7 @@
 namespace halocline::acoustics {
 
 // One path per tap, by delay; their powers sum to `level`.
-std::vector<SoundPath> measured_paths(const MeasuredChannel& channel, const SoundPath& reference,
-                                      Decibels level);
+std::vector<Arrival> measured_paths(const MeasuredChannel& channel, const Arrival& reference, Decibels level);
 
 class MeasuredFading : public PathResponses {
  public:
@@ -37,7 +36,7 @@ class MeasuredFading : public PathResponses {
   double offset_s() const { return offset_s_; }
 
   // Responses of the paths. `paths` are all paths of measured_paths(), at any level.
-  std::vector<std::complex<double>> responses(const std::vector<SoundPath>& paths, const Band& band,
+  std::vector<std::complex<double>> responses(const std::vector<Arrival>& paths, const Band& band,
                                               SimTime start, const FadingTimes& times,
                                               double large_scale) const override;
 

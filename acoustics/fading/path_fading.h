@@ -61,7 +61,7 @@ double mean_wave_frequency_radps(double wind_mps);
 double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_squares);
 
 // Fading of a path at `frequency_hz` > 0 under `wind_mps` >= 0, given the sums over its bounces of the
-// squared sine of the grazing angle (acoustics/rays/arrivals.h). Shares refer to the share `kept` of the
+// squared sine of the grazing angle (acoustics/rays/eigenray.h). Shares refer to the share `kept` of the
 // power that scattering leaves (scattering_loss.h), so that E / kept is coherent. A model that is not enabled
 // leaves everything coherent.
 PathFading path_fading(const FadingModel& model, double wind_mps, double frequency_hz,

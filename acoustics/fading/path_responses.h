@@ -6,7 +6,7 @@
 #include <complex>
 #include <vector>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 #include "acoustics/math/frequency_band.h"
 #include "core/sim_time.h"
 
@@ -26,7 +26,7 @@ class PathResponses {
   // Returns h of each path at each instant after `start`, in the order of paths, then instants. h is the
   // pressure re 1 uPa with the phase of reflections and fading, without the phase of the delay. `large_scale`
   // is the factor of the link's large-scale fading at the time.
-  virtual std::vector<std::complex<double>> responses(const std::vector<SoundPath>& paths, const Band& band,
+  virtual std::vector<std::complex<double>> responses(const std::vector<Arrival>& paths, const Band& band,
                                                       SimTime start, const FadingTimes& times,
                                                       double large_scale) const = 0;
 };

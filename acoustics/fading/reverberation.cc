@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "acoustics/rays/eigenray.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/units.h"
@@ -40,16 +41,16 @@ double tail_decay_per_s(const Reverberation& reverberation, const Duct& duct) {
   return bounces_per_s * reverberation.bounce_loss_db * std::numbers::ln10 / 10;
 }
 
-bool is_reverberation(const SoundPath& path) { return path.identity >= kTailIdentity; }
+bool is_reverberation(const Arrival& path) { return path.identity.number() >= kTailIdentity; }
 
-std::vector<SoundPath> with_reverberation(const Reverberation& reverberation, const Duct& duct,
-                                          std::vector<SoundPath> paths) {
+std::vector<Arrival> with_reverberation(const Reverberation& reverberation, const Duct& duct,
+                                        std::vector<Arrival> paths) {
   if (!reverberation.enabled || paths.empty() || !(duct.trapped_share > 0)) return paths;
   const double at_bottom = scattered_by_bounce(reverberation.bottom_scattering_db),
                at_surface = scattered_by_bounce(reverberation.surface_scattering_db);
-  SoundPath tail = paths.front();
+  Arrival tail = paths.front();
   double fed = 0, spread_hz = 0;
-  for (const SoundPath& path : paths) {
+  for (const Arrival& path : paths) {
     fed += to_power_ratio(path.level).value * duct.trapped_share *
            (path.bottom_bounces * at_bottom + path.surface_bounces * at_surface);
     spread_hz = std::max(spread_hz, path.fading.doppler_spread_hz);
@@ -66,11 +67,11 @@ std::vector<SoundPath> with_reverberation(const Reverberation& reverberation, co
     const double later = elementary::cosh((static_cast<double>(k) + 0.5) * step) - 1;
     tail.delay_s = begin_s * (1 + later);
     tail.level = to_decibels(PowerRatio{fed * elementary::exp(-x * later) * step});
-    tail.identity = kTailIdentity + k;
+    tail.identity = PathIdentity::of_number(kTailIdentity + k);
     paths.push_back(tail);
   }
   std::stable_sort(paths.begin(), paths.end(),
-                   [](const SoundPath& a, const SoundPath& b) { return a.delay_s < b.delay_s; });
+                   [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
   return paths;
 }
 

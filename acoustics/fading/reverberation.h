@@ -27,7 +27,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 
 namespace halocline::acoustics {
 
@@ -55,11 +55,11 @@ struct Duct {
 double tail_decay_per_s(const Reverberation& reverberation, const Duct& duct);
 
 // True when a path of with_reverberation() belongs to the tail.
-bool is_reverberation(const SoundPath& path);
+bool is_reverberation(const Arrival& path);
 
 // Returns `paths`, sorted by delay, with the paths of the tail inserted. Without reverberation, bounces or a
 // duct they are returned unchanged.
-std::vector<SoundPath> with_reverberation(const Reverberation& reverberation, const Duct& duct,
-                                          std::vector<SoundPath> paths);
+std::vector<Arrival> with_reverberation(const Reverberation& reverberation, const Duct& duct,
+                                        std::vector<Arrival> paths);
 
 }  // namespace halocline::acoustics

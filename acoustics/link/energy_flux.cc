@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "acoustics/link/slope_diffusion.h"
-#include "acoustics/rays/profile_path.h"
+#include "acoustics/rays/traced_eigenray.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {
@@ -82,7 +82,7 @@ double weak_power(const RayOptions& options, Decibels below) {
   return options.diffuse_below_pressure * options.diffuse_below_pressure * to_power_ratio(-below).value;
 }
 
-double power_of(const Arrival& path) { return path.received_pressure() * path.received_pressure(); }
+double power_of(const Eigenray& path) { return path.received_pressure() * path.received_pressure(); }
 
 double surface_loss_of(const EnergyFluxSea& sea, double xi) {
   const double sine = sine_at(xi, sea.water.speeds_mps().front());
@@ -91,7 +91,7 @@ double surface_loss_of(const EnergyFluxSea& sea, double xi) {
 
 // Sets the bounces over the range, and the loss at both boundaries.
 void set_bounces(const EnergyFluxSea& sea, double xi, const HalfCycle& half, double bottom_speed_mps,
-                 double range_m, Arrival& window) {
+                 double range_m, Eigenray& window) {
   const double times = range_m / half.range_m / 2;
   if (half.upper_m == 0) {
     const double sine = sine_at(xi, sea.water.speeds_mps().front());
@@ -143,16 +143,17 @@ double power_at(const std::vector<BottomRay>& rays, double angle) {
   return (1 - share) * rays[i].power + share * rays[i + 1].power;
 }
 
-// Arrival of the rays launched between the angles `low` and `high`; none when they miss the receiver's depth.
-std::optional<Arrival> window_of(const EnergyFluxSea& sea, const EnergyFluxLink& link, double low,
-                                 double high) {
+// Diffuse path of the rays launched between the angles `low` and `high`; none when they miss the receiver's
+// depth.
+std::optional<Eigenray> window_of(const EnergyFluxSea& sea, const EnergyFluxLink& link, double low,
+                                  double high) {
   const double theta = 0.5 * (low + high), speed = link.receiver.speed_mps;
   const double xi = elementary::cos(theta) / link.source.speed_mps;
   HalfCycle half;
   half.upper_m = add_leg(sea.water, xi, link.source, 0, half);
   half.lower_m = add_leg(sea.water, xi, link.source, sea.depth_m, half);
   if (!(half.range_m > 0)) return std::nullopt;
-  Arrival window;
+  Eigenray window;
   set_bounces(sea, xi, half, link.bottom.speed_mps, link.range_m, window);
   const double angle = elementary::asin(sine_at(xi, link.bottom.speed_mps));
   const bool is_turned =
@@ -175,19 +176,19 @@ std::optional<Arrival> window_of(const EnergyFluxSea& sea, const EnergyFluxLink&
 }
 
 // Keeps the strongest windows that together have kKeptShare of the power, sorted by delay.
-void keep_most(std::vector<Arrival>& windows) {
+void keep_most(std::vector<Eigenray>& windows) {
   double power = 0, kept = 0;
-  for (const Arrival& window : windows) power += power_of(window);
+  for (const Eigenray& window : windows) power += power_of(window);
   std::stable_sort(windows.begin(), windows.end(),
-                   [](const Arrival& a, const Arrival& b) { return power_of(a) > power_of(b); });
+                   [](const Eigenray& a, const Eigenray& b) { return power_of(a) > power_of(b); });
   std::size_t count = 0;
   while (count < windows.size() && kept < kKeptShare * power) kept += power_of(windows[count++]);
   windows.resize(count);
   std::stable_sort(windows.begin(), windows.end(),
-                   [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
+                   [](const Eigenray& a, const Eigenray& b) { return a.delay_s < b.delay_s; });
 }
 
-std::vector<Arrival> all_windows(const EnergyFluxSea& sea, const RayLink& link) {
+std::vector<Eigenray> all_windows(const EnergyFluxSea& sea, const RayLink& link) {
   const std::vector<double> edges = even_angles(sea.options.max_launch_angle_rad, kCoarseness);
   EnergyFluxLink mixed{{sea.water, link.source_depth_m},
                        {sea.water, link.receiver_depth_m},
@@ -195,7 +196,7 @@ std::vector<Arrival> all_windows(const EnergyFluxSea& sea, const RayLink& link) 
                        link.range_m,
                        {}};
   if (sea.mean_square_slope > 0) mixed.turned = rays_after_slopes(sea, mixed);
-  std::vector<Arrival> windows;
+  std::vector<Eigenray> windows;
   for (std::size_t i = 1; i < edges.size(); ++i) {
     auto window = window_of(sea, mixed, edges[i - 1], edges[i]);
     if (!window) continue;
@@ -207,8 +208,8 @@ std::vector<Arrival> all_windows(const EnergyFluxSea& sea, const RayLink& link) 
 
 }  // namespace
 
-std::vector<Arrival> energy_flux_arrivals(const EnergyFluxSea& sea, const RayLink& link) {
-  std::vector<Arrival> windows = all_windows(sea, link);
+std::vector<Eigenray> energy_flux_eigenrays(const EnergyFluxSea& sea, const RayLink& link) {
+  std::vector<Eigenray> windows = all_windows(sea, link);
   keep_most(windows);
   return windows;
 }
@@ -219,13 +220,13 @@ bool may_be_flux_only(const RayWater& water, const RayOptions& options, const Ra
   return options.diffuse_below_db > 0 && direct <= weak_power(options, below);
 }
 
-std::optional<std::vector<Arrival>> flux_only_arrivals(const EnergyFluxSea& sea, const RayLink& link,
-                                                       Decibels below) {
+std::optional<std::vector<Eigenray>> flux_only_eigenrays(const EnergyFluxSea& sea, const RayLink& link,
+                                                         Decibels below) {
   if (link.range_m < kFarAway * sea.depth_m || !may_be_flux_only(sea.water, sea.options, link, below))
     return std::nullopt;
-  std::vector<Arrival> windows = energy_flux_arrivals(sea, link);
+  std::vector<Eigenray> windows = energy_flux_eigenrays(sea, link);
   double power = 0;
-  for (const Arrival& window : windows) power += power_of(window);
+  for (const Eigenray& window : windows) power += power_of(window);
   return windows.empty() || power > weak_power(sea.options, below) ? std::nullopt
                                                                    : std::optional(std::move(windows));
 }
@@ -246,7 +247,7 @@ LeastFluxLoss::LeastFluxLoss(const EnergyFluxSea& sea, const Depths& depths, Dec
           std::min(least_absorption_db_per_m_, sea.water.absorption_db_per_m(i * step_m));
       for (int j = 0; j <= i; ++j) {
         links_.emplace_back();
-        for (const Arrival& one : all_windows(here, {(i + 0.5) * step_m, (j + 0.5) * step_m, kMetre})) {
+        for (const Eigenray& one : all_windows(here, {(i + 0.5) * step_m, (j + 0.5) * step_m, kMetre})) {
           const double boundaries_db = one.bounce_loss_db();
           if (!(one.amplitude > 0)) continue;
           links_.back().push_back({one.amplitude * one.amplitude * elementary::exp10(boundaries_db / 10),

@@ -8,7 +8,7 @@
 //   f^2 cot(angle at the receiver) / D dtheta / r
 // with the delay, length and absorption of r / D half cycles. A bottom with slopes turns rays at every
 // bounce: the power of rays that meet it is then that of acoustics/link/slope_diffusion.h, by their angles at
-// the bottom. Each window of launch angles is one Arrival, marked diffuse.
+// the bottom. Each window of launch angles is one eigenray, marked diffuse.
 //
 // Accuracy: over bottoms with 5 m of relief, ends 2 to 5 km apart, the mean over places is within 0.6 dB of
 // tracing every ray, 2 dB rms from place to place; cost some fifty microseconds. Left out: terrain that
@@ -18,7 +18,7 @@
 #include <optional>
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"
 #include "core/units.h"
@@ -37,12 +37,12 @@ struct EnergyFluxSea {
 
 // The windows that have 99 % of the power, sorted by delay; empty when no ray that leaves the source reaches
 // the receiver's depth.
-std::vector<Arrival> energy_flux_arrivals(const EnergyFluxSea& sea, const RayLink& link);
+std::vector<Eigenray> energy_flux_eigenrays(const EnergyFluxSea& sea, const RayLink& link);
 
 // The windows of a link that is weak: longer than 10 depths, with its total power and that of its direct path
 // each at least `below` under RayOptions::diffuse_below_pressure. nullopt for other links.
-std::optional<std::vector<Arrival>> flux_only_arrivals(const EnergyFluxSea& sea, const RayLink& link,
-                                                       Decibels below);
+std::optional<std::vector<Eigenray>> flux_only_eigenrays(const EnergyFluxSea& sea, const RayLink& link,
+                                                         Decibels below);
 // True when the link may be weak over some bottom: its direct path alone is.
 bool may_be_flux_only(const RayWater& water, const RayOptions& options, const RayLink& link, Decibels below);
 

@@ -25,7 +25,7 @@ Vec3 ray_direction(const Vec3& from_ned_m, const Vec3& to_ned_m, double angle_ra
   return elementary::cos(angle_rad) * along + elementary::sin(angle_rad) * Vec3(0, 0, 1);
 }
 
-double doppler_factor(const Arrival& path, const MovingEnds& ends) {
+double doppler_factor(const Eigenray& path, const MovingEnds& ends) {
   const Vec3 leaves = ray_direction(ends.source_ned_m, ends.receiver_ned_m, path.launch_angle_rad);
   const Vec3 comes = ray_direction(ends.source_ned_m, ends.receiver_ned_m, path.arrival_angle_rad);
   return doppler_factor(ends.source_velocity_mps.dot(leaves), ends.source_sound_speed_mps,

@@ -9,7 +9,7 @@
 // step. Left out: motion of the surface, bottoms that slope across the link.
 #pragma once
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "core/frames.h"
 
 namespace halocline::acoustics {
@@ -26,7 +26,7 @@ struct MovingEnds {
 Vec3 ray_direction(const Vec3& from_ned_m, const Vec3& to_ned_m, double angle_rad);
 
 // Factor f_rx / f_tx of one path. Throws InvalidArgument unless both speeds are below that of sound.
-double doppler_factor(const Arrival& path, const MovingEnds& ends);
+double doppler_factor(const Eigenray& path, const MovingEnds& ends);
 
 // Factor f_rx / f_tx for velocities along the path: `source_mps` towards the receiver, `receiver_mps` away
 // from the source.

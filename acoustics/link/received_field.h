@@ -7,7 +7,7 @@
 // pattern weights each path by the angle at which it leaves or arrives.
 //
 // Levels are relative to the source level: dB, never positive in practice; transmission loss is their
-// negative. Without a path the level is -infinity dB, see PathLack in acoustics/rays/arrivals.h; the caller
+// negative. Without a path the level is -infinity dB, see PathLack in acoustics/rays/eigenray.h; the caller
 // may set a floor. The impulse response is that of the complex envelope about the carrier: one tap a path,
 // without the modem's own filter.
 #pragma once
@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "acoustics/modem/beam_pattern.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -28,7 +28,7 @@ struct Transducers {
 };
 
 // Pressure of one path relative to that at 1 m, with absorption and beams.
-double weighted_pressure(const Arrival& path, const Transducers& transducers);
+double weighted_pressure(const Eigenray& path, const Transducers& transducers);
 
 // Options of the level.
 struct FieldOptions {
@@ -47,16 +47,16 @@ struct ReceivedField {
   double delay_spread_s = 0;  // rms about that mean, weighted by power
   double longest_echo_s = 0;  // delay from the first to the last path within 30 dB of the strongest
 };
-ReceivedField received_field(const Arrivals& arrivals, const FieldOptions& options = {});
+ReceivedField received_field(const Eigenrays& eigenrays, const FieldOptions& options = {});
 
 // Level of the sum of phasors at `frequency_hz` plus the power of diffuse paths, dB re the source level;
 // absorption is that at RayOptions::frequency_hz.
-Decibels coherent_level(const Arrivals& arrivals, double frequency_hz, const FieldOptions& options = {});
+Decibels coherent_level(const Eigenrays& eigenrays, double frequency_hz, const FieldOptions& options = {});
 
 // Taps of the complex envelope about `carrier_hz`, `count` samples at `rate_hz` from `from_s` on. Each path
 // is added to its nearest sample with the phase of its own delay. Paths outside of the samples, and diffuse
 // ones, are left out. rate_hz in (0, 1e7], count 1..1e7.
-std::vector<std::complex<double>> impulse_response(const Arrivals& arrivals, double carrier_hz,
+std::vector<std::complex<double>> impulse_response(const Eigenrays& eigenrays, double carrier_hz,
                                                    double rate_hz, double from_s, std::size_t count,
                                                    const Transducers& transducers = {});
 

@@ -29,7 +29,7 @@ double mix(double a, double b, double part) { return a + part * (b - a); }
 constexpr double kMinZ = -4.5, kStepZ = 0.25, kMinSkewness = 0.1, kStepSkewness = 0.1;
 constexpr std::size_t kZs = 37, kSkewnesses = 20;
 
-// Logarithms of gamma_quantile().
+// Logarithms of the quantiles of gamma variables of mean 1, whose variance is skewness^2 / 4.
 using QuantileTable = std::array<std::array<double, kZs>, kSkewnesses>;
 
 const QuantileTable& quantiles() {
@@ -46,10 +46,6 @@ const QuantileTable& quantiles() {
   }();
   return table;
 }
-
-}  // namespace
-
-namespace {
 
 // Logarithms of the gamma quantiles of one skewness.
 class LogQuantiles {
@@ -72,8 +68,6 @@ class LogQuantiles {
 };
 
 }  // namespace
-
-double gamma_quantile(double z, double skewness) { return fast_exp(LogQuantiles(skewness).at(z)); }
 
 double GammaPower::at(double z) const { return at(std::array{z})[0]; }
 

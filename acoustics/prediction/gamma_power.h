@@ -33,10 +33,6 @@ struct GammaPower {
   void replace(std::span<double> scores) const;  // replaces scores by quantiles in place
 };
 
-// Quantile of a gamma variable of mean 1 at the normal score `z`. Its `skewness`, 0.1..2, sets its variance:
-// skewness^2 / 4.
-double gamma_quantile(double z, double skewness);
-
 // Estimates the third cumulant of a sum of powers over the cube of its mean from `kept`, its variance over
 // the square of its mean: (3 kept - 1) / 2 for two unequal parts (kept > 0.5), kept^2 for many equal ones.
 double third_share(double kept);

@@ -274,7 +274,7 @@ double sinr_of(const ReceptionStatistics& sound, double noise) {
 }
 
 // Prediction without fading: only the set of echoes present varies.
-LinkPrediction predict_still(const std::vector<SoundPath>& paths, const Synchronisation& sync, double noise,
+LinkPrediction predict_still(const std::vector<Arrival>& paths, const Synchronisation& sync, double noise,
                              const ReceptionCurves& curves) {
   const double preamble_s = curves.timing().preamble.seconds(), end_s = curves.timing().duration.seconds();
   const SignalHistory history = still_history(paths, sync, {preamble_s, end_s});
@@ -300,14 +300,14 @@ LinkPrediction predict_still(const std::vector<SoundPath>& paths, const Synchron
 
 }  // namespace
 
-double rms_delay_spread_s(const std::vector<SoundPath>& paths) {
+double rms_delay_spread_s(const std::vector<Arrival>& paths) {
   std::vector<WeightedDelay> delays;
   delays.reserve(paths.size());
-  for (const SoundPath& path : paths) delays.push_back({path.delay_s, fast_power(path.level.value)});
+  for (const Arrival& path : paths) delays.push_back({path.delay_s, fast_power(path.level.value)});
   return delay_moments(delays).spread_s;
 }
 
-LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths,
+LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Synchronisation& sync, const Band& band, double noise,
                             const ReceptionCurves& curves) {
   if (paths.empty()) return {};
@@ -326,7 +326,7 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
   return {sinr_of(sound, noise), mean.acquisition_probability(), mean.delivery_probability()};
 }
 
-LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths,
+LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Modem& receiver, const std::vector<LikelyWindow>& windows, const Band& band,
                             double noise, const ReceptionCurves& curves) {
   LinkPrediction mean;
@@ -341,7 +341,7 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
   return mean;
 }
 
-double predicted_sinr(const FadingModel& model, const std::vector<SoundPath>& paths, const Modem& receiver,
+double predicted_sinr(const FadingModel& model, const std::vector<Arrival>& paths, const Modem& receiver,
                       const std::vector<LikelyWindow>& windows, const Band& band, double noise,
                       const ReceptionCurves& curves) {
   if (!model.enabled) return predict_link(model, paths, receiver, windows, band, noise, curves).sinr;

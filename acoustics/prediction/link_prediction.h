@@ -36,8 +36,8 @@
 
 #include <vector>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/path_fading.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/reception/guard_window.h"
@@ -56,22 +56,22 @@ struct LinkPrediction {
 // Prediction for one window. `noise` is the power over the band, uPa^2, less the receiver's directivity
 // index. The receiver's modem is that of `sync`; `curves` belong to the packet's modem and payload. Without
 // paths all results are 0.
-LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths,
+LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Synchronisation& sync, const Band& band, double noise,
                             const ReceptionCurves& curves);
 
 // Mean of the predictions over the windows that the receiver may choose; without fading the prediction for
 // the best window.
-LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths,
+LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Modem& receiver, const std::vector<LikelyWindow>& windows, const Band& band,
                             double noise, const ReceptionCurves& curves);
 
 // The `sinr` of that prediction alone, which is faster to compute.
-double predicted_sinr(const FadingModel& model, const std::vector<SoundPath>& paths, const Modem& receiver,
+double predicted_sinr(const FadingModel& model, const std::vector<Arrival>& paths, const Modem& receiver,
                       const std::vector<LikelyWindow>& windows, const Band& band, double noise,
                       const ReceptionCurves& curves);
 
 // Delay spread about the mean delay, weighted by power, s rms; 0 when there is no path.
-double rms_delay_spread_s(const std::vector<SoundPath>& paths);
+double rms_delay_spread_s(const std::vector<Arrival>& paths);
 
 }  // namespace halocline::acoustics

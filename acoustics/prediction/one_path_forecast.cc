@@ -25,10 +25,10 @@ OnePathForecast::OnePathForecast(const acoustics::FadingModel& fading,
                                  const acoustics::ReceptionCurves& curves)
     : of_path_(fading_without_bounce(fading)) {
   if (!fading.enabled) return;
-  acoustics::SoundPath path;
+  acoustics::Arrival path;
   path.level = Decibels{0};
   path.fading = of_path_;
-  const std::vector<acoustics::SoundPath> paths{path};
+  const std::vector<acoustics::Arrival> paths{path};
   const acoustics::Modem& modem = curves.modem();
   const acoustics::GuardWindow window = best_window(paths, modem);
   const int steps = static_cast<int>(std::lround((kMaxDb - kMinDb) / kStepDb));
@@ -41,7 +41,7 @@ OnePathForecast::OnePathForecast(const acoustics::FadingModel& fading,
   }
 }
 
-std::optional<acoustics::LinkPrediction> OnePathForecast::at(const std::vector<acoustics::SoundPath>& paths,
+std::optional<acoustics::LinkPrediction> OnePathForecast::at(const std::vector<acoustics::Arrival>& paths,
                                                              double noise) const {
   if (rows_.empty() || paths.size() != 1 || !(paths.front().fading == of_path_)) return std::nullopt;
   const double ratio = acoustics::fast_power(paths.front().level.value) / noise;

@@ -12,8 +12,8 @@
 #include <optional>
 #include <vector>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/path_fading.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/prediction/link_prediction.h"
 #include "acoustics/reception/reception_curves.h"
 
@@ -29,7 +29,7 @@ class OnePathForecast {
 
   // Returns the prediction from the table; empty for other paths and for ratios beyond the table. `noise` is
   // in uPa^2 over the band, less the receiver's directivity.
-  std::optional<acoustics::LinkPrediction> at(const std::vector<acoustics::SoundPath>& paths,
+  std::optional<acoustics::LinkPrediction> at(const std::vector<acoustics::Arrival>& paths,
                                               double noise) const;
 
  private:

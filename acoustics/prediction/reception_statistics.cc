@@ -78,7 +78,7 @@ class BandSums {
         strongest_(strongest),
         steady_(receiver, band, paths) {}
 
-  void add(const SoundPath& path, double power, double turned_share, double fast, double excess_s) {
+  void add(const Arrival& path, double power, double turned_share, double fast, double excess_s) {
     const BandTurns turns = band_turns(-spacing_hz_ * excess_s);
     // Paths with little coherent power count it as turned by the medium.
     const bool steadily = power * path.fading.coherent > kIncoherent * strongest_;
@@ -161,11 +161,11 @@ void compute(double preamble_s, double bits_s, PathRates& paths) {
     bits[p] = variance_reduction(rates[p] * bits_s);
   }
 }
-PathRates rates_of(const std::vector<SoundPath>& paths, double preamble_s, double bits_s) {
+PathRates rates_of(const std::vector<Arrival>& paths, double preamble_s, double bits_s) {
   const std::size_t count = paths.size();
   PathRates made;
   made.rates.reserve(count);
-  for (const SoundPath& path : paths) made.rates.push_back(2 * pi * path.fading.doppler_spread_hz);
+  for (const Arrival& path : paths) made.rates.push_back(2 * pi * path.fading.doppler_spread_hz);
   made.block_share.resize(count);
   made.preamble_reduction.resize(count);
   made.bits_reduction.resize(count);
@@ -181,7 +181,7 @@ double share_within(double begin_s, double end_s, double from_s, double to_s) {
 }
 
 // Share of the bits during which late echoes are present, weighted by their power.
-double late_share(const std::vector<SoundPath>& paths, const std::vector<double>& powers,
+double late_share(const std::vector<Arrival>& paths, const std::vector<double>& powers,
                   const GuardWindow& window, double preamble_s, double end_s) {
   double all = 0, shared = 0;
   for (std::size_t p = 0; p < paths.size(); ++p) {
@@ -203,9 +203,9 @@ double reduction_of_part(double kept, double part) {
   return kept / std::sqrt(kept * kept + part * part * (1 - kept * kept));
 }
 
-ReceptionStatistics reception_statistics(const std::vector<SoundPath>& paths, const Synchronisation& sync,
+ReceptionStatistics reception_statistics(const std::vector<Arrival>& paths, const Synchronisation& sync,
                                          const Band& band, const PacketTiming& timing) {
-  const SoundPath &first = paths[sync.window.first], &strongest = paths[sync.window.strongest];
+  const Arrival &first = paths[sync.window.first], &strongest = paths[sync.window.strongest];
   const bool collects = !is_frequency_shift_keying(sync.modem->error_model);
   const double kept = doppler_share(*sync.modem, strongest, band.centre_hz());
   const double preamble_s = timing.preamble.seconds(), end_s = timing.duration.seconds(),
@@ -220,7 +220,7 @@ ReceptionStatistics reception_statistics(const std::vector<SoundPath>& paths, co
   if (collects) equalizer_paths.reserve(paths.size());
   double signal = 0, untracked = 0, spread = 0, all = 0, all_spread = 0, preamble_root = 0, bits_root = 0;
   for (std::size_t p = 0; p < paths.size(); ++p) {
-    const SoundPath& path = paths[p];
+    const Arrival& path = paths[p];
     const PathFading& fading = path.fading;
     const double power = powers[p], begin_s = path.delay_s - first.delay_s;
     const double preamble_reduction = rates.preamble_reduction[p], bits_reduction = rates.bits_reduction[p];

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/prediction/equalizer_statistics.h"
@@ -65,7 +65,7 @@ struct ReceptionStatistics {
 
 // Statistics of `paths` for the receiver's window `sync` and a packet of the given band and timing. `paths`
 // are not empty.
-ReceptionStatistics reception_statistics(const std::vector<SoundPath>& paths, const Synchronisation& sync,
+ReceptionStatistics reception_statistics(const std::vector<Arrival>& paths, const Synchronisation& sync,
                                          const Band& band, const PacketTiming& timing);
 
 // Variance reduction by averaging over a time T: the share of the variance that remains in the mean of a

@@ -15,7 +15,7 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kOffBoundary = 1e-6;          // m, as in acoustics/rays/layered_path.cc
+constexpr double kOffBoundary = 1e-6;          // m, as in acoustics/rays/layered_eigenray.cc
 constexpr std::uint64_t kTurnsFrom = 100'000;  // family numbers of turns follow those of facets
 constexpr int kMaxSteps = 200'000;             // layers crossed: a guard that is never reached
 
@@ -51,7 +51,7 @@ void ArcTracer::move_receiver(double depth_m) {
   receiver_depth_ = std::clamp(depth_m, kOffBoundary, bottom_at_receiver_ - kOffBoundary);
 }
 
-void ArcTracer::add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const {
+void ArcTracer::add_details(const State& s, double dr, double z, double sine, TraceDetails& details) const {
   // The arc is part of a circle of radius R = 1 / (xi g), along which the sine changes by ds/dr = -xi g:
   //   delay  = integral of xi dr / cos^2 = atanh(xi g dr / (1 - s1 s2)) / g
   //   length = 2 R asin(chord / (2 R))
@@ -59,7 +59,7 @@ void ArcTracer::add_details(const State& s, double dr, double z, double sine, Tr
   const double chord = std::sqrt(dr * dr + (z - s.z) * (z - s.z));
   const double length = chord * asin_over(s.xi * g * chord / 2);
   details.delay_s += s.xi * dr / mix * atanh_over(s.xi * g * dr / mix);
-  details.length_m += length;
+  details.path_length_m += length;
   details.slowness_over_range += s.xi * dr;
   const double top = sea_.water.depths_m()[s.layer], height = sea_.water.depths_m()[s.layer + 1] - top;
   const LayerAbsorption& layer = sea_.water.absorption()[s.layer];
@@ -85,7 +85,7 @@ void ArcTracer::add_to_track(const State& s, double dr, double z, double sine,
   const double g = sea_.water.gradients_per_s()[s.layer];
   const double cosine = std::sqrt(std::max(1 - std::max(s.sine * s.sine, sine * sine), kMinCosine));
   const double off_m = dr * dr * s.xi * std::abs(g) / (8 * cosine * cosine * cosine);
-  const double pieces = std::min(std::ceil(std::sqrt(off_m / TracedDetails::kTrackErrorM)), kMaxPieces);
+  const double pieces = std::min(std::ceil(std::sqrt(off_m / TraceDetails::kTrackErrorM)), kMaxPieces);
   for (double piece = 1; piece < pieces; ++piece) {
     const double part = dr * piece / pieces, there = s.sine - s.xi * g * part;
     const double c = std::sqrt(std::max(1 - there * there, 0.0)) * s.per_xi;
@@ -94,7 +94,7 @@ void ArcTracer::add_to_track(const State& s, double dr, double z, double sine,
   track.push_back({s.r + dr, z});
 }
 
-void ArcTracer::go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const {
+void ArcTracer::go(State& s, double dr, double z, double sine, RayTrace& ray, TraceDetails* details) const {
   // Dynamic ray tracing (Cerveny 2001; Jensen and others 2011, section 3.3):
   //   dq/ds = c p,  dp/ds = -q c_nn / c^2
   // Where c is linear c_nn = 0: p is constant and dq = p dr / xi.
@@ -123,7 +123,7 @@ void ArcTracer::cross_knot(State& s, bool down) const {
   s.px -= s.qx * kink;
 }
 
-bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) const {
+bool ArcTracer::meet_surface(State& s, RayTrace& ray, TraceDetails* details) const {
   const double g = sea_.water.gradients_per_s()[0], sine = std::max(std::abs(s.sine), kMinSine);
   s.c = sea_.water.speeds_mps()[0];
   // The mirrored water has the gradient -g, which is a jump of 2 g: p decreases by 2 q xi^2 g / sin.
@@ -134,7 +134,7 @@ bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) c
   return losses_.at_surface(sine, ray, details);
 }
 
-bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedDetails* details) const {
+bool ArcTracer::meet_bottom(State& s, std::size_t index, RayTrace& ray, TraceDetails* details) const {
   // The direction is mirrored at the reflecting slope (bounce_off), which gives xi' = cos(out) / c. The tube
   // changes as at a curved boundary in the plane of the ray (Cerveny 2001),
   //   p' = p + q (g (xi + xi') cot G + 2 k / sin G) / c,
@@ -167,7 +167,7 @@ bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedD
   return losses_.at_bottom(facet, sin_g, s.c, ray, details);
 }
 
-void ArcTracer::arrive(const State& s, double bottom_m, TracedRay& ray) {
+void ArcTracer::arrive(const State& s, double bottom_m, RayTrace& ray) {
   ray.arrived = true;
   ray.z = s.z;
   ray.sine = s.sine;
@@ -180,7 +180,7 @@ void ArcTracer::arrive(const State& s, double bottom_m, TracedRay& ray) {
   ray.zeta_slope = s.qx / std::sqrt(std::max(1 - s.sine * s.sine, kMinCosine * kMinCosine));
 }
 
-ArcTracer::State ArcTracer::start(double theta, TracedRay& ray) const {
+ArcTracer::State ArcTracer::start(double theta, RayTrace& ray) const {
   ray.begin(theta);
   const double sine = elementary::sin(theta), xi = elementary::cos(theta) / source_speed_,
                p = 1 / source_speed_;
@@ -191,13 +191,13 @@ ArcTracer::State ArcTracer::start(double theta, TracedRay& ray) const {
   return s;
 }
 
-void ArcTracer::note_turn(bool lower, std::size_t layer, TracedRay& ray) {
+void ArcTracer::note_turn(bool lower, std::size_t layer, RayTrace& ray) {
   ray.events.push_back({lower ? RayEvent::kLowerTurn : RayEvent::kUpperTurn, 0});
   ray.family = continued_family(ray.family, kTurnsFrom + layer);
   ++(lower ? ray.lower_turns : ray.upper_turns);
 }
 
-void ArcTracer::go_part(State& s, double dr, TracedRay& ray, TracedDetails* details) const {
+void ArcTracer::go_part(State& s, double dr, RayTrace& ray, TraceDetails* details) const {
   // ds/dr = -xi g; z2 - z1 = dr (s1 + s2) / (xi (c1 + c2)); c = cos / xi.
   const double sine = s.sine - s.xi * sea_.water.gradients_per_s()[s.layer] * dr;
   const double c = std::sqrt(std::max(1 - sine * sine, 0.0)) * s.per_xi;
@@ -206,7 +206,7 @@ void ArcTracer::go_part(State& s, double dr, TracedRay& ray, TracedDetails* deta
   s.c = c;
 }
 
-bool ArcTracer::go_to_bottom(State& s, const ArcHit& hit, TracedRay& ray, TracedDetails* details) const {
+bool ArcTracer::go_to_bottom(State& s, const ArcHit& hit, RayTrace& ray, TraceDetails* details) const {
   go_part(s, hit.dr, ray, details);
   const Facet& facet = sea_.profile.facets()[hit.facet];
   s.z = facet.z0 + facet.slope * (s.r - facet.r0);
@@ -215,7 +215,7 @@ bool ArcTracer::go_to_bottom(State& s, const ArcHit& hit, TracedRay& ray, Traced
   return meet_bottom(s, hit.facet, ray, details);
 }
 
-bool ArcTracer::go_to_knot(State& s, const ArcStep& step, TracedRay& ray, TracedDetails* details) const {
+bool ArcTracer::go_to_knot(State& s, const ArcStep& step, RayTrace& ray, TraceDetails* details) const {
   if (step.turns) note_turn(step.down, s.layer, ray);
   go(s, step.dr, step.z, step.sine, ray, details);
   s.facet = sea_.profile.facet_from(s.facet, s.r);
@@ -225,7 +225,7 @@ bool ArcTracer::go_to_knot(State& s, const ArcStep& step, TracedRay& ray, Traced
   return true;
 }
 
-void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) const {
+void ArcTracer::trace(double theta, RayTrace& ray, TraceDetails* details) const {
   if (section_) return section_->trace(theta, ray, details);
   State s = start(theta, ray);
   const double shallowest = sea_.profile.shallowest_m();
@@ -249,8 +249,8 @@ void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) cons
 
 void ArcTracer::trace_past(double theta, std::span<const double> ranges_m, const AtRange& at) const {
   ensure(!section_, "water of depth alone");
-  TracedRay ray;
-  TracedDetails details;
+  RayTrace ray;
+  TraceDetails details;
   State s = start(theta, ray);
   const double shallowest = sea_.profile.shallowest_m();
   std::size_t next = 0;
@@ -262,8 +262,8 @@ void ArcTracer::trace_past(double theta, std::span<const double> ranges_m, const
                                               std::min(step.dr, range_ - s.r), hit);
     for (; next < ranges_m.size() && ranges_m[next] - s.r <= (hits ? hit.dr : step.dr); ++next) {
       State there = s;
-      TracedRay arriving = ray;
-      TracedDetails sums = details;
+      RayTrace arriving = ray;
+      TraceDetails sums = details;
       go_part(there, ranges_m[next] - s.r, arriving, &sums);
       arrive(there, sea_.profile.depth_at(ranges_m[next]), arriving);
       at(next, arriving, sums);

@@ -43,9 +43,9 @@
 #include <vector>
 
 #include "acoustics/rays/arcs/arc_steps.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/ray_trace.h"
 #include "acoustics/rays/section_tracer.h"
-#include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
 
@@ -59,11 +59,11 @@ class ArcTracer {
   // Traces the ray launched at `theta` to the receiver's range into `ray`, whose buffers are reused. A ray
   // stops when its bounces leave less than a quarter of the least boundary factor. With `details`, all sums
   // are computed, and exactly.
-  void trace(double theta, TracedRay& ray, TracedDetails* details = nullptr) const;
+  void trace(double theta, RayTrace& ray, TraceDetails* details = nullptr) const;
   // Traces the ray past rising ranges, m, of which the last is at most the receiver's, in water that depends
   // on depth alone. At each range that the ray reaches it calls at(i, ray, details) with what trace() gives
   // for a receiver there, without the ray's events.
-  using AtRange = std::function<void(std::size_t, const TracedRay&, const TracedDetails&)>;
+  using AtRange = std::function<void(std::size_t, const RayTrace&, const TraceDetails&)>;
   void trace_past(double theta, std::span<const double> ranges_m, const AtRange& at) const;
 
   // Moves the receiver to another depth, m; source, bottom and range stay the same.
@@ -85,20 +85,20 @@ class ArcTracer {
 
  private:
   struct State;
-  State start(double theta, TracedRay& ray) const;
-  void go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const;
-  void add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const;
+  State start(double theta, RayTrace& ray) const;
+  void go(State& s, double dr, double z, double sine, RayTrace& ray, TraceDetails* details) const;
+  void add_details(const State& s, double dr, double z, double sine, TraceDetails& details) const;
   void add_to_track(const State& s, double dr, double z, double sine, std::vector<RayPoint>& track) const;
-  static void note_turn(bool lower, std::size_t layer, TracedRay& ray);
+  static void note_turn(bool lower, std::size_t layer, RayTrace& ray);
   // Moves the state to a point within a step, to the bottom, and to the end of a step. The latter two return
   // false when the ray stops there.
-  void go_part(State& s, double dr, TracedRay& ray, TracedDetails* details) const;
-  [[nodiscard]] bool go_to_bottom(State& s, const ArcHit& hit, TracedRay& ray, TracedDetails* details) const;
-  [[nodiscard]] bool go_to_knot(State& s, const ArcStep& step, TracedRay& ray, TracedDetails* details) const;
+  void go_part(State& s, double dr, RayTrace& ray, TraceDetails* details) const;
+  [[nodiscard]] bool go_to_bottom(State& s, const ArcHit& hit, RayTrace& ray, TraceDetails* details) const;
+  [[nodiscard]] bool go_to_knot(State& s, const ArcStep& step, RayTrace& ray, TraceDetails* details) const;
   void cross_knot(State& s, bool down) const;
-  [[nodiscard]] bool meet_surface(State& s, TracedRay& ray, TracedDetails* details) const;
-  [[nodiscard]] bool meet_bottom(State& s, std::size_t facet, TracedRay& ray, TracedDetails* details) const;
-  static void arrive(const State& s, double bottom_m, TracedRay& ray);
+  [[nodiscard]] bool meet_surface(State& s, RayTrace& ray, TraceDetails* details) const;
+  [[nodiscard]] bool meet_bottom(State& s, std::size_t facet, RayTrace& ray, TraceDetails* details) const;
+  static void arrive(const State& s, double bottom_m, RayTrace& ray);
 
   ProfiledSea sea_;
   BounceLosses losses_;

@@ -7,7 +7,7 @@
 
 #include "acoustics/math/fold_field.h"
 #include "acoustics/math/hermite_cubic.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {
@@ -170,18 +170,18 @@ void BranchSolver::solve_monotone(const FanRay& a, const FanRay& b) {
 }
 
 void BranchSolver::polish(const FanRay& a, const FanRay& b, const ReceiverImage& image) {
-  std::optional<ProfilePath> path;
+  std::optional<ImageHit> path;
   if (cache_ != nullptr) path = cache_->chains().between(a, b, image);
   if (!path) {
     path = traced_path(a, b, image.target);
     if (path && cache_ != nullptr) cache_->chains().keep(*path, image);
   }
   if (!path) return;
-  if (windows_ != nullptr) windows_->note(path->arrival);
+  if (windows_ != nullptr) windows_->note(path->eigenray);
   paths_.push_back(std::move(*path));
 }
 
-std::optional<ProfilePath> BranchSolver::traced_path(const FanRay& a, const FanRay& b, double target) {
+std::optional<ImageHit> BranchSolver::traced_path(const FanRay& a, const FanRay& b, double target) {
   const bool rising = b.zeta > a.zeta;
   double low = a.theta, high = b.theta;
   double theta = low + cubic_of(a, b).crossing(target) * (high - low);
@@ -204,7 +204,7 @@ std::optional<ProfilePath> BranchSolver::traced_path(const FanRay& a, const FanR
     theta = inside ? next : 0.5 * (low + high);
     if (high - low < 1e-15) break;
   }
-  return profile_path(tracer_, theta, target);
+  return image_hit(tracer_, theta, target);
 }
 
 }  // namespace halocline::acoustics

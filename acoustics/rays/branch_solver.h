@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/depth_fan.h"
 #include "acoustics/rays/diffuse_windows.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/fan_tracer.h"
-#include "acoustics/rays/profile_path.h"
+#include "acoustics/rays/traced_eigenray.h"
 
 namespace halocline::acoustics {
 
@@ -71,8 +71,8 @@ class BranchSolver {
   // Finds the paths between two rays of one bounce sequence between which zeta is monotone.
   void solve_monotone(const FanRay& a, const FanRay& b);
 
-  // Returns all paths found, after finish() of arrivals.h.
-  std::vector<Arrival> finished() const { return folds_.finished(paths_); }
+  // Returns all paths found, after finish() of eigenray.h.
+  std::vector<Eigenray> finished() const { return folds_.finished(paths_); }
 
  private:
   template <class Visit>
@@ -80,7 +80,7 @@ class BranchSolver {
   // Adds the path to one image, interpolated from the cache or traced.
   void polish(const FanRay& a, const FanRay& b, const ReceiverImage& image);
   // The path of the ray between `a` and `b` that passes the image at `target`.
-  std::optional<ProfilePath> traced_path(const FanRay& a, const FanRay& b, double target);
+  std::optional<ImageHit> traced_path(const FanRay& a, const FanRay& b, double target);
   // Moves `turn` to where zeta turns. Returns true when an image lies in the fold's field, as the rays beside
   // it show.
   bool seek_turn(const FanRay& a, const FanRay& b, FanRay& turn);
@@ -91,7 +91,7 @@ class BranchSolver {
   ProfileFolds folds_;
   double depth_, faint_db_;
   int traces_ = 0;
-  std::vector<ProfilePath> paths_;
+  std::vector<ImageHit> paths_;
   DiffuseWindows* windows_ = nullptr;
   DepthFanCache* cache_ = nullptr;
 };

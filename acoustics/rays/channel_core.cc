@@ -125,7 +125,7 @@ std::optional<ChannelCore> channel_core(const RayWater& water, double bottom_m, 
 
 // A straight ray of length L at the mean speed of both ends, with the tube of the parabolic channel:
 //   A^2 = 1 / (L q),  q = |sin(kappa L)| / kappa, with |sin| at least 1/2 beyond a quarter of a loop
-Arrival axial_ray(const RayWater& water, const ChannelCore& core, const RayLink& link) {
+Eigenray axial_ray(const RayWater& water, const ChannelCore& core, const RayLink& link) {
   const double down = link.receiver_depth_m - link.source_depth_m;
   const double length = elementary::hypot(link.range_m, down);
   const double source_mps = water.speed_at(link.source_depth_m),
@@ -133,7 +133,7 @@ Arrival axial_ray(const RayWater& water, const ChannelCore& core, const RayLink&
   const double turned = core.kappa_per_m * length;
   const double least = turned > pi / 2 ? 0.5 : 0;
   const double tube = std::max(std::abs(elementary::sin(turned)), least) / core.kappa_per_m;
-  Arrival path;
+  Eigenray path;
   path.delay_s = 2 * length / (source_mps + receiver_mps);
   path.amplitude = 1 / std::sqrt(length * tube);
   path.caustics = static_cast<int>(turned / pi);

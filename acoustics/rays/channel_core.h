@@ -19,7 +19,7 @@
 
 #include <optional>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
@@ -35,10 +35,10 @@ std::optional<ChannelCore> channel_core(const RayWater& water, double bottom_m, 
                                         double frequency_hz);
 
 // The axial ray; the range of the link has to be above 0.
-Arrival axial_ray(const RayWater& water, const ChannelCore& core, const RayLink& link);
+Eigenray axial_ray(const RayWater& water, const ChannelCore& core, const RayLink& link);
 
 // True when a path runs within the core from end to end.
-inline bool runs_within(const ChannelCore& core, const Arrival& path) {
+inline bool runs_within(const ChannelCore& core, const Eigenray& path) {
   return path.surface_bounces + path.bottom_bounces == 0 &&
          path.launch_slowness_spm * core.greatest_speed_mps > 1;
 }

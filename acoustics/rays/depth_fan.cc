@@ -27,7 +27,7 @@ constexpr double kMaxPhaseRad = 0.3;
 constexpr double kMaxSlack = 100, kMaxDelaySlack = 10;
 
 // Spreading of a path: 1 / A^2 without the losses of bounces.
-double spreading(const Arrival& path) {
+double spreading(const Eigenray& path) {
   return elementary::exp10(-path.bounce_loss_db() / 10) / (path.amplitude * path.amplitude);
 }
 
@@ -35,19 +35,19 @@ double mixed(double a, double b, double share) { return a + share * (b - a); }
 
 }  // namespace
 
-bool PathChains::Chain::holds(const ProfilePath& path) const {
-  const ProfilePath& one = nodes.front().path;
-  return one.family == path.family && one.arrival.caustics == path.arrival.caustics &&
-         one.arrival.identity == path.arrival.identity && (one.zeta_slope > 0) == (path.zeta_slope > 0);
+bool PathChains::Chain::holds(const ImageHit& path) const {
+  const ImageHit& one = nodes.front().path;
+  return one.family == path.family && one.eigenray.caustics == path.eigenray.caustics &&
+         one.eigenray.identity == path.eigenray.identity && (one.zeta_slope > 0) == (path.zeta_slope > 0);
 }
 
 std::int64_t PathChains::number_of(const ReceiverImage& image) {
   return 2 * static_cast<std::int64_t>(image.k) + (image.sign > 0 ? 1 : 0);
 }
 
-void PathChains::keep(const ProfilePath& path, const ReceiverImage& image) {
+void PathChains::keep(const ImageHit& path, const ReceiverImage& image) {
   const double depth_m = tracer_.receiver_depth_m();
-  note_strength(path.arrival);
+  note_strength(path.eigenray);
   Node node{depth_m, tracer_.water_at_receiver().speed_at(depth_m), strongest_.size() - 1, path};
   std::vector<Chain>& chains = chains_[number_of(image)];
   const auto chain =
@@ -65,39 +65,40 @@ void PathChains::keep(const ProfilePath& path, const ReceiverImage& image) {
   chain->nodes.insert(place, std::move(node));
 }
 
-std::optional<ProfilePath> PathChains::between(const FanRay& a, const FanRay& b, const ReceiverImage& image) {
+std::optional<ImageHit> PathChains::between(const FanRay& a, const FanRay& b, const ReceiverImage& image) {
   const auto chains = chains_.find(number_of(image));
   if (chains == chains_.end()) return std::nullopt;
-  std::optional<ProfilePath> found;
+  std::optional<ImageHit> found;
   for (const Chain& chain : chains->second) {
     const auto below = std::upper_bound(chain.nodes.begin(), chain.nodes.end(), tracer_.receiver_depth_m(),
                                         [](double depth, const Node& one) { return depth < one.depth_m; });
     if (chain.is_several || below == chain.nodes.begin() || below == chain.nodes.end()) continue;
     auto path = interpolated(*std::prev(below), *below, image);
-    if (!path || path->arrival.launch_angle_rad < a.theta || path->arrival.launch_angle_rad > b.theta)
+    if (!path || path->eigenray.launch_angle_rad < a.theta || path->eigenray.launch_angle_rad > b.theta)
       continue;
     if (found) return std::nullopt;
     found = std::move(path);
   }
-  if (found) note_strength(found->arrival);
+  if (found) note_strength(found->eigenray);
   return found;
 }
 
-void PathChains::note_strength(const Arrival& path) {
+void PathChains::note_strength(const Eigenray& path) {
   strongest_.back() = std::max(strongest_.back(), path.received_pressure());
 }
 
 double PathChains::slack_of(const Node& a, const Node& b) const {
   const auto weakness = [this](const Node& node) {
-    const double ratio = strongest_[node.receiver] / node.path.arrival.received_pressure();
+    const double ratio = strongest_[node.receiver] / node.path.eigenray.received_pressure();
     return ratio * ratio;
   };
   return std::clamp(std::min(weakness(a), weakness(b)), 1.0, kMaxSlack);
 }
 
 // Snell's xi is interpolated linearly between the two nodes, whatever the profile does there.
-std::optional<PathChains::Direction> PathChains::arrival_between(const Node& a, const Node& b, double sine_a,
-                                                                 double sine_b, double share) const {
+std::optional<PathChains::Direction> PathChains::direction_between(const Node& a, const Node& b,
+                                                                   double sine_a, double sine_b,
+                                                                   double share) const {
   const double speed_mps = tracer_.water_at_receiver().speed_at(mixed(a.depth_m, b.depth_m, share));
   const double cosine = speed_mps * mixed(std::sqrt(1 - sine_a * sine_a) / a.speed_mps,
                                           std::sqrt(1 - sine_b * sine_b) / b.speed_mps, share);
@@ -105,10 +106,10 @@ std::optional<PathChains::Direction> PathChains::arrival_between(const Node& a, 
   return Direction{std::copysign(std::sqrt(1 - cosine * cosine), sine_a), speed_mps};
 }
 
-std::optional<ProfilePath> PathChains::interpolated(const Node& a, const Node& b,
-                                                    const ReceiverImage& image) const {
+std::optional<ImageHit> PathChains::interpolated(const Node& a, const Node& b,
+                                                 const ReceiverImage& image) const {
   using std::numbers::pi;
-  const Arrival &one = a.path.arrival, &other = b.path.arrival;
+  const Eigenray &one = a.path.eigenray, &other = b.path.eigenray;
   const double height = b.depth_m - a.depth_m, share = (tracer_.receiver_depth_m() - a.depth_m) / height;
   const double slack = slack_of(a, b);
   const double loss_a = one.bounce_loss_db(), loss_b = other.bounce_loss_db();
@@ -131,12 +132,12 @@ std::optional<ProfilePath> PathChains::interpolated(const Node& a, const Node& b
     return std::nullopt;
   const double sine_a = elementary::sin(one.arrival_angle_rad),
                sine_b = elementary::sin(other.arrival_angle_rad);
-  const auto arrival = arrival_between(a, b, sine_a, sine_b, share);
-  if (!arrival) return std::nullopt;
+  const auto direction = direction_between(a, b, sine_a, sine_b, share);
+  if (!direction) return std::nullopt;
   const HermiteCubic delay(one.delay_s, sine_a / a.speed_mps, other.delay_s, sine_b / b.speed_mps, height);
   // The error of a cubic has its steepest slope near the quarters.
   for (const double part : {0.25, 0.75}) {
-    const auto there = arrival_between(a, b, sine_a, sine_b, part);
+    const auto there = direction_between(a, b, sine_a, sine_b, part);
     if (!there || std::abs(delay.slope(part) - there->sine / there->speed_mps * height) >
                       std::min(slack, kMaxDelaySlack) * kDelayTolerance)
       return std::nullopt;
@@ -145,16 +146,16 @@ std::optional<ProfilePath> PathChains::interpolated(const Node& a, const Node& b
                spread_b = spreading(other) / std::abs(b.path.zeta_slope);
   if (std::abs(spread_b - spread_a) > slack * kMaxSpread * spread_a) return std::nullopt;
 
-  ProfilePath path{one, image.target, slope, a.path.family};
-  Arrival& mean = path.arrival;
-  const auto mix = [&](double Arrival::*field) { mean.*field = mixed(one.*field, other.*field, share); };
-  for (const auto field : {&Arrival::range_slowness_spm, &Arrival::path_length_m, &Arrival::absorption_db,
-                           &Arrival::surface_loss_db, &Arrival::bottom_loss_db,
-                           &Arrival::surface_sine_squares, &Arrival::bottom_sine_squares})
+  ImageHit path{one, image.target, slope, a.path.family};
+  Eigenray& mean = path.eigenray;
+  const auto mix = [&](double Eigenray::*field) { mean.*field = mixed(one.*field, other.*field, share); };
+  for (const auto field : {&Eigenray::range_slowness_spm, &Eigenray::path_length_m, &Eigenray::absorption_db,
+                           &Eigenray::surface_loss_db, &Eigenray::bottom_loss_db,
+                           &Eigenray::surface_sine_squares, &Eigenray::bottom_sine_squares})
     mix(field);
   mean.delay_s = delay(share);
   mean.launch_angle_rad = theta;
-  mean.arrival_angle_rad = elementary::asin(arrival->sine);
+  mean.arrival_angle_rad = elementary::asin(direction->sine);
   mean.launch_slowness_spm = elementary::cos(theta) / tracer_.source_speed_mps();
   mean.amplitude = elementary::exp10(-mean.bounce_loss_db() / 20) /
                    std::sqrt(mixed(spread_a, spread_b, share) * std::abs(slope));
@@ -176,7 +177,7 @@ std::optional<DiffuseRay> DepthFanCache::diffuse(double theta, std::size_t windo
   const auto [known, is_new] = diffuse_.try_emplace(theta);
   if (is_new) known->second = diffuse_ray(tracer_, theta, window);
   std::optional<DiffuseRay> ray = known->second;
-  if (ray) ray->arrival.identity = diffuse_identity(theta, window);
+  if (ray) ray->eigenray.identity = diffuse_identity(theta, window);
   return ray;
 }
 
@@ -189,14 +190,14 @@ class DepthFan::Column {
   }
   const RayOptions& options() const { return tracer_.sea().options; }
 
-  std::vector<Arrival> at(double receiver_depth_m) {
+  std::vector<Eigenray> at(double receiver_depth_m) {
     tracer_.move_receiver(receiver_depth_m);
     cache_.chains().begin_receiver();
     return branches_ ? of_branches() : over_rough_bottom();
   }
 
  private:
-  std::vector<Arrival> of_branches() {
+  std::vector<Eigenray> of_branches() {
     BranchSolver solver(tracer_, fan_);
     solver.share(&cache_);
     for (const Branch& branch : *branches_) {
@@ -209,7 +210,7 @@ class DepthFan::Column {
     }
     return solver.finished();
   }
-  std::vector<Arrival> over_rough_bottom() { return profile_rays(tracer_, fan_, angles_, &cache_); }
+  std::vector<Eigenray> over_rough_bottom() { return profile_rays(tracer_, fan_, angles_, &cache_); }
 
   ArcTracer tracer_;
   FanTracer fan_;
@@ -221,7 +222,7 @@ class DepthFan::Column {
 DepthFan::DepthFan() = default;
 DepthFan::~DepthFan() = default;
 
-std::vector<Arrival> DepthFan::at(const ProfiledSea& sea, const RayLink& link) {
+std::vector<Eigenray> DepthFan::at(const ProfiledSea& sea, const RayLink& link) {
   validate(sea.options);
   // The rays that are left out depend on the receiver's depth.
   if (sea.core_speed_mps > 0) return profile_rays(sea, link);
@@ -231,7 +232,7 @@ std::vector<Arrival> DepthFan::at(const ProfiledSea& sea, const RayLink& link) {
     return one->options() == sea.options || one->options() == wide.options;
   });
   if (column == columns_.end()) column = columns_.insert(column, std::make_unique<Column>(wide, link));
-  std::vector<Arrival> paths = (*column)->at(link.receiver_depth_m);
+  std::vector<Eigenray> paths = (*column)->at(link.receiver_depth_m);
   if (!((*column)->options() == sea.options)) drop_faint(paths, sea.options);
   return paths;
 }

@@ -19,10 +19,10 @@
 #include <vector>
 
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/fan_tracer.h"
-#include "acoustics/rays/profile_path.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
+#include "acoustics/rays/traced_eigenray.h"
 
 namespace halocline::acoustics {
 
@@ -62,33 +62,33 @@ class PathChains {
   void begin_receiver() { strongest_.push_back(0); }
   // The path that passes the image between two rays of the fan, interpolated. Empty when it has to be traced,
   // after which the caller hands it to keep().
-  std::optional<ProfilePath> between(const FanRay& a, const FanRay& b, const ReceiverImage& image);
-  void keep(const ProfilePath& path, const ReceiverImage& image);
+  std::optional<ImageHit> between(const FanRay& a, const FanRay& b, const ReceiverImage& image);
+  void keep(const ImageHit& path, const ReceiverImage& image);
 
  private:
   struct Node {
     double depth_m, speed_mps;  // depth of the receiver, and the sound speed there
     std::size_t receiver;       // index in the order of receivers
-    ProfilePath path;
+    ImageHit path;
   };
   // The paths to one image with one bounce sequence.
   struct Chain {
     std::vector<Node> nodes;  // rising in depth
     bool is_several = false;  // several paths at one depth: it is unknown which are neighbours
-    bool holds(const ProfilePath& path) const;
+    bool holds(const ImageHit& path) const;
   };
   struct Direction {
     double sine, speed_mps;  // sine of the angle, and the sound speed at the same place
   };
   // The direction in which a path between two nodes arrives, at a share of the depth from one to the other;
   // empty when it is horizontal there.
-  std::optional<Direction> arrival_between(const Node& a, const Node& b, double sine_a, double sine_b,
-                                           double share) const;
+  std::optional<Direction> direction_between(const Node& a, const Node& b, double sine_a, double sine_b,
+                                             double share) const;
   static std::int64_t number_of(const ReceiverImage& image);
   // Factor by which tolerances are wider for a path, 1..100.
   double slack_of(const Node& a, const Node& b) const;
-  void note_strength(const Arrival& path);
-  std::optional<ProfilePath> interpolated(const Node& a, const Node& b, const ReceiverImage& image) const;
+  void note_strength(const Eigenray& path);
+  std::optional<ImageHit> interpolated(const Node& a, const Node& b, const ReceiverImage& image) const;
 
   const ArcTracer& tracer_;
   std::vector<double> strongest_;  // received pressure of the strongest path at each receiver, re 1 m
@@ -144,7 +144,7 @@ class DepthFan : public SharedRays {
   DepthFan& operator=(const DepthFan&) = delete;
 
   // Implements SharedRays::at; only the receiver's depth and the options may change from call to call.
-  std::vector<Arrival> at(const ProfiledSea& sea, const RayLink& link) override;
+  std::vector<Eigenray> at(const ProfiledSea& sea, const RayLink& link) override;
 
  private:
   class Column;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "acoustics/rays/profile_path.h"
+#include "acoustics/rays/traced_eigenray.h"
 #include "acoustics/sea/ray_water.h"
 #include "core/elementary.h"
 
@@ -53,7 +53,7 @@ void DiffuseWindows::begin_cell(std::size_t cell) {
 
 // Near a caustic the tube is too narrow to tell the strength of the path, so the pressure is limited to that
 // of spherical spreading.
-void DiffuseWindows::note(const Arrival& path) {
+void DiffuseWindows::note(const Eigenray& path) {
   const double spherical = elementary::exp10(-path.bounce_loss_db() / 20) / path.path_length_m;
   const double pressure = std::min(path.amplitude, spherical);
   strongest_ = std::max(strongest_, pressure * pressure);
@@ -143,8 +143,8 @@ double DiffuseWindows::density(double xi) const {
   return xi * receiver_speed_ / std::max(std::sqrt(here), kMinTurnSine) / half;
 }
 
-std::vector<Arrival> DiffuseWindows::arrivals(DepthFanCache* cache) const {
-  std::vector<Arrival> all;
+std::vector<Eigenray> DiffuseWindows::eigenrays(DepthFanCache* cache) const {
+  std::vector<Eigenray> all;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
     if (!(cell.most > 0)) continue;
@@ -153,11 +153,11 @@ std::vector<Arrival> DiffuseWindows::arrivals(DepthFanCache* cache) const {
     if (!ray) continue;
     const double power = cell.branch + cell.mixed * density(ray->xi);
     if (!(power > 0)) continue;
-    ray->arrival.amplitude = std::sqrt(power);
-    all.push_back(ray->arrival);
+    ray->eigenray.amplitude = std::sqrt(power);
+    all.push_back(ray->eigenray);
   }
   std::stable_sort(all.begin(), all.end(),
-                   [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
+                   [](const Eigenray& a, const Eigenray& b) { return a.delay_s < b.delay_s; });
   return all;
 }
 

@@ -11,9 +11,9 @@
 // with xi = cos(angle) / c at source (s) and receiver (r). Between two rays of one bounce sequence, the slope
 // between them replaces p dtheta.
 //
-// All windows between two rays of the search's first fan make one diffuse arrival. It has the power of all of
+// All windows between two rays of the search's first fan make one diffuse path. It has the power of all of
 // them, and the delay, angles and bounces of one ray among them. Error: that of a mean over as many rays as
-// the arrival contains.
+// the path contains.
 //
 // One object per search, not shared between threads.
 #pragma once
@@ -23,8 +23,8 @@
 #include <vector>
 
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/depth_fan.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/fan_tracer.h"
 
 namespace halocline::acoustics {
@@ -40,7 +40,7 @@ class DiffuseWindows {
   // judged relative to it.
   void set_reference(double power) { strongest_ = power; }
   // Takes note of a path that was found, which may be the strongest so far.
-  void note(const Arrival& path);
+  void note(const Eigenray& path);
   // True when RayOptions::diffuse_below_pressure, and not the strongest path, decides which paths are weak.
   bool is_by_pressure() const { return least_ > weak_ * strongest_; }
 
@@ -60,8 +60,8 @@ class DiffuseWindows {
   // The power that add_energy_flux would add, re 1 m.
   double energy_flux(const FanRay& a, const FanRay& b) const;
 
-  // One arrival for each cell of the fan that has energy, in the order of delays. `cache` may be null.
-  std::vector<Arrival> arrivals(DepthFanCache* cache) const;
+  // One path for each cell of the fan that has energy, in the order of delays. `cache` may be null.
+  std::vector<Eigenray> eigenrays(DepthFanCache* cache) const;
 
  private:
   struct Cell {

@@ -3,236 +3,257 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstdint>
 #include <numbers>
-#include <vector>
 
-#include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/channel_core.h"
-#include "acoustics/rays/extrapolate_arrivals.h"
-#include "acoustics/rays/image_rays.h"
-#include "acoustics/rays/layered_rays.h"
-#include "acoustics/rays/profile_rays.h"
-#include "acoustics/rays/traced_ray.h"
-#include "acoustics/sea/sound_speed_profile.h"
+#include "acoustics/math/fold_field.h"
 #include "core/check.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kNoLessDb = 250;          // loss of bounces beyond which a path is negligible everywhere
-constexpr double kWidening = 3;            // factor on the searched loss, per step, while no path is found
-constexpr double kStrongestMayLoseDb = 6;  // beyond it, losses are compared with that of the strongest path
-constexpr double kLoudestFocus = 10;       // greatest amplitude of a path over that of spherical spreading
-constexpr int kBouncesThatTell = 40;       // limit of the search that only finds out why no path is kept
-const double kNearlyVertical = to_radians(89.5);  // rays over a profile are traced up to 89.9 degrees
+using std::numbers::pi;
 
-double factor_of(double loss_db) { return elementary::exp10(-loss_db / 20); }
+// Limits below which, in both delay and angle, two paths of one kind are the two sides of a fold that no
+// receiver can resolve.
+constexpr double kMergedDelay = 1e-6;  // s
+const double kMergedAngle = to_radians(0.02);
 
-// The path of the greatest received pressure, which is at most the amplitude. Diffuse arrivals count only
-// when there are no others.
-const Arrival& strongest(const std::vector<Arrival>& paths) {
-  const bool all_diffuse =
-      std::all_of(paths.begin(), paths.end(), [](const Arrival& path) { return path.diffuse; });
-  const Arrival* best = &paths.front();
-  double most = 0;
-  for (const Arrival& path : paths) {
-    if (path.diffuse != all_diffuse || path.amplitude <= most) continue;
-    const double pressure = path.received_pressure();
-    if (pressure <= most) continue;
-    best = &path;
-    most = pressure;
-  }
-  return *best;
+constexpr int kCountBits = 14, kBranchBits = 7;  // of a packed identity
+
+constexpr std::uint64_t low_bits(std::uint64_t number, int bits) {
+  return number & ((std::uint64_t{1} << bits) - 1);
 }
 
-// A search for the paths of one link; only the options change from one solver call to the next.
-class EigenraySearch {
- public:
-  EigenraySearch(const RaySea& sea, const RayLink& link, RaySolver solver, SharedRays* shared)
-      : sea_(sea),
-        link_(link),
-        solver_(solver),
-        shared_(shared),
-        core_(solver == RaySolver::kImages || sea.section
-                  ? std::nullopt
-                  : channel_core(sea.water, sea.bottom_profile.shallowest_m(), link,
-                                 sea.options.frequency_hz)) {}
-
-  // Returns all paths within the limits. The limit on the loss of bounces is relative to the strongest path.
-  std::vector<Arrival> paths() const;
-  // The reason why there are no paths.
-  PathLack lack() const;
-
- private:
-  std::vector<Arrival> paths_with(const RayOptions& options) const;
-  std::vector<Arrival> solved(const RayOptions& options) const;
-  void add_vertical(const RayOptions& options, std::vector<Arrival>& paths) const;
-  void add_axial(std::vector<Arrival>& paths) const;
-  double core_speed() const { return core_ ? core_->greatest_speed_mps : 0; }
-  FlatSea flat_sea(const RayOptions& options, double bottom_m) const {
-    return {sea_.water, bottom_m, sea_.bottom, sea_.surface, options, core_speed()};
-  }
-  RayOptions with_bounce_loss(double loss_db) const;
-  double most_bounce_loss_db() const;
-
-  const RaySea& sea_;
-  RayLink link_;
-  RaySolver solver_;
-  SharedRays* shared_;
-  std::optional<ChannelCore> core_;
+// Sort key: paths are large and are moved only once.
+struct Key {
+  std::uint64_t kind;
+  double launch_rad, delay_s;
+  std::size_t index;
 };
 
-std::vector<Arrival> EigenraySearch::solved(const RayOptions& options) const {
-  switch (solver_) {
-    case RaySolver::kImages:
-      return image_rays(flat_sea(options, sea_.bottom_profile.depth_at(link_.range_m)), link_);
-    case RaySolver::kSnell:
-      return layered_rays(flat_sea(options, sea_.bottom_profile.depth_at(link_.range_m)), link_);
-    case RaySolver::kArcs: {
-      const ProfiledSea profiled{sea_.water, sea_.bottom_profile, sea_.bottom,       sea_.surface,
-                                 options,    core_speed(),        sea_.section.get()};
-      return shared_ != nullptr ? shared_->at(profiled, link_) : profile_rays(profiled, link_);
+// An identity without its branch, packed into one number; counts are below 16 384.
+std::uint64_t kind(const Eigenray& path) {
+  const PathIdentity& id = path.identity;
+  std::uint64_t packed = id.launched_up ? 1 : 0;
+  for (const int count : {id.surface_bounces, id.bottom_bounces, id.upper_turns, id.lower_turns}) {
+    packed = (packed << 14) | static_cast<std::uint64_t>(std::min(count, 16'383));
+  }
+  return packed;
+}
+
+bool are_one_fold(const Key& a, const Key& b) {
+  return a.kind == b.kind && std::abs(a.delay_s - b.delay_s) < kMergedDelay &&
+         std::abs(a.launch_rad - b.launch_rad) < kMergedAngle;
+}
+
+// The stronger of two paths with the pressure of both, the sum at the carrier f:
+//   A e^(i (phi - 2 pi f t))
+Eigenray merged(const Eigenray& a, const Eigenray& b, double frequency_hz) {
+  const auto phasor = [frequency_hz](const Eigenray& path) {
+    return elementary::polar(path.amplitude,
+                             path.phase_rad - 2 * pi * std::fmod(frequency_hz * path.delay_s, 1.0));
+  };
+  Eigenray both = a.amplitude >= b.amplitude ? a : b;
+  const std::complex<double> sum = phasor(a) + phasor(b);
+  const double turned = elementary::arg(sum) + 2 * pi * std::fmod(frequency_hz * both.delay_s, 1.0);
+  both.amplitude = elementary::abs(sum);
+  both.phase_rad = positive_angle(turned);
+  return both;
+}
+
+// Keys of the paths that are kept, sorted by kind and launch angle; the paths of an unresolved fold are
+// merged.
+std::vector<Key> keys_by_kind(std::vector<Eigenray>& paths, const RayOptions& options) {
+  std::vector<Key> keys, kept;
+  keys.reserve(paths.size());
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i].amplitude < options.min_amplitude || paths[i].amplitude <= 0) continue;
+    keys.push_back({kind(paths[i]), paths[i].launch_angle_rad, paths[i].delay_s, i});
+  }
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+    return a.kind != b.kind ? a.kind < b.kind : a.launch_rad < b.launch_rad;
+  });
+  kept.reserve(keys.size());
+  for (const Key& key : keys) {
+    if (!kept.empty() && are_one_fold(kept.back(), key)) {
+      Eigenray& one = paths[kept.back().index];
+      one = merged(one, paths[key.index], options.frequency_hz);
+    } else {
+      kept.push_back(key);
     }
   }
-  return {};
+  return kept;
 }
 
-// Over a profile, nearly vertical rays are not traced. The direct ray is then that of a flat sea.
-void EigenraySearch::add_vertical(const RayOptions& options, std::vector<Arrival>& paths) const {
-  const double down = std::abs(link_.receiver_depth_m - link_.source_depth_m);
-  if (solver_ != RaySolver::kArcs || elementary::atan2(down, link_.range_m) < kNearlyVertical) return;
-  RayOptions direct = options;
-  direct.max_bounces = 0;
-  std::erase_if(paths, [](const Arrival& path) { return path.surface_bounces + path.bottom_bounces == 0; });
-  const double bottom =
-      std::max(sea_.bottom_profile.depth_at(0), sea_.bottom_profile.depth_at(link_.range_m));
-  const std::vector<Arrival> vertical = layered_rays(flat_sea(direct, bottom), link_);
-  paths.insert(paths.end(), vertical.begin(), vertical.end());
-  std::stable_sort(paths.begin(), paths.end(),
-                   [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
-}
-
-// Replaces all rays within the core of a channel by the axial ray, unless a direct ray runs outside the core.
-void EigenraySearch::add_axial(std::vector<Arrival>& paths) const {
-  std::erase_if(paths, [&](const Arrival& path) { return runs_within(*core_, path); });
-  const bool is_direct = std::any_of(paths.begin(), paths.end(), [](const Arrival& path) {
-    return path.surface_bounces + path.bottom_bounces + path.identity.upper_turns +
-               path.identity.lower_turns ==
-           0;
-  });
-  if (is_direct) return;
-  const Arrival axial = axial_ray(sea_.water, *core_, link_);
-  const auto later = std::find_if(paths.begin(), paths.end(),
-                                  [&](const Arrival& path) { return path.delay_s > axial.delay_s; });
-  paths.insert(later, axial);
-}
-
-std::vector<Arrival> EigenraySearch::paths_with(const RayOptions& options) const {
-  std::vector<Arrival> paths = solved(options);
-  add_vertical(options, paths);
-  if (core_) add_axial(paths);
-  if (options.keep_steep_direct) return paths;
-  // The solvers find paths without bounces at every launch angle.
-  std::erase_if(paths, [limit = options.max_launch_angle_rad](const Arrival& path) {
-    return std::abs(path.launch_angle_rad) > limit;
-  });
-  return paths;
-}
-
-RayOptions EigenraySearch::with_bounce_loss(double loss_db) const {
-  RayOptions options = sea_.options;
-  options.min_boundary_factor = factor_of(loss_db);
-  return options;
-}
-
-// Greatest loss of bounces of a path that still reaches the least amplitude, dB.
-double EigenraySearch::most_bounce_loss_db() const {
-  if (sea_.options.min_amplitude <= 0) return kNoLessDb;
-  const double spherical = kLoudestFocus / std::max(link_.range_m, kMinDistance);
-  return std::min(20 * elementary::log10(spherical / sea_.options.min_amplitude), kNoLessDb);
-}
-
-std::vector<Arrival> EigenraySearch::paths() const {
-  std::vector<Arrival> paths = paths_with(sea_.options);
-  if (!(sea_.options.min_boundary_factor > 0)) return paths;
-  const double limit_db = -20 * elementary::log10(sea_.options.min_boundary_factor),
-               most_db = most_bounce_loss_db();
-  double searched_db = limit_db;
-  while (paths.empty() && searched_db < most_db) {
-    searched_db = std::min(kWidening * searched_db, most_db);
-    paths = paths_with(with_bounce_loss(searched_db));
+void number_branches(const std::vector<Key>& keys, std::vector<Eigenray>& paths) {
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const bool same = i > 0 && keys[i - 1].kind == keys[i].kind;
+    paths[keys[i].index].identity.branch = same ? paths[keys[i - 1].index].identity.branch + 1 : 0;
   }
-  if (paths.empty()) return paths;
-  const double wanted_db = limit_db + strongest(paths).bounce_loss_db();
-  if (wanted_db > searched_db + kStrongestMayLoseDb) return paths_with(with_bounce_loss(wanted_db));
-  if (searched_db > limit_db)
-    std::erase_if(paths, [wanted_db](const Arrival& path) { return path.bounce_loss_db() > wanted_db; });
-  return paths;
 }
 
-PathLack EigenraySearch::lack() const {
-  RayOptions all = sea_.options;
-  all.max_launch_angle_rad = std::numbers::pi / 2;
-  all.keep_steep_direct = true;
-  all.min_boundary_factor = factor_of(kNoLessDb);
-  all.min_amplitude = 0;
-  all.max_bounces = std::min(all.max_bounces, kBouncesThatTell);
-  const std::vector<Arrival> rays = paths_with(all);
-  if (rays.empty()) return PathLack::kShadow;
-  const bool some_too_steep = std::any_of(rays.begin(), rays.end(), [&](const Arrival& ray) {
-    return std::abs(ray.launch_angle_rad) > sea_.options.max_launch_angle_rad &&
-           ray.amplitude > sea_.options.min_amplitude;
+// Two neighbouring rays of a fan that form a fold, by their indices among the paths, and their x.
+struct FoldPair {
+  std::size_t less, more;  // the ray that has touched fewer caustics, and the other
+  double x;
+};
+
+std::vector<FoldPair> fold_pairs(const std::vector<Eigenray>& paths, const std::vector<FoldMember>& members,
+                                 double frequency_hz) {
+  ensure(members.size() == paths.size(), "a family for each path");
+  std::vector<std::size_t> order(paths.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return members[a].family != members[b].family ? members[a].family < members[b].family
+                                                  : members[a].order_rad < members[b].order_rad;
   });
-  return some_too_steep ? PathLack::kTooSteep : PathLack::kTooWeak;
+  std::vector<FoldPair> pairs;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const std::size_t one = order[i - 1], other = order[i];
+    if (members[one].family != members[other].family || members[one].family == kNoFamily) continue;
+    const int more = members[other].touched - members[one].touched;
+    if (std::abs(more) != 1) continue;
+    const double apart_s =
+        std::abs(paths[other].delay_s - paths[one].delay_s -
+                 (members[other].phase_rad - members[one].phase_rad) / (2 * pi * frequency_hz));
+    const double x = members[one].x > 0 ? members[one].x : fold_place(apart_s, frequency_hz);
+    if (x < kLitFold) pairs.push_back({more > 0 ? one : other, more > 0 ? other : one, x});
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const FoldPair& a, const FoldPair& b) { return a.x < b.x; });
+  return pairs;
 }
 
-// The link with its ends at least 1 m apart. Changes of the bottom within that metre are neglected.
-RayLink held_apart_over(const BottomProfile& bottom, const RayLink& link) {
-  require_in_range(link.range_m, 0, 1e7, "range", "m");
-  RayLink held = held_apart(link);
-  if (held.range_m == link.range_m) return link;
-  require_in_range(link.receiver_depth_m, 0, bottom.depth_at(link.range_m), "depth of the receiver", "m");
-  held.receiver_depth_m = std::min(link.receiver_depth_m, bottom.depth_at(held.range_m));
-  return held;
+// Applies to each ray the field of the fold nearest to it.
+void apply_folds(std::vector<Eigenray>& paths, const std::vector<FoldMember>& members, double frequency_hz) {
+  std::vector<bool> done(paths.size(), false);
+  for (const FoldPair& pair : fold_pairs(paths, members, frequency_hz)) {
+    const FoldShare share = fold_share(pair.x);
+    Eigenray &less = paths[pair.less], &more = paths[pair.more];
+    const bool merges = pair.x < kMergedFold && !done[pair.less] && !done[pair.more];
+    const auto apply = [&](std::size_t index, double sign) {
+      if (done[index]) return;
+      done[index] = true;
+      paths[index].amplitude *= share.factor;
+      paths[index].phase_rad = positive_angle(paths[index].phase_rad + sign * share.phase_rad);
+    };
+    apply(pair.less, 1);
+    apply(pair.more, -1);
+    if (!merges) continue;
+    const Eigenray both = merged(less, more, frequency_hz);
+    (less.amplitude >= more.amplitude ? more : less).amplitude = 0;
+    (less.amplitude > 0 ? less : more) = both;
+  }
+}
+
+double most_loss_db(const RayOptions& options) {
+  return -20 * elementary::log10(options.min_boundary_factor);
 }
 
 }  // namespace
 
-RayWater ray_water(const Environment& environment, double frequency_hz, double thinning_tolerance_mps) {
-  const double khz = hz_to_khz(frequency_hz);
-  const auto absorption = [&](double depth_m) {
-    return absorption_spectrum_at(environment, depth_m).db_per_km(khz * khz);
-  };
-  if (thinning_tolerance_mps <= 0) return RayWater::from_profile(environment.profile, absorption);
-  const std::vector<SpeedRow> few =
-      thinned(knots_of(environment.profile, kSpeedTolerance), thinning_tolerance_mps);
-  return RayWater(rounded_channels(few, thinning_tolerance_mps), absorption);
-}
-
-RaySolver choose_solver(const RaySea& sea, const RayLink& link) {
-  if (sea.section || !sea.bottom_profile.is_flat_until(link.range_m)) return RaySolver::kArcs;
-  const bool one_speed = sea.water.is_isovelocity_above(sea.bottom_profile.depth_at(link.range_m));
-  return one_speed ? RaySolver::kImages : RaySolver::kSnell;
-}
-
-Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver,
-                  SharedRays* shared) {
-  require(!solver || *solver == RaySolver::kArcs || sea.bottom_profile.is_flat_until(link.range_m),
-          "the ray solvers 'images' and 'snell' need a flat bottom");
-  require(!solver || *solver == RaySolver::kArcs || !sea.section,
-          "the ray solvers 'images' and 'snell' need water that is the same all along the link");
-  const RayLink held = held_apart_over(sea.bottom_profile, link);
-  const RaySolver chosen = solver.value_or(choose_solver(sea, held));
-  const EigenraySearch search(sea, held, chosen, shared);
-  Arrivals found{chosen, search.paths()};
-  if (found.silent()) found.lack = search.lack();
-  if (held.range_m != link.range_m) {
-    const EndSpeeds speeds{sea.water.speed_at(held.source_depth_m),
-                           sea.water.speed_at(held.receiver_depth_m)};
-    found.paths = extrapolate_arrivals(found.paths, held, speeds, link);
+std::uint64_t PathIdentity::number() const {
+  std::uint64_t number = launched_up ? 1 : 0;
+  for (const int count : {surface_bounces, bottom_bounces, upper_turns, lower_turns}) {
+    number = number << kCountBits | low_bits(static_cast<std::uint64_t>(count), kCountBits);
   }
-  return found;
+  return number << kBranchBits | low_bits(static_cast<std::uint64_t>(branch), kBranchBits);
+}
+
+PathIdentity PathIdentity::of_number(std::uint64_t number) {
+  PathIdentity identity;
+  identity.branch = static_cast<int>(low_bits(number, kBranchBits));
+  number >>= kBranchBits;
+  for (int* count :
+       {&identity.lower_turns, &identity.upper_turns, &identity.bottom_bounces, &identity.surface_bounces}) {
+    *count = static_cast<int>(low_bits(number, kCountBits));
+    number >>= kCountBits;
+  }
+  identity.launched_up = number != 0;
+  return identity;
+}
+
+double Eigenray::received_pressure() const { return amplitude * elementary::exp10(-absorption_db / 20); }
+
+double Eigenrays::diffuse_power() const {
+  double power = 0;
+  for (const Eigenray& path : paths) {
+    if (path.diffuse) power += path.received_pressure() * path.received_pressure();
+  }
+  return power;
+}
+
+std::string_view to_name(RaySolver solver) {
+  switch (solver) {
+    case RaySolver::kImages:
+      return "images";
+    case RaySolver::kSnell:
+      return "snell";
+    case RaySolver::kArcs:
+      return "arcs";
+  }
+  return "";
+}
+
+std::string_view to_name(PathLack lack) {
+  switch (lack) {
+    case PathLack::kShadow:
+      return "shadow";
+    case PathLack::kTooWeak:
+      return "too weak";
+    case PathLack::kTooSteep:
+      return "too steep";
+  }
+  return "";
+}
+
+RayLink held_apart(RayLink link) {
+  const double down = link.receiver_depth_m - link.source_depth_m;
+  const double least = std::sqrt(std::max(kMinDistance * kMinDistance - down * down, 0.0));
+  link.range_m = std::max(link.range_m, least);
+  return link;
+}
+
+void validate(const RayOptions& options) {
+  require_in_range(options.frequency_hz, 10, 1e6, "ray frequency", "Hz");
+  require_in_range(options.max_launch_angle_rad, 1e-6, pi / 2, "greatest launch angle", "rad");
+  require_in_range(options.max_bounces, 0, 10'000, "greatest number of bounces");
+  require_in_range(options.min_boundary_factor, 0, 0.999, "least factor of all bounces");
+  require_in_range(options.min_amplitude, 0, 1e6, "least amplitude");
+  if (options.diffuse_below_db != 0)
+    require_in_range(options.diffuse_below_db, 10, 100, "level of diffuse sound below the strongest path",
+                     "dB");
+  require_in_range(options.diffuse_below_pressure, 0, 1e6, "pressure below which sound is diffuse");
+}
+
+RayOptions widened(RayOptions options) {
+  constexpr double kStepDb = 10;
+  if (!(options.min_boundary_factor > 0)) return options;
+  const double steps = std::ceil(most_loss_db(options) / kStepDb);
+  options.min_boundary_factor = elementary::exp10(-steps * kStepDb / 20);
+  return options;
+}
+
+void drop_faint(std::vector<Eigenray>& paths, const RayOptions& options) {
+  if (!(options.min_boundary_factor > 0)) return;
+  std::erase_if(paths, [most_db = most_loss_db(options)](const Eigenray& path) {
+    return path.bounce_loss_db() > most_db;
+  });
+}
+
+void finish(std::vector<Eigenray>& paths, const std::vector<FoldMember>& members, const RayOptions& options) {
+  if (options.airy_folds) apply_folds(paths, members, options.frequency_hz);
+  std::vector<Key> keys = keys_by_kind(paths, options);
+  number_branches(keys, paths);
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+    return a.delay_s != b.delay_s ? a.delay_s < b.delay_s : a.launch_rad < b.launch_rad;
+  });
+  std::vector<Eigenray> sorted;
+  sorted.reserve(keys.size());
+  for (const Key& key : keys) sorted.push_back(paths[key.index]);
+  paths = std::move(sorted);
 }
 
 }  // namespace halocline::acoustics

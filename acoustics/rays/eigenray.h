@@ -1,73 +1,187 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Eigenrays: the paths of sound between two points, found by one of three exact solvers.
+// Eigenray: one path of sound from a source to a receiver, and the conventions common to all ray solvers.
 //
-//   const RayOptions options{.frequency_hz = 11'520};
-//   const RaySea sea{ray_water(environment, options.frequency_hz), BottomProfile::flat(100),
-//                    *sediment("MediumSand"), RaySurface{.wind_mps = 5}, options};
-//   const Arrivals found = arrivals(sea, {.source_depth_m = 30, .receiver_depth_m = 50, .range_m = 2000});
-//   for (const Arrival& path : found.paths)
-//     std::cout << path.delay_s << ' ' << path.received_pressure() << '\n';
-//   if (found.shadow()) std::cout << "no ray gets there\n";
-//
-// Solvers:
-// - images: one sound speed, flat bottom (acoustics/rays/image_rays.h);
-// - Snell: water that depends on depth alone, flat bottom (acoustics/rays/layered_rays.h);
-// - arcs: any bottom profile (acoustics/rays/profile_rays.h).
-//
-// The simplest solver that is exact for a link is chosen unless the caller names one. All are exact for the
-// given knots and facets; the header of each states what it neglects.
-//
-// A link between two vehicles is searched from the transmitter to the receiver. The reverse link has the same
-// delays and amplitudes, with launch and arrival angles exchanged and reversed, but the limit on the launch
-// angle may drop other rays, because it applies at the end from which they leave.
-//
-// Thread rule: immutable values; threads may call at the same time.
+// Conventions:
+// - Depth is positive down from the flat mean surface, m.
+// - Angles are measured from the horizontal, positive down, rad. The launch angle is the direction in which
+//   the ray leaves, the arrival angle the one in which it travels as it meets the receiver.
+// - The amplitude is the pressure relative to that at 1 m in free water. It includes the spreading of the ray
+//   tube and the reflections, but not the absorption, which depends most on frequency and is a field of its
+//   own.
 #pragma once
 
-#include <memory>
-#include <optional>
+#include <cmath>
+#include <compare>
+#include <cstdint>
+#include <numbers>
+#include <string_view>
+#include <vector>
 
-#include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/traced_ray.h"
-#include "acoustics/sea/bottom_profile.h"
-#include "acoustics/sea/boundary_reflection.h"
-#include "acoustics/sea/environment.h"
-#include "acoustics/sea/ray_section.h"
-#include "acoustics/sea/ray_water.h"
+#include "core/units.h"
 
 namespace halocline::acoustics {
 
-// The sea along one link, with all that rays depend on. Ranges of the profile are measured from the source.
-struct RaySea {
-  RayWater water;
-  BottomProfile bottom_profile;
-  FluidBottom bottom;
-  RaySurface surface;
-  RayOptions options;
-  // Water that changes along the link and whose first column is `water`; null: the water depends on depth
-  // alone.
-  std::shared_ptr<const RaySection> section = nullptr;
+// Identity of a path. It stays the same from step to step as long as the ends move only little, so that delay
+// and Doppler shift can be tracked. Two paths of one link never have the same identity.
+struct PathIdentity {
+  bool launched_up = false;
+  int surface_bounces = 0, bottom_bounces = 0;
+  int upper_turns = 0, lower_turns = 0;  // turns in the water itself, above and below
+  int branch = 0;  // 0, 1, ... by rising launch angle among paths that agree in all of the above
+  auto operator<=>(const PathIdentity&) const = default;
+
+  // The identity packed into one number. Each count is truncated to its low bits: 14 for bounces and turns, 7
+  // for the branch.
+  std::uint64_t number() const;
+  // The identity with that number.
+  static PathIdentity of_number(std::uint64_t number);
 };
 
-// The water of an environment at a frequency, Hz. It takes 50 us for a profile of 15 rows, so callers should
-// keep it. A tolerance above 0, m/s, thins the profile: knots are left out that linear interpolation between
-// the others matches to within the tolerance.
-RayWater ray_water(const Environment& environment, double frequency_hz, double thinning_tolerance_mps = 0);
+// Geometry of a path between two ends, and what the sea leaves of its sound.
+struct Eigenray {
+  double delay_s = 0;
+  double amplitude = 0;  // above 0; spreading and bounces
+  // 0..2 pi: pi per surface bounce, the bottom's own per bottom bounce, pi / 2 per caustic.
+  double phase_rad = 0;
+  double launch_angle_rad = 0;
+  double arrival_angle_rad = 0;
+  double launch_slowness_spm = 0;  // cos(launch angle) / sound speed at the source, s/m: Snell's invariant
+  // Mean over the range of cos(angle) / sound speed, s/m: the growth of the delay per metre of range if the
+  // bottom at the receiver moves along with it. Over a level bottom it equals the launch slowness.
+  double range_slowness_spm = 0;
+  double path_length_m = 0;    // along the arcs
+  double absorption_db = 0;    // along the arcs, at RayOptions::frequency_hz
+  double surface_loss_db = 0;  // all surface bounces; part of the amplitude
+  double bottom_loss_db = 0;   // all bottom bounces; part of the amplitude
+  // Sums over the bounces of the squared sine of the grazing angle, which scattering by rough boundaries
+  // depends on.
+  double surface_sine_squares = 0, bottom_sine_squares = 0;
+  int surface_bounces = 0, bottom_bounces = 0;
+  int caustics = 0;  // number of caustics touched
+  // True for a diffuse path: not one path but all rays within a window of launch angles that are not
+  // resolved one by one (acoustics/rays/diffuse_windows.h). The amplitude is the root of their mean total
+  // power and the phase has no meaning; the other fields are those of one ray among them.
+  bool diffuse = false;
+  PathIdentity identity = {};
 
-// The simplest solver that is exact for this link.
-RaySolver choose_solver(const RaySea& sea, const RayLink& link);
+  // Received pressure relative to that at 1 m, absorption included.
+  double received_pressure() const;
+  // Loss of all bounces, dB.
+  double bounce_loss_db() const { return surface_loss_db + bottom_loss_db; }
+};
 
-// Returns all paths of a link; none in a shadow zone, which is not an error. When no path is strong enough
-// for the limits on bounces, the limits are widened until one is, up to 250 dB of loss; when there is none in
-// the end, one more search finds the reason (Arrivals::lack).
+// The angle reduced to 0..2 pi, rad.
+inline double positive_angle(double angle_rad) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  return angle_rad - kTurn * std::floor(angle_rad / kTurn);
+}
+
+enum class RaySolver { kImages, kSnell, kArcs };
+
+// Name of a solver: "images", "snell" or "arcs".
+std::string_view to_name(RaySolver solver);
+
+// The reason why a link has no path.
+enum class PathLack {
+  kShadow,    // no ray arrives: refraction bends every one away, or the bottom blocks it
+  kTooWeak,   // rays arrive, but their bounces or RayOptions::min_amplitude exclude all of them
+  kTooSteep,  // rays arrive, but all are launched more steeply than RayOptions::max_launch_angle_rad
+};
+
+// Name of the reason: "shadow", "too weak" or "too steep".
+std::string_view to_name(PathLack lack);
+
+// The paths of one link in the order of their delays.
+struct Eigenrays {
+  RaySolver solver = RaySolver::kImages;  // the solver that found them
+  std::vector<Eigenray> paths;
+  PathLack lack = PathLack::kShadow;  // valid when there is no path
+
+  bool silent() const { return paths.empty(); }
+  // True when the receiver lies in a shadow zone. Diffraction and scattering, which ray theory neglects,
+  // still bring some sound there; FieldOptions::floor represents it.
+  bool shadow() const { return silent() && lack == PathLack::kShadow; }
+  // Sum of the powers of the diffuse paths, relative to that at 1 m, absorption included.
+  double diffuse_power() const;
+};
+
+// Limits of the search. The defaults keep every path that can matter to a modem.
+struct RayOptions {
+  double frequency_hz = 25'000;  // for absorption and reflection, 10..1e6
+  // Greatest angle from the horizontal at which paths are launched, (0, pi/2].
+  double max_launch_angle_rad = to_radians(80);
+  // Also keep the path that meets neither surface nor bottom, however steep it is: one vehicle may be right
+  // above another.
+  bool keep_steep_direct = true;
+  int max_bounces = 400;  // surface and bottom bounces together, 0..10 000
+  // Least boundary factor, [0, 1): paths are dropped whose bounces leave less than this share of what the
+  // bounces of the strongest path leave. The strongest path is kept whatever it loses. While it loses less
+  // than 6 dB, paths are compared with one without bounces.
+  double min_boundary_factor = 0.005;
+  double min_amplitude = 0;  // paths below this amplitude are dropped, >= 0; 1e-6 is -120 dB
+  // Over a rough bottom, where rays are many, paths more than this below the strongest are not resolved one
+  // by one: their energy is summed over windows of launch angles, see Eigenray::diffuse. 10..100, dB; 0:
+  // every ray is resolved everywhere.
+  double diffuse_below_db = 22;
+  // Received pressure, relative to that at 1 m, below which paths are not resolved one by one either; >= 0.
+  double diffuse_below_pressure = 0;
+  // True: near caustics the wave field applies, with one path on their shadow side. False: plain ray theory,
+  // whose amplitudes are unbounded there.
+  bool airy_folds = true;
+  bool operator==(const RayOptions&) const = default;
+};
+
+// Throws InvalidArgument, naming the field, its value and the permitted range, unless every field is in
+// range.
+void validate(const RayOptions& options);
+
+// The options with the least boundary factor lowered to a multiple of 10 dB, so that receivers whose
+// strongest paths lose about as much share their rays.
+RayOptions widened(RayOptions options);
+// Drops paths whose bounces leave less than the options allow.
+void drop_faint(std::vector<Eigenray>& paths, const RayOptions& options);
+
+// The ends of a link. The receiver lies `range_m` >= 0 from the source; both depths lie within the water.
+struct RayLink {
+  double source_depth_m = 0, receiver_depth_m = 0, range_m = 0;
+};
+
+// The distance at which source levels are defined, m. Sound does not spread within it: the paths between ends
+// closer to each other are those of ends at this distance, extrapolated so that delay, length and angles are
+// those of the true distance.
+inline constexpr double kMinDistance = 1;
+// The link with its range increased, if necessary, so that the ends are kMinDistance apart.
+RayLink held_apart(RayLink link);
+
+// The number of family `family` continued by the event `what`. Rays have the same number when range and depth
+// of arrival change smoothly with the launch angle between them.
+constexpr std::uint64_t continued_family(std::uint64_t family, std::uint64_t what) {
+  // A mixing step like those of SplitMix64 (Steele and others 2014).
+  family = (family ^ (what + 1)) * 0x9E3779B97F4A7C15ULL;
+  return family ^ (family >> 29);
+}
+
+// The place of a path among those that may form a fold with it: a family within which range and depth of
+// arrival change smoothly, and the angle that orders its rays, rad. A path of kNoFamily has no neighbours.
+struct FoldMember {
+  std::uint64_t family = 0;
+  double order_rad = 0;
+  int touched = 0;       // caustics of the family that the ray has touched
+  double phase_rad = 0;  // phase beyond that common to the family
+  double x = 0;          // x of the fold with its neighbour (acoustics/math/fold_field.h); 0: from the delays
+};
+inline constexpr std::uint64_t kNoFamily = 0;
+
+// The last steps common to all solvers:
+// - gives the rays of folds the field of acoustics/math/fold_field.h, if RayOptions::airy_folds;
+// - drops what the options exclude;
+// - merges paths of the same kind launched within 0.02 degrees of each other that arrive within 1 us; their
+//   amplitudes add as phasors at the carrier;
+// - sorts by delay and numbers the branches.
 //
-// Throws InvalidArgument unless the depths of the link lie between surface and bottom, each at its range, and
-// a solver that is named is exact for the link: images and Snell refuse other seas. Between ends closer than
-// 1 m the delay is that of the true distance and the level that at 1 m.
-//
-// Links with one common end can share rays through `shared` (acoustics/rays/depth_fan.h, range_fan.h),
-// which takes effect when the solver is arcs. The sea then has to outlive `shared`.
-Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver = std::nullopt,
-                  SharedRays* shared = nullptr);
+// `members` has an entry for each path. The two rays of a fold are neighbours in a family, and one has
+// touched one caustic more. A ray without a partner, because its family ends before the caustic (at a kink of
+// the sound speed profile or an edge of the bottom), keeps the amplitude of its ray tube.
+void finish(std::vector<Eigenray>& paths, const std::vector<FoldMember>& members, const RayOptions& options);
 
 }  // namespace halocline::acoustics

@@ -23,7 +23,7 @@
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arcs/arc_steps.h"
 #include "acoustics/rays/arcs/ray_column.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
 
@@ -107,7 +107,7 @@ class FanTracer {
   const RayWater& water_;
   const BottomProfile& profile_;
   RayColumn column_;
-  TracedRay traced_;               // scratch buffer for rays through a section
+  RayTrace traced_;                // scratch buffer for rays through a section
   std::vector<EventCode> events_;  // events of all rays
   // `steepest_rise_` is the sine of the steepest slope at which the bottom rises.
   double range_, shallowest_, max_loss_db_, steepest_rise_;

@@ -55,7 +55,7 @@ class ImageSum {
         {{false, false}, {surface_first, !surface_first}, {!surface_first, surface_first}, {true, true}}};
   }
 
-  std::vector<Arrival> run() {
+  std::vector<Eigenray> run() {
     paths_.reserve(48);
     for (int n = 0; n <= sea_.options.max_bounces; ++n) {
       bool any = false;
@@ -85,7 +85,7 @@ class ImageSum {
   double absorption_db(const Image& image, double length) const;
   // Adds an image; returns false when this image and all later ones are too steep or too faint.
   bool add(const Image& image);
-  void set_phase(const Image& image, const Reflection& one, int surface, int bottom, Arrival& path) const;
+  void set_phase(const Image& image, const Reflection& one, int surface, int bottom, Eigenray& path) const;
 
   const FlatSea& sea_;
   double range_, speed_;
@@ -93,7 +93,7 @@ class ImageSum {
   double up_, between_, down_, min_sine_, steepest_factor_;
   double absorption_up_, absorption_between_, absorption_down_, absorption_level_;  // dB/m
   std::array<std::array<bool, 2>, 4> order_{};
-  std::vector<Arrival> paths_;
+  std::vector<Eigenray> paths_;
 };
 
 double ImageSum::absorption_db(const Image& image, double length) const {
@@ -125,7 +125,7 @@ bool ImageSum::add(const Image& image) {
   const double top = surface > 0 ? surface_magnitude(sea_.surface, angle, options.frequency_hz) : 1;
   factor *= power(top, surface);
   if (factor < options.min_boundary_factor || factor / length < options.min_amplitude) return true;
-  Arrival& path = paths_.emplace_back();
+  Eigenray& path = paths_.emplace_back();
   path.amplitude = factor / length;
   if (top < 1) path.surface_loss_db = -20 * surface * elementary::log10(top);
   path.delay_s = length / speed_;
@@ -145,7 +145,7 @@ bool ImageSum::add(const Image& image) {
 }
 
 // phase = pi (surface bounces) + (phase of one bottom bounce) (bottom bounces).
-void ImageSum::set_phase(const Image&, const Reflection& one, int surface, int bottom, Arrival& path) const {
+void ImageSum::set_phase(const Image&, const Reflection& one, int surface, int bottom, Eigenray& path) const {
   path.surface_bounces = surface;
   path.bottom_bounces = bottom;
   path.phase_rad = positive_angle(pi * (surface % 2) + one.phase_rad * bottom);
@@ -153,7 +153,7 @@ void ImageSum::set_phase(const Image&, const Reflection& one, int surface, int b
 
 }  // namespace
 
-std::vector<Arrival> image_rays(const FlatSea& sea, const RayLink& link) {
+std::vector<Eigenray> image_rays(const FlatSea& sea, const RayLink& link) {
   validate(sea.options);
   require_in_range(sea.bottom_depth_m, 0.1, kDeepestWater, "depth of the bottom", "m");
   require_in_range(link.source_depth_m, 0, sea.bottom_depth_m, "depth of the source", "m");

@@ -11,13 +11,13 @@
 
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/layered_rays.h"
 
 namespace halocline::acoustics {
 
 // Returns all eigenrays of `link`, by rising delay. The water has to have one sound speed down to
 // the bottom; otherwise throws InvalidArgument.
-std::vector<Arrival> image_rays(const FlatSea& sea, const RayLink& link);
+std::vector<Eigenray> image_rays(const FlatSea& sea, const RayLink& link);
 
 }  // namespace halocline::acoustics

@@ -10,7 +10,7 @@
 #include "acoustics/math/fold_field.h"
 #include "acoustics/math/hermite_cubic.h"
 #include "acoustics/rays/arcs/layered_legs.h"
-#include "acoustics/rays/layered_path.h"
+#include "acoustics/rays/layered_eigenray.h"
 #include "core/check.h"
 #include "core/elementary.h"
 
@@ -61,7 +61,7 @@ class Search {
         legs_(sea.water, link_.upper_m, link_.lower_m, sea.bottom_depth_m,
               sea.options.airy_folds ? sea.options.frequency_hz : 0) {}
 
-  std::vector<Arrival> run() {
+  std::vector<Eigenray> run() {
     paths_.reserve(kUsualPaths);
     add_horizontal();
     do {
@@ -97,11 +97,11 @@ class Search {
   void add_dark_path(const Node& a, const Node& b, const Node& turn, bool is_greatest, std::size_t family);
   // Estimate of how far sound reaches beyond a turn of f between two nodes, in units of f.
   double dark_reach(const Node& a, const Node& b, std::size_t family) const;
-  FoldMember member_of(const Arrival& path, std::size_t family, int cycles, const Passed& passed) const;
+  FoldMember member_of(const Eigenray& path, std::size_t family, int cycles, const Passed& passed) const;
 
   LayeredLink link_;
   LayeredLegs legs_;
-  std::vector<Arrival> paths_;
+  std::vector<Eigenray> paths_;
   std::vector<FoldMember> members_;  // one for each path
   Run run_;
   bool direct_only_ = false, past_steepest_ = false;
@@ -120,7 +120,7 @@ void Search::add_horizontal() {
   const bool still = water.gradients_per_s()[layer] == 0 ||
                      (layer > 0 && z == water.depths_m()[layer] && water.gradients_per_s()[layer - 1] == 0);
   if (!still) return;
-  Arrival path;
+  Eigenray path;
   path.delay_s = link_.range_m / link_.source_speed_mps;
   path.amplitude = 1 / link_.range_m;
   path.launch_slowness_spm = path.range_slowness_spm = 1 / link_.source_speed_mps;
@@ -279,7 +279,7 @@ void Search::add_dark_path(const Node& a, const Node& b, const Node& turn, bool 
   LayeredRay ray{kEigenrayFamilies[family], cycles, 0, 1};
   LegSums sums;
   if (!find_dark_ray(link_, legs_, {a.theta, b.theta, turn.theta, a.sums, b.sums}, ray, sums)) return;
-  append_arrival(link_, legs_, ray, sums, paths_);
+  append_eigenray(link_, legs_, ray, sums, paths_);
   members_.resize(paths_.size());
 }
 
@@ -319,7 +319,7 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
     theta = next > low && next < high ? next : 0.5 * (low + high);
     if (high - low < 1e-15 * high) break;
   }
-  const Passed passed = append_arrival(link_, legs_, ray, sums, paths_);
+  const Passed passed = append_eigenray(link_, legs_, ray, sums, paths_);
   if (members_.size() == paths_.size()) return;  // excluded by the options
   members_.push_back(member_of(paths_.back(), family, cycles, passed));
 }
@@ -335,7 +335,7 @@ void Search::start_run() {
   run_.at_lower = lower_mps == barrier && upper_mps < barrier && legs_.turns_at_once(Leg::kDown);
 }
 
-FoldMember Search::member_of(const Arrival& path, std::size_t family, int cycles,
+FoldMember Search::member_of(const Eigenray& path, std::size_t family, int cycles,
                              const Passed& passed) const {
   std::uint64_t legs = family;
   if (run_.at_upper) legs = 4 + (family & 2);
@@ -351,7 +351,7 @@ FoldMember Search::member_of(const Arrival& path, std::size_t family, int cycles
 
 }  // namespace
 
-std::vector<Arrival> layered_rays(const FlatSea& sea, const RayLink& link) {
+std::vector<Eigenray> layered_rays(const FlatSea& sea, const RayLink& link) {
   validate(sea.options);
   return Search(sea, link).run();
 }

@@ -21,7 +21,7 @@
 
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"
 
@@ -40,6 +40,6 @@ struct FlatSea {
 
 // Returns all eigenrays of `link`. Its depths lie within 0..bottom_depth_m; an end at a boundary is moved off
 // it by a micrometre.
-std::vector<Arrival> layered_rays(const FlatSea& sea, const RayLink& link);
+std::vector<Eigenray> layered_rays(const FlatSea& sea, const RayLink& link);
 
 }  // namespace halocline::acoustics

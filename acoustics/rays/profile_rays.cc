@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "acoustics/rays/fan_tracer.h"
-#include "acoustics/rays/profile_path.h"
+#include "acoustics/rays/traced_eigenray.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -83,7 +83,7 @@ std::optional<std::vector<Branch>> ProfileSearch::branches(const std::vector<dou
   return all;
 }
 
-std::vector<Arrival> ProfileSearch::run(const std::vector<double>& angles, double core_edge) {
+std::vector<Eigenray> ProfileSearch::run(const std::vector<double>& angles, double core_edge) {
   const std::vector<FanRay> fan = traced(angles);
   const std::vector<bool> predicted = this->predicted(fan);
   if (tracer_.sea().options.diffuse_below_db <= 0 || !is_rough(fan)) {
@@ -96,11 +96,11 @@ std::vector<Arrival> ProfileSearch::run(const std::vector<double>& angles, doubl
   branch_.give_weak_paths_to(&windows_);
   narrow_window_ = kNarrowWindow * tracer_.bottom_at_receiver_m() / tracer_.range_m();
   search(fan, predicted, core_edge);
-  std::vector<Arrival> paths = branch_.finished();
-  const std::vector<Arrival> diffuse = windows_.arrivals(cache_);
+  std::vector<Eigenray> paths = branch_.finished();
+  const std::vector<Eigenray> diffuse = windows_.eigenrays(cache_);
   const auto middle = paths.insert(paths.end(), diffuse.begin(), diffuse.end());
   std::inplace_merge(paths.begin(), middle, paths.end(),
-                     [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
+                     [](const Eigenray& a, const Eigenray& b) { return a.delay_s < b.delay_s; });
   return paths;
 }
 
@@ -244,16 +244,16 @@ void ProfileSearch::scan_to_edge(const FanRay& from, const FanRay& edge, bool gr
   scan_last(edge);
 }
 
-std::vector<Arrival> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::vector<double> angles,
-                                  DepthFanCache* cache) {
+std::vector<Eigenray> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::vector<double> angles,
+                                   DepthFanCache* cache) {
   const double core_edge = leave_out_core(tracer, angles);
   ProfileSearch search(tracer, fan);
   search.share(cache);
-  std::vector<Arrival> paths = search.run(angles, core_edge);
+  std::vector<Eigenray> paths = search.run(angles, core_edge);
   // If only diffuse windows are left, the search is repeated without them, unless paths count as weak by
   // their own pressure: a link that has a path keeps at least one.
   if (!paths.empty() && !search.is_weak_by_pressure() &&
-      std::all_of(paths.begin(), paths.end(), [](const Arrival& path) { return path.diffuse; })) {
+      std::all_of(paths.begin(), paths.end(), [](const Eigenray& path) { return path.diffuse; })) {
     ProfiledSea all = tracer.sea();
     all.options.diffuse_below_db = 0;
     return profile_rays(all, {tracer.source_depth_m(), tracer.receiver_depth_m(), tracer.range_m()});
@@ -261,7 +261,7 @@ std::vector<Arrival> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::
   return paths;
 }
 
-std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link) {
+std::vector<Eigenray> profile_rays(const ProfiledSea& sea, const RayLink& link) {
   validate(sea.options);
   const ArcTracer tracer(sea, link);
   FanTracer fan(tracer);

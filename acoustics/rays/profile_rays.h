@@ -25,22 +25,22 @@
 #include <vector>
 
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/branch_solver.h"
 #include "acoustics/rays/depth_fan.h"
 #include "acoustics/rays/diffuse_windows.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/fan_tracer.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 
 namespace halocline::acoustics {
 
 // Returns all eigenrays of `link`. Its depths lie between the surface and the bottom at both ends; an end at
 // a boundary is moved off it by a micrometre.
-std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link);
+std::vector<Eigenray> profile_rays(const ProfiledSea& sea, const RayLink& link);
 // Returns all eigenrays between the ends of the tracer, with a first fan of `angles` such as launch_angles().
 // With a cache, rays are shared with the searches for receivers at other depths of the same place.
-std::vector<Arrival> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::vector<double> angles,
-                                  DepthFanCache* cache);
+std::vector<Eigenray> profile_rays(const ArcTracer& tracer, FanTracer& fan, std::vector<double> angles,
+                                   DepthFanCache* cache);
 
 // Launch angles of the first fan, rising, rad.
 std::vector<double> launch_angles(const ArcTracer& tracer);
@@ -66,9 +66,9 @@ class ProfileSearch {
     branch_.share(cache);
     cache_ = cache;
   }
-  // The arrivals, after finish(), of the rays launched between the first and the last of `angles`. Rays
+  // The eigenrays, after finish(), of the rays launched between the first and the last of `angles`. Rays
   // within `core_edge` of the horizontal are left out; that angle and its negative are among `angles`.
-  std::vector<Arrival> run(const std::vector<double>& angles, double core_edge);
+  std::vector<Eigenray> run(const std::vector<double>& angles, double core_edge);
   // Returns all branches between the angles, independent of the receiver's depth; empty over a rough bottom.
   std::optional<std::vector<Branch>> branches(const std::vector<double>& angles);
   // To be called after run(): true when a path counts as weak by its own pressure, false when relative to the

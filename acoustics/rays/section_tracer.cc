@@ -95,7 +95,7 @@ void SectionTracer::enter(State& s, const SectionCell& cell) const {
   s.look();
 }
 
-SectionTracer::State SectionTracer::start(double theta, TracedRay& ray) const {
+SectionTracer::State SectionTracer::start(double theta, RayTrace& ray) const {
   ray.begin(theta);
   const auto [sine, cosine] = elementary::sin_cos(theta);
   State s{.r = 0,
@@ -173,7 +173,7 @@ SectionTracer::Step SectionTracer::next_step(const State& s) const {
   return near_bottom && step.dr > 0 ? until_bottom(s, step) : step;
 }
 
-void SectionTracer::add_details(const State& s, const Step& step, TracedDetails& details) const {
+void SectionTracer::add_details(const State& s, const Step& step, TraceDetails& details) const {
   // Integrals over the step, by the weights of the scheme:
   //   d tau = dr / (c^2 xi),  d length = dr / (c xi)
   const auto mean = [&](const auto& of) {
@@ -182,7 +182,7 @@ void SectionTracer::add_details(const State& s, const Step& step, TracedDetails&
   };
   const auto length = [](const Stage& k, double) { return k.per_c / k.xi; };
   details.delay_s += step.dr * mean([](const Stage& k, double) { return k.per_c * k.per_c / k.xi; });
-  details.length_m += step.dr * mean(length);
+  details.path_length_m += step.dr * mean(length);
   details.slowness_over_range += step.dr * mean([](const Stage& k, double) { return k.xi; });
   details.absorption_db +=
       step.dr * mean([&](const Stage& k, double share) {
@@ -192,7 +192,7 @@ void SectionTracer::add_details(const State& s, const Step& step, TracedDetails&
   if (details.track != nullptr) details.track->push_back({s.r + step.dr, step.end.z});
 }
 
-void SectionTracer::go(State& s, const Step& step, TracedRay& ray, TracedDetails* details) const {
+void SectionTracer::go(State& s, const Step& step, RayTrace& ray, TraceDetails* details) const {
   if (step.end.q * s.ray.q < 0) ++ray.caustics;
   if (details != nullptr && step.dr > 0) add_details(s, step, *details);
   if (s.ray.s * step.end.s < 0) {
@@ -208,7 +208,7 @@ void SectionTracer::go(State& s, const Step& step, TracedRay& ray, TracedDetails
   s.look();
 }
 
-bool SectionTracer::cross(State& s, const Step& step, TracedRay& ray, TracedDetails* details) const {
+bool SectionTracer::cross(State& s, const Step& step, RayTrace& ray, TraceDetails* details) const {
   if (step.edge == Edge::kBottom) return meet_bottom(s, step.facet, ray, details);
   if (step.edge == Edge::kAbove && s.cell.layer == 0) return meet_surface(s, ray, details);
   SectionCell cell = s.cell;
@@ -219,7 +219,7 @@ bool SectionTracer::cross(State& s, const Step& step, TracedRay& ray, TracedDeta
   return true;
 }
 
-bool SectionTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) const {
+bool SectionTracer::meet_surface(State& s, RayTrace& ray, TraceDetails* details) const {
   // The mirrored water has the gradient (a, -b), which is a jump of 2 b along the normal (0, -1).
   const double sine = std::max(std::abs(s.sine), kMinSine);
   const double kink = 2 * s.patch.at(s.r, 0).down * s.cosine * s.cosine / (s.c * s.c * sine);
@@ -231,7 +231,7 @@ bool SectionTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* detail
   return losses_.at_surface(sine, ray, details);
 }
 
-bool SectionTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedDetails* details) const {
+bool SectionTracer::meet_bottom(State& s, std::size_t index, RayTrace& ray, TraceDetails* details) const {
   const Facet& facet = profile_.facets()[index];
   const FacetBounce bounce = bounce_off(facet, {s.r, s.ray.z, s.sine, s.xi, s.c, 1 / s.xi, 0, index});
   if (bounce.out_cosine < kMinCosine) return false;
@@ -258,7 +258,7 @@ bool SectionTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, Tra
   return losses_.at_bottom(facet, bounce.sine, s.c, ray, details);
 }
 
-void SectionTracer::arrive(const State& s, TracedRay& ray) const {
+void SectionTracer::arrive(const State& s, RayTrace& ray) const {
   ray.arrived = true;
   ray.z = s.ray.z;
   ray.sine = s.sine;
@@ -269,7 +269,7 @@ void SectionTracer::arrive(const State& s, TracedRay& ray) const {
   ray.zeta_slope = s.ray.qx / std::max(s.cosine, kMinCosine);
 }
 
-void SectionTracer::trace(double theta, TracedRay& ray, TracedDetails* details) const {
+void SectionTracer::trace(double theta, RayTrace& ray, TraceDetails* details) const {
   State s = start(theta, ray);
   for (int steps = 0; steps < kMaxSteps; ++steps) {
     const Step step = next_step(s);

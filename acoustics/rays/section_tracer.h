@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "acoustics/rays/arcs/arc_steps.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_section.h"
 
@@ -44,7 +44,7 @@ class SectionTracer {
       : section_(*sea.section), profile_(sea.profile), losses_(losses), ends_(ends) {}
 
   // Traces a ray with the results of ArcTracer::trace.
-  void trace(double theta, TracedRay& ray, TracedDetails* details) const;
+  void trace(double theta, RayTrace& ray, TraceDetails* details) const;
 
  private:
   // The variables of the equations. qx and px are the ray tube for rays as the facets reflect them, which
@@ -62,7 +62,7 @@ class SectionTracer {
   struct Step;
   enum class Edge { kInside, kAbove, kBelow, kBottom };
 
-  State start(double theta, TracedRay& ray) const;
+  State start(double theta, RayTrace& ray) const;
   static Stage stage(const SpeedPatch& patch, double r, const Carried& at);
   static Step stepped(const State& s, double dr);
   Step next_step(const State& s) const;
@@ -70,14 +70,14 @@ class SectionTracer {
   static Step until_depth(const State& s, const Step& step, double depth_m, Edge edge);
   // The part of a step up to the bottom, or all of it.
   Step until_bottom(const State& s, const Step& step) const;
-  void go(State& s, const Step& step, TracedRay& ray, TracedDetails* details) const;
-  void add_details(const State& s, const Step& step, TracedDetails& details) const;
+  void go(State& s, const Step& step, RayTrace& ray, TraceDetails* details) const;
+  void add_details(const State& s, const Step& step, TraceDetails& details) const;
   void enter(State& s, const SectionCell& cell) const;
   // Handles the edge at which a step has ended; false when the ray stops there.
-  [[nodiscard]] bool cross(State& s, const Step& step, TracedRay& ray, TracedDetails* details) const;
-  [[nodiscard]] bool meet_surface(State& s, TracedRay& ray, TracedDetails* details) const;
-  [[nodiscard]] bool meet_bottom(State& s, std::size_t facet, TracedRay& ray, TracedDetails* details) const;
-  void arrive(const State& s, TracedRay& ray) const;
+  [[nodiscard]] bool cross(State& s, const Step& step, RayTrace& ray, TraceDetails* details) const;
+  [[nodiscard]] bool meet_surface(State& s, RayTrace& ray, TraceDetails* details) const;
+  [[nodiscard]] bool meet_bottom(State& s, std::size_t facet, RayTrace& ray, TraceDetails* details) const;
+  void arrive(const State& s, RayTrace& ray) const;
 
   const RaySection& section_;
   const BottomProfile& profile_;

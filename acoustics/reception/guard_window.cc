@@ -59,7 +59,7 @@ void replace_by_powers(std::span<double> levels_db) {
 
 // Sum of w^2 P for the window that begins at each path. It is 0 for windows so much weaker than the best that
 // likely_windows() ignores them, judged by the unweighted power of their paths.
-std::vector<double> window_powers(const std::vector<SoundPath>& paths, const std::vector<double>& powers,
+std::vector<double> window_powers(const std::vector<Arrival>& paths, const std::vector<double>& powers,
                                   const Guard& guard) {
   const double counts = fast_power(-1.01 * kEqualDb);
   std::vector<double> sums(paths.size()), wholes(paths.size());  // wholes: unweighted sums
@@ -92,7 +92,7 @@ std::vector<double> window_powers(const std::vector<SoundPath>& paths, const std
   return sums;
 }
 
-GuardWindow window_from(std::size_t first, const std::vector<SoundPath>& paths,
+GuardWindow window_from(std::size_t first, const std::vector<Arrival>& paths,
                         const std::vector<double>& powers, const Modem& modem, const Guard& guard) {
   GuardWindow window{.first = first, .strongest = first, .shares = {}};
   window.shares.reserve(paths.size());
@@ -111,27 +111,26 @@ GuardWindow window_from(std::size_t first, const std::vector<SoundPath>& paths,
 
 }  // namespace
 
-std::vector<double> mean_powers(const std::vector<SoundPath>& paths) {
+std::vector<double> mean_powers(const std::vector<Arrival>& paths) {
   std::vector<double> powers;
   powers.reserve(paths.size());
-  for (const SoundPath& path : paths) powers.push_back(path.level.value);
+  for (const Arrival& path : paths) powers.push_back(path.level.value);
   replace_by_powers(powers);
   return powers;
 }
 
-const std::vector<SoundPath>& without_faint(const std::vector<SoundPath>& paths,
-                                            std::vector<SoundPath>& heard) {
+const std::vector<Arrival>& without_faint(const std::vector<Arrival>& paths, std::vector<Arrival>& heard) {
   constexpr Decibels kFaint{60};
   Decibels strongest = paths.front().level;
-  for (const SoundPath& path : paths) strongest = std::max(strongest, path.level);
-  const auto is_heard = [&](const SoundPath& path) { return !(path.level < strongest - kFaint); };
+  for (const Arrival& path : paths) strongest = std::max(strongest, path.level);
+  const auto is_heard = [&](const Arrival& path) { return !(path.level < strongest - kFaint); };
   if (std::all_of(paths.begin(), paths.end(), is_heard)) return paths;
   heard.reserve(paths.size());
   std::copy_if(paths.begin(), paths.end(), std::back_inserter(heard), is_heard);
   return heard;
 }
 
-GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem) {
+GuardWindow best_window(const std::vector<Arrival>& paths, const Modem& modem) {
   if (paths.size() == 1) return {.first = 0, .strongest = 0, .shares = {{1, 0}}};
   const Guard guard(modem);
   const std::vector<double> powers = mean_powers(paths), sums = window_powers(paths, powers, guard);
@@ -139,7 +138,7 @@ GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem)
   return window_from(static_cast<std::size_t>(best - sums.begin()), paths, powers, modem, guard);
 }
 
-std::vector<LikelyWindow> likely_windows(const std::vector<SoundPath>& paths, const Modem& modem) {
+std::vector<LikelyWindow> likely_windows(const std::vector<Arrival>& paths, const Modem& modem) {
   const Guard guard(modem);
   const std::vector<double> powers = mean_powers(paths), sums = window_powers(paths, powers, guard);
   const auto best = static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
@@ -158,18 +157,10 @@ std::vector<LikelyWindow> likely_windows(const std::vector<SoundPath>& paths, co
   return windows;
 }
 
-double mean_signal(const std::vector<SoundPath>& paths, const GuardWindow& window) {
+double mean_signal(const std::vector<Arrival>& paths, const GuardWindow& window) {
   double sum = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     sum += window.shares[i].weight * window.shares[i].weight * to_power_ratio(paths[i].level).value;
-  }
-  return sum;
-}
-
-double mean_interference(const std::vector<SoundPath>& paths, const GuardWindow& window) {
-  double sum = 0;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    sum += window.shares[i].interference * to_power_ratio(paths[i].level).value;
   }
   return sum;
 }

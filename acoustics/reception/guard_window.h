@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 #include "acoustics/modem/modem.h"
 
 namespace halocline::acoustics {
@@ -34,15 +34,14 @@ struct GuardWindow {
 };
 
 // Mean powers of the paths, uPa^2, within 1e-9.
-std::vector<double> mean_powers(const std::vector<SoundPath>& paths);
+std::vector<double> mean_powers(const std::vector<Arrival>& paths);
 
 // Removes paths more than 60 dB below the strongest, which have no effect. Returns `paths` itself, which must
 // not be empty, or `heard`, filled with the paths that remain.
-const std::vector<SoundPath>& without_faint(const std::vector<SoundPath>& paths,
-                                            std::vector<SoundPath>& heard);
+const std::vector<Arrival>& without_faint(const std::vector<Arrival>& paths, std::vector<Arrival>& heard);
 
 // The window of the greatest power. `paths` are sorted by delay and not empty.
-GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem);
+GuardWindow best_window(const std::vector<Arrival>& paths, const Modem& modem);
 
 // A window that the receiver may choose, with its probability, for predictions: as paths fade, one or the
 // other of two windows of similar power is the stronger. Besides the best window at most one is considered,
@@ -55,11 +54,9 @@ struct LikelyWindow {
 };
 
 // The likely windows, the best first. `paths` as for best_window().
-std::vector<LikelyWindow> likely_windows(const std::vector<SoundPath>& paths, const Modem& modem);
+std::vector<LikelyWindow> likely_windows(const std::vector<Arrival>& paths, const Modem& modem);
 
 // Mean signal power of a window, the sum of w^2 P, uPa^2.
-double mean_signal(const std::vector<SoundPath>& paths, const GuardWindow& window);
-// Mean power that the window leaves to interfere, the sum of interference shares times P, uPa^2.
-double mean_interference(const std::vector<SoundPath>& paths, const GuardWindow& window);
+double mean_signal(const std::vector<Arrival>& paths, const GuardWindow& window);
 
 }  // namespace halocline::acoustics

@@ -33,8 +33,7 @@ struct Sounding {
   double begin_s, end_s;
 };
 
-Sounding sounding(const SoundPath& path, const SoundPath& first, const SoundPath& strongest,
-                  double duration_s) {
+Sounding sounding(const Arrival& path, const Arrival& first, const Arrival& strongest, double duration_s) {
   const double begin_s = path.delay_s - first.delay_s;
   return {begin_s, begin_s + duration_s * strongest.doppler_factor / path.doppler_factor};
 }
@@ -60,9 +59,9 @@ double cycles_in(double frequency_hz, double delay_s) { return std::fmod(frequen
 // stays in the middle.
 class BandSum {
  public:
-  BandSum(const std::vector<SoundPath>& paths, const Synchronisation& sync, const Band& band)
+  BandSum(const std::vector<Arrival>& paths, const Synchronisation& sync, const Band& band)
       : places_(is_coded_frequency_shift_keying(sync.modem->error_model) ? kFrequencies : 1) {
-    const SoundPath& strongest = paths[sync.window.strongest];
+    const Arrival& strongest = paths[sync.window.strongest];
     const double spacing_hz = band.width_hz() / kFrequencies,
                  step_hz = spacing_hz / static_cast<double>(places_);
     for (std::size_t p = 0; p < paths.size(); ++p) {
@@ -93,7 +92,7 @@ class BandSum {
 //   2 w_p w_q Re(h_p h_q* sinc(width tau) exp(-j 2 pi f_c tau)).
 class BandMean {
  public:
-  BandMean(const std::vector<SoundPath>& paths, const Synchronisation& sync, const Band& band) {
+  BandMean(const std::vector<Arrival>& paths, const Synchronisation& sync, const Band& band) {
     for (std::size_t p = 0; p < paths.size(); ++p) {
       if (!(sync.window.shares[p].weight > 0)) continue;
       for (const std::size_t q : within_) {
@@ -129,7 +128,7 @@ class BandMean {
 // Appends equal stretches with their signal and echoes to the history.
 class HistoryMaker {
  public:
-  HistoryMaker(const PathResponses& fading, double large_scale, const std::vector<SoundPath>& paths,
+  HistoryMaker(const PathResponses& fading, double large_scale, const std::vector<Arrival>& paths,
                const Synchronisation& sync, const Band& band, SimTime begin, const ReceivedTiming& timing)
       : fading_(fading),
         large_scale_(large_scale),
@@ -139,11 +138,11 @@ class HistoryMaker {
         begin_(begin),
         timing_(timing),
         collects_band_(!is_frequency_shift_keying(sync.modem->error_model)),
-        sums_over_band_(collects_band_ ? std::vector<SoundPath>() : paths, sync, band),
-        mean_over_band_(collects_band_ ? paths : std::vector<SoundPath>(), sync, band),
+        sums_over_band_(collects_band_ ? std::vector<Arrival>() : paths, sync, band),
+        mean_over_band_(collects_band_ ? paths : std::vector<Arrival>(), sync, band),
         turned_(paths.size()) {
     history_.frequencies = collects_band_ ? 1 : kFrequencies;
-    for (const SoundPath& path : paths) {
+    for (const Arrival& path : paths) {
       tracked_.push_back(tracked_share(*sync.modem, path));
     }
   }
@@ -162,7 +161,7 @@ class HistoryMaker {
 
  private:
   void add_stretch(const std::vector<Complex>& responses, const FadingTimes& times, int i) {
-    const SoundPath &first = paths_[sync_.window.first], &strongest = paths_[sync_.window.strongest];
+    const Arrival &first = paths_[sync_.window.first], &strongest = paths_[sync_.window.strongest];
     const double at_s = times.begin_s + i * times.step_s;
     std::array<Complex, kFrequencies> sums{};
     double echoes = 0;
@@ -187,7 +186,7 @@ class HistoryMaker {
 
   const PathResponses& fading_;
   double large_scale_;
-  const std::vector<SoundPath>& paths_;
+  const std::vector<Arrival>& paths_;
   const Synchronisation& sync_;
   Band band_;
   SimTime begin_;
@@ -208,7 +207,7 @@ double SignalHistory::mean_signal(std::size_t stretch) const {
   return sum / static_cast<double>(frequencies);
 }
 
-double doppler_share(const Modem& receiver, const SoundPath& strongest, double centre_hz) {
+double doppler_share(const Modem& receiver, const Arrival& strongest, double centre_hz) {
   const double residual_hz =
       std::max(std::abs(strongest.doppler_factor - 1) - receiver.doppler_correction, 0.0) * centre_hz;
   if (residual_hz == 0) return 1;
@@ -217,13 +216,13 @@ double doppler_share(const Modem& receiver, const SoundPath& strongest, double c
   return squared(sinc(residual_hz * chip_s));
 }
 
-double tracked_share(const Modem& receiver, const SoundPath& path) {
+double tracked_share(const Modem& receiver, const Arrival& path) {
   return is_frequency_shift_keying(receiver.error_model)
              ? 1
              : kept_over(kTrackingTimeS, path.fading.doppler_spread_hz);
 }
 
-double coherence_time_s(const std::vector<SoundPath>& paths, const GuardWindow& window) {
+double coherence_time_s(const std::vector<Arrival>& paths, const GuardWindow& window) {
   double weight = 0, squares = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (!(window.shares[i].weight > 0)) continue;
@@ -235,15 +234,15 @@ double coherence_time_s(const std::vector<SoundPath>& paths, const GuardWindow& 
 }
 
 SignalHistory signal_history(const FadingModel& model, const FadingLink& link, double large_scale,
-                             const std::vector<SoundPath>& paths, const Synchronisation& sync,
-                             const Band& band, SimTime begin, const ReceivedTiming& timing) {
+                             const std::vector<Arrival>& paths, const Synchronisation& sync, const Band& band,
+                             SimTime begin, const ReceivedTiming& timing) {
   if (!model.enabled) return still_history(paths, sync, timing);
   return signal_history(LinkFading(model, link), large_scale, paths, sync, band, begin, timing);
 }
 
 SignalHistory signal_history(const PathResponses& fading, double large_scale,
-                             const std::vector<SoundPath>& paths, const Synchronisation& sync,
-                             const Band& band, SimTime begin, const ReceivedTiming& timing) {
+                             const std::vector<Arrival>& paths, const Synchronisation& sync, const Band& band,
+                             SimTime begin, const ReceivedTiming& timing) {
   HistoryMaker maker(fading, large_scale, paths, sync, band, begin, timing);
   const double coherence_s = coherence_time_s(paths, sync.window),
                bits_s = timing.duration_s - timing.preamble_s;
@@ -265,9 +264,9 @@ SignalHistory shifted_history(SignalHistory history, double share) {
   return history;
 }
 
-SignalHistory still_history(const std::vector<SoundPath>& paths, const Synchronisation& sync,
+SignalHistory still_history(const std::vector<Arrival>& paths, const Synchronisation& sync,
                             const ReceivedTiming& timing) {
-  const SoundPath &first = paths[sync.window.first], &strongest = paths[sync.window.strongest];
+  const Arrival &first = paths[sync.window.first], &strongest = paths[sync.window.strongest];
   SignalHistory history;
   history.edges_s = {0, timing.preamble_s, timing.duration_s};
   struct Echo {

@@ -26,10 +26,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/path_responses.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/reception/guard_window.h"
@@ -66,25 +66,25 @@ struct Synchronisation {
 // History of a packet of the given `band` that begins at `begin` in the window. `large_scale` is 10^(X/20), X
 // the large-scale fading of the link in dB.
 SignalHistory signal_history(const PathResponses& fading, double large_scale,
-                             const std::vector<SoundPath>& paths, const Synchronisation& sync,
-                             const Band& band, SimTime begin, const ReceivedTiming& timing);
+                             const std::vector<Arrival>& paths, const Synchronisation& sync, const Band& band,
+                             SimTime begin, const ReceivedTiming& timing);
 // Generates the responses from the fading model; without fading when the model is not enabled.
 SignalHistory signal_history(const FadingModel& model, const FadingLink& link, double large_scale,
-                             const std::vector<SoundPath>& paths, const Synchronisation& sync,
-                             const Band& band, SimTime begin, const ReceivedTiming& timing);
+                             const std::vector<Arrival>& paths, const Synchronisation& sync, const Band& band,
+                             SimTime begin, const ReceivedTiming& timing);
 // The history after an uncorrected Doppler shift that leaves `share` of the signal (doppler_share()): the
 // rest interferes.
 SignalHistory shifted_history(SignalHistory history, double share);
 // The history of a packet when nothing fades.
-SignalHistory still_history(const std::vector<SoundPath>& paths, const Synchronisation& sync,
+SignalHistory still_history(const std::vector<Arrival>& paths, const Synchronisation& sync,
                             const ReceivedTiming& timing);
 
 // Share of the signal that remains after a Doppler shift which the receiver does not correct, 0..1.
-double doppler_share(const Modem& receiver, const SoundPath& strongest, double centre_hz);
+double doppler_share(const Modem& receiver, const Arrival& strongest, double centre_hz);
 // Share of a path's power that the receiver tracks as it fades: rho, 0..1.
-double tracked_share(const Modem& receiver, const SoundPath& path);
+double tracked_share(const Modem& receiver, const Arrival& path);
 
 // Coherence time of the signal in the window from the Doppler spread of its paths, rms weighted by power, s.
-double coherence_time_s(const std::vector<SoundPath>& paths, const GuardWindow& window);
+double coherence_time_s(const std::vector<Arrival>& paths, const GuardWindow& window);
 
 }  // namespace halocline::acoustics

@@ -168,10 +168,6 @@ double loss_parameter_from_attenuation(double db_per_wavelength) {
   return db_per_wavelength / kDecibelsPerLossParameter;
 }
 
-double attenuation_from_loss_parameter(double loss_parameter) {
-  return loss_parameter * kDecibelsPerLossParameter;
-}
-
 std::optional<FluidBottom> sediment(std::string_view name) {
   for (const NamedSediment& row : kSediments) {
     if (row.name == name)

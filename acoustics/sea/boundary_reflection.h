@@ -47,9 +47,8 @@ void validate(const FluidBottom& bottom);
 // A bottom of a density ratio, a speed and an attenuation in dB per wavelength (0..54), with a complex speed.
 FluidBottom fluid_bottom(double density_ratio, double sound_speed_mps, double attenuation_db_per_wavelength);
 
-// The loss parameter delta for an attenuation in dB per wavelength, and the inverse.
+// The loss parameter delta for an attenuation in dB per wavelength.
 double loss_parameter_from_attenuation(double db_per_wavelength);
-double attenuation_from_loss_parameter(double loss_parameter);
 
 // A sediment of APL-UW TR 9407 by its name there without spaces ("MediumSand"); empty when unknown.
 std::optional<FluidBottom> sediment(std::string_view name);

@@ -147,10 +147,6 @@ double ReliefFormula::operator()(double x_m, double y_m) const {
   return sum;
 }
 
-double relief_at(const FractalRelief& relief, double x_m, double y_m) {
-  return ReliefFormula(relief, 0)(x_m, y_m);
-}
-
 void add_relief(const FractalRelief& relief, HeightGrid& grid) {
   require_possible(relief);
   std::vector<double> sum(grid.posts().size(), 0.0);

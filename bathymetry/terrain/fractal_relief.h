@@ -38,12 +38,8 @@ struct ReliefOctave {
   double shift_x_m = 0, shift_y_m = 0;
 };
 
-// Returns the relief to add to z at (x, y), m, local NED, for coordinates below 1e6 wavelengths. Slow: for
-// single points.
-double relief_at(const FractalRelief& relief, double x_m, double y_m);
-
-// Relief at the posts of grids of one spacing, wherever they lie: equal to the last bit to what add_relief()
-// adds. Throws as add_relief() does.
+// Relief to add to z, m, at the posts of grids of one spacing, wherever they lie: equal to the last bit to
+// what add_relief() adds. Coordinates, local NED, are below 1e6 wavelengths. Throws as add_relief() does.
 class ReliefFormula {
  public:
   ReliefFormula(const FractalRelief& relief, double spacing_m);

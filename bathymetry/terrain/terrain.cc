@@ -110,11 +110,6 @@ const Terrain::Patch& Terrain::finest_patch(const Patch& from, double x_m, doubl
   return from;
 }
 
-int Terrain::grid_index_at(double x_m, double y_m) const {
-  if (!patches_.front().grid.locate(x_m, y_m)) return -1;
-  return static_cast<int>(&finest_patch(patches_.front(), x_m, y_m) - patches_.data());
-}
-
 DepthSample Terrain::sample(const Patch& patch, double x_m, double y_m) const {
   const double spacing = patch.grid.geometry().spacing_m;
   const auto sampled = [&](const BilinearCell& cell, const CellPosition& at) -> DepthSample {
@@ -341,16 +336,6 @@ std::vector<RayHit> Terrain::closest_hits(std::span<const Ray> rays, VectorUnit 
     trace_some(rays, std::span(order).subspan(first, count), unit, hits);
   }
   return hits;
-}
-
-RayHit Terrain::occluded(const Vec3& from_ned_m, const Vec3& to_ned_m, double skin_m) const {
-  const Vec3 along = to_ned_m - from_ned_m;
-  const double length = along.norm();
-  if (!std::isfinite(length) || !(skin_m >= 0)) return ended(RayStatus::kBadInput);
-  if (length <= 2 * skin_m || length == 0) return ended(RayStatus::kMiss, length);
-  RayHit hit = closest_hit({from_ned_m + along * (skin_m / length), along, length - 2 * skin_m});
-  hit.range_m = hit.status == RayStatus::kMiss ? length : hit.range_m + skin_m;
-  return hit;
 }
 
 }  // namespace halocline::bathymetry

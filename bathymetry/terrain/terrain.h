@@ -106,9 +106,6 @@ class Terrain {
   // a position that is not finite.
   std::optional<HeldDepth> held_depth_at(double x_m, double y_m) const;
 
-  // Returns the surface over the cell that contains a point beyond the base grid, and the point's position in
-  // it; empty where the terrain ends at its edge.
-  std::optional<std::pair<BilinearCell, CellPosition>> cell_beyond(double x_m, double y_m) const;
   bool is_endless() const { return beyond_.has_value(); }
 
   // Returns where the ray first meets the bottom. A ray that starts exactly on the bottom hits at range 0.
@@ -119,19 +116,11 @@ class Terrain {
   // hundred rays on.
   std::vector<RayHit> closest_hits(std::span<const Ray> rays, VectorUnit unit = widest_vector_unit()) const;
 
-  // Tests whether the bottom lies between two points: `hit` is blocked (range from `from`), `miss` is free,
-  // other statuses as above. The first and last `skin_m` (0 or more) of the segment are skipped, for ends
-  // that lie on the bottom.
-  RayHit occluded(const Vec3& from_ned_m, const Vec3& to_ned_m, double skin_m) const;
-
   // Geometry of the base grid: the rectangle between its first and last post, which maps show.
   const GridGeometry& extent() const { return patches_.front().grid.geometry(); }
   // Grids after blending, base first.
   std::size_t grid_count() const { return patches_.size(); }
   const HeightGrid& grid(std::size_t index) const { return patches_[index].grid; }
-
-  // Returns the index of the finest grid over (x, y); -1 outside.
-  int grid_index_at(double x_m, double y_m) const;
 
   // Hash of the content (geometry and posts, bit by bit): equal terrains have equal versions in every
   // process.
@@ -160,6 +149,9 @@ class Terrain {
   std::size_t patch_around(const GridGeometry& geometry, std::size_t number) const;
   const Patch& finest_patch(const Patch& from, double x_m, double y_m) const;
   const float* shallowest_around(const Vec3& point_ned_m) const;
+  // Returns the surface over the cell that contains a point beyond the base grid, and the point's position in
+  // it; empty where the terrain ends at its edge.
+  std::optional<std::pair<BilinearCell, CellPosition>> cell_beyond(double x_m, double y_m) const;
   DepthSample sample(const Patch& patch, double x_m, double y_m) const;
   Departure depart(const Ray& ray) const;
   void append_segments(const Patch& patch, const Ray& unit_ray, Interval interval,

@@ -12,9 +12,9 @@
 #include <benchmark/benchmark.h>
 
 #include "acoustics/link/energy_flux.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/extrapolate_arrivals.h"
+#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/extrapolate_eigenrays.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"
@@ -70,7 +70,7 @@ void cold(benchmark::State& state) {
   std::size_t paths = 0;
   for (auto _ : state) {
     at.link.range_m += 1e-6;
-    paths = arrivals(at.sea, at.link).paths.size();
+    paths = eigenrays(at.sea, at.link).paths.size();
     benchmark::DoNotOptimize(paths);
   }
   state.SetLabel(kNames[which]);
@@ -99,7 +99,7 @@ void rough_bottoms(benchmark::State& state) {
     paths = 0;
     for (Situation& at : all) {
       at.link.range_m += 1e-6;
-      paths += arrivals(at.sea, at.link).paths.size();
+      paths += eigenrays(at.sea, at.link).paths.size();
     }
     benchmark::DoNotOptimize(paths);
   }
@@ -117,7 +117,7 @@ void flux_only_link(benchmark::State& state) {
   for (auto _ : state) {
     for (Situation& at : all) {
       at.link.range_m += 1e-6;
-      benchmark::DoNotOptimize(energy_flux_arrivals(
+      benchmark::DoNotOptimize(energy_flux_eigenrays(
           {at.sea.water, 150, at.sea.bottom, at.sea.surface, at.sea.options, 0.003}, at.link));
     }
   }
@@ -128,13 +128,13 @@ BENCHMARK(flux_only_link)->ArgName("range_m")->Arg(3000)->Arg(6000)->Unit(benchm
 // To first order, as the channel server does within a cell. Items are paths.
 void extrapolate(benchmark::State& state) {
   const Situation at = situation(2);
-  const std::vector<Arrival> before = arrivals(at.sea, at.link).paths;
+  const std::vector<Eigenray> before = eigenrays(at.sea, at.link).paths;
   const EndSpeeds speeds{at.sea.water.speed_at(at.link.source_depth_m),
                          at.sea.water.speed_at(at.link.receiver_depth_m)};
   RayLink moved = at.link;
   for (auto _ : state) {
     moved.range_m += 1e-3;
-    benchmark::DoNotOptimize(extrapolate_arrivals(before, at.link, speeds, moved));
+    benchmark::DoNotOptimize(extrapolate_eigenrays(before, at.link, speeds, moved));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(before.size()));
 }

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Profiles, pyramid and loading on 4096 x 4096 posts of rugged bottom, 10 m apart, about 300 m deep (rays:
-// terrain_rays_bench). Targets: a profile sample 12 ns, a 4096 x 4096 GeoTIFF with its pyramid 0.2 s.
-#include <cmath>
-#include <cstdint>
-#include <mutex>
+// Pyramid and loading of 4096 x 4096 posts of rugged bottom, 10 m apart, about 300 m deep (rays:
+// terrain_rays_bench). Target: a 4096 x 4096 GeoTIFF with its pyramid 0.2 s.
 #include <utility>
-#include <vector>
 
 #include <benchmark/benchmark.h>
 #include <cpl_vsi.h>
@@ -13,11 +9,9 @@
 
 #include "bathymetry/rasters/raster_loader.h"
 #include "bathymetry/terrain/height_grid.h"
-#include "bathymetry/terrain/profile.h"
 #include "bathymetry/terrain/shallowest_pyramid.h"
 #include "bathymetry/terrain/terrain.h"
 #include "core/huge_page_vector.h"
-#include "core/random.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 
 namespace halocline::bathymetry {
@@ -30,29 +24,6 @@ const Terrain& rugged_terrain() {
   static const Terrain terrain(testing::rugged_grid(kPosts));
   return terrain;
 }
-
-// Lines of 10 km, a sample every 10 m.
-void sample_profile(benchmark::State& state) {
-  constexpr std::size_t kSamples = 1001;
-  const Terrain& terrain = rugged_terrain();  // made before the clock runs
-  std::uint64_t n = 0;
-  for (auto _ : state) {
-    const double x = kExtentM * 0.5 * uniform_at({.seed = 2, .which = n}),
-                 y = 0.3 * kExtentM + 10 * static_cast<double>(n % 100);
-    benchmark::DoNotOptimize(uniform_profile(terrain, {x, y}, {x + 6000, y + 8000}, kSamples));
-    ++n;
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kSamples));
-}
-BENCHMARK(sample_profile);
-
-void exact_profile_of_10_km(benchmark::State& state) {
-  const Terrain& terrain = rugged_terrain();
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(exact_profile(terrain, {5000, 5000}, {11'000, 13'000}));
-  }
-}
-BENCHMARK(exact_profile_of_10_km)->Unit(benchmark::kMicrosecond);
 
 void build_pyramid(benchmark::State& state) {
   const HeightGrid& grid = rugged_terrain().grid(0);

@@ -27,6 +27,7 @@
 #include "bus/transport/transport.h"
 #include "core/random.h"
 #include "core/sim_time.h"
+#include "tests/bathymetry/ray_queries.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 
 namespace halocline::bathymetry {

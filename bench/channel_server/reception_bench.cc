@@ -6,12 +6,13 @@
 
 #include <benchmark/benchmark.h>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/path_fading.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/modem/packet_format.h"
 #include "acoustics/prediction/link_prediction.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
 #include "channel_server/modems/modem_config.h"
@@ -22,19 +23,18 @@
 namespace halocline::channel_server {
 namespace {
 
-using acoustics::SoundPath;
+using acoustics::Arrival;
 
 constexpr acoustics::FadingModel kSea{.enabled = true};
 constexpr double kNoise = 1e7;
 
 // Paths as a shallow sea has them: 0.7 ms apart, each 1 dB weaker, steeper and rougher.
-std::vector<SoundPath> paths_of(std::int64_t count, double frequency_hz) {
-  std::vector<SoundPath> paths;
+std::vector<Arrival> paths_of(std::int64_t count, double frequency_hz) {
+  std::vector<Arrival> paths;
   for (std::int64_t i = 0; i < count; ++i) {
     const double n = static_cast<double>(i);
-    SoundPath path{
-        .delay_s = 0.7 + 0.0007 * n, .level = {100 - n}, .identity = static_cast<std::uint64_t>(i)};
-    path.launch_angle_rad = 0.02 * n;
+    Arrival path{{.delay_s = 0.7 + 0.0007 * n, .launch_angle_rad = 0.02 * n}, {100 - n}};
+    path.identity = acoustics::PathIdentity::of_number(static_cast<std::uint64_t>(i));
     path.fading = path_fading(kSea, 5, frequency_hz, 0.0004 * n * n, 0.0002 * n * n);
     paths.push_back(path);
   }

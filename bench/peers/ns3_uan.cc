@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
   nodes.Create(static_cast<std::uint32_t>(count));
   ns3::MobilityHelper mobility;
   auto places = ns3::CreateObject<ns3::ListPositionAllocator>();
-  for (int i = 1; i <= count; ++i)  // as in scripts/fleet/scenario.py
+  for (int i = 1; i <= count; ++i)  // as in studies/fleet/scenario.py
     places->Add(ns3::Vector(kSideM * ((i * 733) % 1000) / 1000, kSideM * ((i * 389) % 1000) / 1000,
                             30 + (i * 17) % 80));
   mobility.SetPositionAllocator(places);

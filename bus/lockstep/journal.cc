@@ -24,7 +24,6 @@ JournalContents read_journal(const std::string& path) {
           "the journal " + path + " is damaged: " + std::to_string(read.bytes_damaged) +
               " bytes before its last entry are none, and the run cannot be continued from it");
   contents.bytes_cut_off = read.bytes_cut;
-  contents.bits_mended = read.bits_mended;
   for (bus::JournalFile::Record& record : read.records)
     contents.entries.push_back({static_cast<EntryKind>(record.kind), std::move(record.body)});
   return contents;

@@ -25,12 +25,12 @@ struct JournalEntry {
 };
 
 // Returns all complete entries of the file, oldest first; empty if there is no file. Bytes after the last
-// complete entry are cut off the file, and one flipped bit of an entry is corrected; both are counted. Throws
-// InvalidArgument for a file with other damage, because the entries after it would not continue the run, for
-// a file of another kind, and for one that another process uses.
+// complete entry are cut off the file and counted. Throws InvalidArgument for a file with damage before that
+// entry, because the entries after the damage would not continue the run, for a file of another kind, and for
+// one that another process uses.
 struct JournalContents {
   std::vector<JournalEntry> entries;
-  std::size_t bytes_cut_off = 0, bits_mended = 0;
+  std::size_t bytes_cut_off = 0;
 };
 JournalContents read_journal(const std::string& path);
 

@@ -38,7 +38,6 @@ class RetransmissionTimer {
   }
   // Time at which to send the request again; never() while no answer is outstanding.
   SimTime expires_at() const { return expires_at_; }
-  int times_sent() const { return times_sent_; }
 
  private:
   SimDuration timeout() const { return known_ ? std::clamp(mean_ + deviation_ * 4, kMin, kMax) : kAtFirst; }

@@ -33,10 +33,8 @@ void CrashJournal::open(Rule rule) {
   kept_ = rule.kept;
   journal_ = std::make_unique<MessageJournal>(
       MessageJournal::Rule{rule.path, rule.kept, rule.keep_last, rule.keep_all, rule.digest});
-  const std::size_t bytes = journal_->bytes_damaged(), bits = journal_->bits_mended();
-  if (bytes > 0 || bits > 0)
-    bus_.log().warning("journal-damaged", "file=" + rule.path + " bytes_left_out=" + std::to_string(bytes) +
-                                              " bits_mended=" + std::to_string(bits));
+  if (const std::size_t bytes = journal_->bytes_damaged(); bytes > 0)
+    bus_.log().warning("journal-damaged", "file=" + rule.path + " bytes_left_out=" + std::to_string(bytes));
   if (journal_->is_of_another_run())
     bus_.log().warning("journal-of-another-run",
                        "file=" + rule.path + " reason=\"another scenario, share or version\"");

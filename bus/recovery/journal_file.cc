@@ -61,22 +61,6 @@ std::size_t next_whole(View bytes) {
   return at;
 }
 
-// Tries to make the first `size` bytes a complete record by flipping one bit; returns true, with the bit
-// flipped, if this succeeds. The probability that a wrong bit fits the 64-bit check sum is 8 size / 2^64.
-bool mend(std::span<std::uint8_t> bytes, std::size_t size) {
-  constexpr std::size_t kLargest = 65'536;  // 2^19 check sums of this size take seconds
-  if (size > kLargest) return false;
-  for (std::size_t bit = 0; bit < 8 * size; ++bit) {
-    std::uint8_t& byte = bytes[bit / 8];
-    const auto mask = static_cast<std::uint8_t>(1u << bit % 8);
-    byte ^= mask;
-    const auto record = whole_record(bytes.first(size));
-    if (record && record->size() == size) return true;
-    byte ^= mask;
-  }
-  return false;
-}
-
 bool lock(int file) {
   struct flock all {};
   all.l_type = F_WRLCK;
@@ -156,18 +140,12 @@ JournalFile::~JournalFile() { close(file_); }
 
 JournalFile::Contents JournalFile::read() {
   Contents contents;
-  std::vector<std::uint8_t> bytes = content_of(file_);
-  const std::span all(bytes);
+  const std::vector<std::uint8_t> bytes = content_of(file_);
+  const View all(bytes);
   std::size_t end = std::min(kJournalHeaderBytes, bytes.size());
   while (true) {
     end += take_whole(all.subspan(end), contents.records);
     const std::size_t damaged = next_whole(all.subspan(end));
-    if (damaged == 0) break;
-    if (mend(all.subspan(end), damaged)) {
-      ++contents.bits_mended;
-      [[maybe_unused]] const ssize_t kept = pwrite(file_, &bytes[end], damaged, static_cast<off_t>(end));
-      continue;
-    }
     if (end + damaged == bytes.size()) break;
     contents.bytes_damaged += damaged;
     end += damaged;

@@ -4,8 +4,8 @@
 // A header of 16 bytes names the kind of journal. Each record consists of a sync word, kind, length, a check
 // sum (XXH3) over these and the body, and the body. Appended records are handed to the kernel before append()
 // returns, all of them or none; nothing is forced to the disk. A record that a kill cut off at the end is
-// ignored. One flipped bit of a record is detected by its check sum and corrected. A record with other damage
-// is left out, and the records after it are found by their sync word.
+// ignored. A record whose check sum does not fit is left out, and the records after it are found by their
+// sync word.
 //
 // A file that is neither empty nor of this kind is left unchanged, and so is one that another process has
 // open (POSIX record lock).
@@ -42,7 +42,6 @@ class JournalFile {
   };
   struct Contents {
     std::vector<Record> records;
-    std::size_t bits_mended = 0;    // flipped bits, corrected in the file, too
     std::size_t bytes_damaged = 0;  // between complete records
     std::size_t bytes_cut = 0;      // after the last complete record
   };

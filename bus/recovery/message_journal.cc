@@ -64,7 +64,6 @@ std::int64_t session_of(const JournalledMessage& input) {
 void MessageJournal::read(JournalFile& file) {
   const JournalFile::Contents contents = file.read();
   bytes_damaged_ += contents.bytes_damaged + contents.bytes_cut;
-  bits_mended_ += contents.bits_mended;
   std::uint64_t digest = 0;
   for (const JournalFile::Record& record : contents.records) {
     auto entry = to_entry(record);

@@ -6,9 +6,8 @@
 // The file consists of records (bus/recovery/journal_file.h). Entries are handed to the kernel before
 // anything that depends on them is published, so a killed process loses nothing that another node has acted
 // upon; a machine that loses power may (nothing is forced to the disk). An entry that a kill cut off at the
-// end is ignored, and so is one with a changed bit that cannot be corrected. When the disk refuses an entry,
-// or another process deleted or truncated the file, the journal is abandoned and removed, and the node
-// continues without one.
+// end is ignored, and so is one whose bytes changed. When the disk refuses an entry, or another process
+// deleted or truncated the file, the journal is abandoned and removed, and the node continues without one.
 //
 // The size is bounded. Once a file spans `kept` of simulation time, it is renamed to `path`.1 (replacing the
 // previous one), and a new file begins with the entries that are carried over: the last input of each flow of
@@ -70,10 +69,8 @@ class MessageJournal {
   bool is_of_another_run() const { return is_of_another_run_; }
   // True when the last input of each flow of the channel is kept.
   bool keeps_last(std::string_view channel) const;
-  // Bytes in the earlier incarnation's files that were no complete entry, and flipped bits that were
-  // corrected (journal_file.h).
+  // Bytes in the earlier incarnation's files that were no complete entry.
   std::size_t bytes_damaged() const { return bytes_damaged_; }
-  std::size_t bits_mended() const { return bits_mended_; }
   // True when the disk refused an entry; nothing more is written.
   bool is_given_up() const { return file_ == nullptr; }
 
@@ -97,7 +94,7 @@ class MessageJournal {
 
   Rule rule_;
   std::unique_ptr<JournalFile> file_;
-  std::size_t bytes_damaged_ = 0, bits_mended_ = 0;
+  std::size_t bytes_damaged_ = 0;
   bool is_of_another_run_ = false;
   SimTime file_begins_ = SimTime::never();
   std::optional<SimTime> idle_step_;

@@ -65,7 +65,6 @@ class FlowHistory {
   // message, then those that have been silent for longest.
   std::vector<Flow> take_listing();
   std::size_t num_flows() const { return flows_.size(); }
-  std::size_t num_messages() const { return messages_.size(); }
 
   // Total number of messages published so far.
   std::uint64_t published() const { return published_; }

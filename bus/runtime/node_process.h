@@ -86,6 +86,17 @@ inline constexpr int kExitConfiguration = 2, kExitNetwork = 69;
 // Parses the command line, runs the node until a signal, and returns the exit code. Never throws.
 [[nodiscard]] int run_node_program(int argc, char** argv, const NodeProgram& program);
 
+// Runs a program whose node is made of its configuration alone: fills in visit_config and make_node.
+template <class Config, class ConfiguredNode>
+[[nodiscard]] int run_node_program(int argc, char** argv, NodeProgram program) {
+  Config config;
+  program.visit_config = [&](ConfigVisitor& v) { visit(v, config); };
+  program.make_node = [&](const NodeProgram::Context& context) {
+    return std::make_unique<ConfiguredNode>(context.lcm, context.identity, config);
+  };
+  return run_node_program(argc, argv, program);
+}
+
 // Loop of a node. A node that is far behind the time steps by slices of simulation time, each of which takes
 // about a tenth of a second to compute. `should_stop` is called at least every 0.1 s. The conductor has a
 // TimeSource of its own. `filter` is attached to `lcm`, which then receives nothing else; null: none.

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/fading_bounds.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/prediction/link_prediction.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/signal_history.h"
@@ -40,8 +40,7 @@ Modem of_packets(const Modem& modem) {
 }
 
 // True when channel_server/packets rejects the packet before its preamble.
-bool is_impossible(const Modem& receiver, const Reception& reception, const SoundPath& strongest,
-                   bool fades) {
+bool is_impossible(const Modem& receiver, const Reception& reception, const Arrival& strongest, bool fades) {
   return !reception.budget.receivable ||
          (!fades && std::abs(strongest.doppler_factor - 1) > receiver.doppler_tolerance);
 }
@@ -111,8 +110,8 @@ double LinkPredictor::least_sinr_db(const Modem& transmitter) { return entry_of(
 LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitter, const Modem& receiver,
                                      const Reception& reception) const {
   if (reception.paths.empty()) return {};
-  std::vector<SoundPath> heard;
-  const std::vector<SoundPath>& paths = without_faint(reception.paths, heard);
+  std::vector<Arrival> heard;
+  const std::vector<Arrival>& paths = without_faint(reception.paths, heard);
   const std::vector<acoustics::LikelyWindow> windows = likely_windows(paths, receiver);
   const acoustics::GuardWindow& window = windows.front().window;
   const Decibels noise =

@@ -6,7 +6,7 @@
 
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/links/waiting_queries.h"
 #include "core/check.h"
@@ -208,9 +208,9 @@ void LinkQueryService::add_details(Waiting& waiting) {
   if (ends == waiting.ends.end() || waiting.reply.answers[0].status != LinkAnswer::Status::kAnswered) return;
   const auto& [from, to] = ends->second;
   LinkDetails details{from.modem.modem.source_level, to.modem.modem.directivity_index, {}, {}};
-  details.tracks = propagation_.tracks(waiting.reply.at, link_end(from.placed()), link_end(to.placed()));
-  double deepest_m = std::max(details.tracks.link.source_depth_m, details.tracks.link.receiver_depth_m);
-  for (const acoustics::RayPoint& point : details.tracks.seabed)
+  details.chart = propagation_.chart(waiting.reply.at, link_end(from.placed()), link_end(to.placed()));
+  double deepest_m = std::max(details.chart.link.source_depth_m, details.chart.link.receiver_depth_m);
+  for (const acoustics::RayPoint& point : details.chart.seabed)
     deepest_m = std::max(deepest_m, point.depth_m);
   const Vec3& place = from.placed().placement.position_ned_m;
   details.water = column_of(

@@ -23,7 +23,7 @@
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/receiver_noise.h"
-#include "channel_server/propagation/link_tracks.h"
+#include "channel_server/propagation/link_chart.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
@@ -49,7 +49,7 @@ struct LinkQuery {
   std::int64_t request_id = 0;
   // Equally long: link i is from transmitter i to receiver i.
   std::vector<LinkEndRequest> transmitters, receivers;
-  bool wants_paths = false;  // asks for ray tracks; only allowed with one link
+  bool wants_paths = false;  // asks for the chart; only allowed with one link
 };
 
 // The answer for one link: its row, or why it has none.
@@ -60,10 +60,10 @@ struct LinkAnswer {
   LinkRow row;          // valid when answered
 };
 
-// The ray tracks of one link, with the levels and the sound speed needed to draw them.
+// The chart of one link, with the levels and the sound speed needed to draw them.
 struct LinkDetails {
   Decibels source_level, directivity_index;  // the transmitter's and the receiver's
-  LinkTracks tracks;
+  LinkChart chart;
   std::vector<acoustics::SpeedRow> water;  // sound speed by depth, down to the seabed or the deeper end
 };
 

@@ -5,13 +5,13 @@
 #include <memory>
 #include <utility>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 #include "core/frames.h"
 
 namespace halocline::channel_server {
 Multipath multipath_of(const Reception& reception, Decibels cutoff) {
   if (!is_along_rays(reception.used)) return reception.bottom_echo;
-  const bool echoes = std::any_of(reception.paths.begin(), reception.paths.end(), [&](const SoundPath& path) {
+  const bool echoes = std::any_of(reception.paths.begin(), reception.paths.end(), [&](const Arrival& path) {
     return path.bottom_bounces > 0 && path.level > cutoff;
   });
   return echoes ? Multipath::kLikely : Multipath::kUnlikely;

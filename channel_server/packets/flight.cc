@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/measured_fading.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/reception/signal_history.h"
@@ -68,7 +68,7 @@ void evaluate(Flight& flight, const LinkEnd& end, Reception reception, const aco
 double shift_s(const Flight& flight) { return flight.travel_time_s - flight.solved_delay_s; }
 
 // Returns when a path of the reception begins to sound at the receiver.
-SimTime begin_of(const Flight& flight, const SoundPath& path) {
+SimTime begin_of(const Flight& flight, const Arrival& path) {
   return flight.packet->departure + SimDuration::from_seconds(path.delay_s + shift_s(flight));
 }
 
@@ -167,7 +167,7 @@ bool try_to_solve(Flight& flight, SimTime decided_at, const VehicleRegistry& fle
 AudiblePacket audible_packet(const Flight& flight) {
   AudiblePacket audible{flight.packet, flight.signal.begin, flight.signal.end, {}};
   audible.paths.reserve(flight.reception.paths.size());
-  for (const SoundPath& path : flight.reception.paths) {
+  for (const Arrival& path : flight.reception.paths) {
     const SimTime begin = begin_of(flight, path);
     const SimTime end = begin + shrunk(flight.packet->timing.duration, path.doppler_factor);
     audible.paths.push_back(

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "acoustics/link/link_kernel.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/environment_timeline.h"
@@ -42,7 +42,7 @@ namespace halocline::channel_server {
 
 class LinkSearches {
  public:
-  using Paths = std::shared_ptr<const FoundPaths>;
+  using Paths = std::shared_ptr<const SearchResult>;
   // Simulation time for which an unused result is kept, and at most twice that. Vehicles that lie still or
   // soon pass a cell again reuse it, and memory is bounded by four minutes of results however long the run.
   static constexpr SimDuration kKept = SimDuration::from_milliseconds(120'000);

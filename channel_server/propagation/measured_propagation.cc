@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/measured_fading.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/math/frequency_band.h"
@@ -74,7 +74,10 @@ Reception MeasuredPropagation::measured(SimTime at, const LinkEnd& from, const L
     const Decibels gain = to_decibels(PowerRatio{reception.measured->power()});
     set_level(at, from, to, from.modem->source_level + gain, capacity, reception);
   }
-  const SoundPath reference = reception.paths[first_significant(reception.paths)];
+  Arrival reference = reception.paths[first_significant(reception.paths)];
+  reference.path_length_m = reception.budget.range_m;
+  reference.absorption_db = reception.budget.absorption_db_per_km * reception.budget.range_m / 1000;
+  reference.caustics = 0;
   reception.paths = measured_paths(*reception.measured, reference, reception.budget.received_level);
   reception.delay_spread_s = delay_spread_s(reception.paths);
   return reception;

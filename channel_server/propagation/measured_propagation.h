@@ -23,7 +23,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/link_tracks.h"
+#include "channel_server/propagation/link_chart.h"
 #include "channel_server/propagation/path_exchange.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_profile.h"
@@ -81,9 +81,8 @@ class MeasuredPropagation : public Propagation {
   bool uses_bottom() const override { return model_->uses_bottom(); }
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed) override;
-  LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
-    return reception(at, from, to).measured ? Propagation::tracks(at, from, to)
-                                            : model_->tracks(at, from, to);
+  LinkChart chart(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    return reception(at, from, to).measured ? Propagation::chart(at, from, to) : model_->chart(at, from, to);
   }
   // A record's level holds at every range, so levels have no bound by range.
   std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,

@@ -35,9 +35,9 @@ class PathExchange {
   // Notes that a link table needs the paths between the vehicles from the server that searches for them.
   virtual void await(VehicleId a, VehicleId b) = 0;
   // Returns the received paths of a query; null when none have arrived.
-  virtual std::shared_ptr<const FoundPaths> received(const SharedQuery& query) = 0;
+  virtual std::shared_ptr<const SearchResult> received(const SharedQuery& query) = 0;
   // Sends the paths of a query to the other end's server.
-  virtual void found(const SharedQuery& query, const FoundPaths& paths) = 0;
+  virtual void found(const SharedQuery& query, const SearchResult& paths) = 0;
 };
 
 }  // namespace halocline::channel_server

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acoustics/rays/extrapolate_arrivals.h"
+#include "acoustics/rays/extrapolate_eigenrays.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -56,16 +56,17 @@ PathQuery query_of_cell(PathQuery query, const acoustics::RayWater& water, doubl
   return query;
 }
 
-std::optional<acoustics::Arrivals> reused_arrivals(const acoustics::RayLink& link, const PathQuery& searched,
-                                                   const acoustics::RayWater& water,
-                                                   const acoustics::Environment& environment,
-                                                   const acoustics::Arrivals& found) {
+std::optional<acoustics::Eigenrays> reused_eigenrays(const acoustics::RayLink& link,
+                                                     const PathQuery& searched,
+                                                     const acoustics::RayWater& water,
+                                                     const acoustics::Environment& environment,
+                                                     const acoustics::Eigenrays& found) {
   const acoustics::RayLink& from = searched.link;
   const bool itself = from.range_m == link.range_m && from.source_depth_m == link.source_depth_m &&
                       from.receiver_depth_m == link.receiver_depth_m;
   if (itself) return std::nullopt;
   const acoustics::EndSpeeds speeds = end_speeds(water, environment, searched);
-  return acoustics::Arrivals{found.solver, extrapolate_arrivals(found.paths, from, speeds, link)};
+  return acoustics::Eigenrays{found.solver, extrapolate_eigenrays(found.paths, from, speeds, link)};
 }
 
 }  // namespace halocline::channel_server

@@ -17,7 +17,7 @@
 // link alone, whatever was searched before. With a limited number of searches a tick a link keeps an older
 // query (search_scheduler.h). Phasors are never reused: a phase changes within centimetres.
 //
-// How. acoustics/rays/extrapolate_arrivals.h extrapolates the arrivals of the searched link to the ends of
+// How. acoustics/rays/extrapolate_eigenrays.h extrapolates the eigenrays of the searched link to the ends of
 // the link itself.
 //
 // Pure functions: calls may overlap between threads.
@@ -25,7 +25,7 @@
 
 #include <optional>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/path_search.h"
@@ -45,11 +45,12 @@ std::optional<acoustics::RayLink> middle_of_cell(const acoustics::RayLink& link,
 // Returns the query that is searched in place of `query`, the exact query of a link in `water`.
 PathQuery query_of_cell(PathQuery query, const acoustics::RayWater& water, double distance_m);
 
-// Returns the arrivals of `link` from those `found` for the searched query in its water; empty when `link` is
-// the searched link.
-std::optional<acoustics::Arrivals> reused_arrivals(const acoustics::RayLink& link, const PathQuery& searched,
-                                                   const acoustics::RayWater& water,
-                                                   const acoustics::Environment& environment,
-                                                   const acoustics::Arrivals& found);
+// Returns the eigenrays of `link` from those `found` for the searched query in its water; empty when `link`
+// is the searched link.
+std::optional<acoustics::Eigenrays> reused_eigenrays(const acoustics::RayLink& link,
+                                                     const PathQuery& searched,
+                                                     const acoustics::RayWater& water,
+                                                     const acoustics::Environment& environment,
+                                                     const acoustics::Eigenrays& found);
 
 }  // namespace halocline::channel_server

@@ -9,7 +9,7 @@
 #include "acoustics/link/energy_flux.h"
 #include "acoustics/rays/bearings/range_fan.h"
 #include "acoustics/rays/depth_fan.h"
-#include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "core/check.h"
 #include "core/hash.h"
 
@@ -30,14 +30,14 @@ acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environ
   return {model.surface, environment.noise.wind_mps};
 }
 
-std::shared_ptr<const FoundPaths> found_paths(const RayModel& model, const PathSea& along,
-                                              const PathQuery& query, const SeabedProfile& seabed,
-                                              acoustics::SharedRays* shared) {
-  auto found = std::make_shared<FoundPaths>();
+std::shared_ptr<const SearchResult> result_over(const RayModel& model, const PathSea& along,
+                                                const PathQuery& query, const SeabedProfile& seabed,
+                                                acoustics::SharedRays* shared) {
+  auto found = std::make_shared<SearchResult>();
   found->given = query.given;
   found->mean_depth_m = along.mean_depth_m;
-  found->arrivals =
-      arrivals(along.sea, query.link, usable_solver(model.solver, along.sea, query.link), shared);
+  found->eigenrays =
+      eigenrays(along.sea, query.link, usable_solver(model.solver, along.sea, query.link), shared);
   found->blocked = cuts_straight_line(along.sea.bottom_profile, query.link);
   found->beyond_terrain = seabed.beyond_terrain;
   return found;
@@ -86,16 +86,6 @@ Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment&
   return Decibels{gain_db};
 }
 
-// Each count is truncated to its low bits: 14 for bounces and turns, 7 for the branch.
-std::uint64_t number_of(const acoustics::PathIdentity& identity) {
-  std::uint64_t number = identity.launched_up ? 1 : 0;
-  for (const int count :
-       {identity.surface_bounces, identity.bottom_bounces, identity.upper_turns, identity.lower_turns}) {
-    number = number << 14 | (static_cast<std::uint64_t>(count) & 0x3FFF);
-  }
-  return number << 7 | (static_cast<std::uint64_t>(identity.branch) & 0x7F);
-}
-
 void validate(const RayModel& model) {
   validate(model.bottom);
   validate(model.options);
@@ -132,16 +122,16 @@ PathSea path_sea(const RayModel& model, const acoustics::RayWater& water,
           depth_m};
 }
 
-std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
-                                               const acoustics::Environment& environment,
-                                               const PathQuery& query, const SeabedProfile& seabed) {
-  return found_paths(model, path_sea(model, water, environment, query, seabed), query, seabed, nullptr);
+std::shared_ptr<const SearchResult> search_paths(const RayModel& model, const acoustics::RayWater& water,
+                                                 const acoustics::Environment& environment,
+                                                 const PathQuery& query, const SeabedProfile& seabed) {
+  return result_over(model, path_sea(model, water, environment, query, seabed), query, seabed, nullptr);
 }
 
-std::shared_ptr<const FoundPaths> PathLine::search(const RayModel& model, const acoustics::RayWater& water,
-                                                   const acoustics::Environment& environment,
-                                                   const PathQuery& query, const SeabedProfile& seabed,
-                                                   acoustics::SharedRays* shared) {
+std::shared_ptr<const SearchResult> PathLine::search(const RayModel& model, const acoustics::RayWater& water,
+                                                     const acoustics::Environment& environment,
+                                                     const PathQuery& query, const SeabedProfile& seabed,
+                                                     acoustics::SharedRays* shared) {
   if (!sea_) {
     PathQuery at_surface = query;
     at_surface.link.source_depth_m = at_surface.link.receiver_depth_m = 0;
@@ -153,7 +143,7 @@ std::shared_ptr<const FoundPaths> PathLine::search(const RayModel& model, const 
   };
   if (!is_above(query.link.source_depth_m, 0) || !is_above(query.link.receiver_depth_m, query.link.range_m))
     return search_paths(model, water, environment, query, seabed);
-  return found_paths(model, *sea_, query, seabed, shared);
+  return result_over(model, *sea_, query, seabed, shared);
 }
 
 SharedLine SharedLine::of_depths() { return {{}, std::make_unique<acoustics::DepthFan>()}; }
@@ -166,9 +156,9 @@ bool may_be_flux_only(const RayModel& model, const acoustics::RayWater& water, c
   return acoustics::may_be_flux_only(water, options_of(model, query), query.link, model.weak_below_diffuse);
 }
 
-std::shared_ptr<const FoundPaths> flux_only_paths(const RayModel& model, const acoustics::RayWater& water,
-                                                  const acoustics::Environment& environment,
-                                                  const PathQuery& query, const SeabedPlaces& seabed) {
+std::shared_ptr<const SearchResult> flux_only_paths(const RayModel& model, const acoustics::RayWater& water,
+                                                    const acoustics::Environment& environment,
+                                                    const PathQuery& query, const SeabedPlaces& seabed) {
   const auto [least, most] = std::minmax_element(seabed.z_m.begin(), seabed.z_m.end());
   if (*most - *least < kEvenM) return nullptr;
   double mean_z_m = 0;
@@ -178,12 +168,12 @@ std::shared_ptr<const FoundPaths> flux_only_paths(const RayModel& model, const a
       std::clamp(mean_z_m - environment.sea_surface_z_m, deepest_end_m + kEvenM, acoustics::kDeepestWater);
   const acoustics::LinkWater along = water_along(model, water, environment, query, depth_m);
   auto windows =
-      acoustics::flux_only_arrivals({along.water, depth_m, model.bottom, surface_of(model, environment),
-                                     options_of(model, query), seabed.mean_square_slope},
-                                    query.link, model.weak_below_diffuse);
+      acoustics::flux_only_eigenrays({along.water, depth_m, model.bottom, surface_of(model, environment),
+                                      options_of(model, query), seabed.mean_square_slope},
+                                     query.link, model.weak_below_diffuse);
   if (!windows) return nullptr;
-  auto found = std::make_shared<FoundPaths>();
-  found->arrivals = {acoustics::RaySolver::kArcs, *std::move(windows)};
+  auto found = std::make_shared<SearchResult>();
+  found->eigenrays = {acoustics::RaySolver::kArcs, *std::move(windows)};
   found->mean_depth_m = depth_m;
   found->beyond_terrain = seabed.beyond_terrain;
   return found;

@@ -15,9 +15,9 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
 #include "acoustics/link/field_section.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
@@ -106,9 +106,10 @@ inline bool is_of_one_sea(const PathQuery& a, const PathQuery& b) {
   return a.water_id == b.water_id && a.seabed_version == b.seabed_version;
 }
 
-struct FoundPaths {
+// Eigenrays of a query, and what the search learned of the water and the bottom between the ends.
+struct SearchResult {
   std::shared_ptr<const SeabedProfile> given;  // the given bottom, whose address is in the key
-  acoustics::Arrivals arrivals;
+  acoustics::Eigenrays eigenrays;
   double mean_depth_m = 0;      // mean depth of the water between the ends
   bool blocked = false;         // the bottom cuts the straight line
   bool beyond_terrain = false;  // see SeabedProfile
@@ -130,9 +131,9 @@ PathSea path_sea(const RayModel& model, const acoustics::RayWater& water,
                  const SeabedProfile& seabed);
 
 // Searches for the query's eigenrays over the given bottom, in the query's water.
-std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
-                                               const acoustics::Environment& environment,
-                                               const PathQuery& query, const SeabedProfile& seabed);
+std::shared_ptr<const SearchResult> search_paths(const RayModel& model, const acoustics::RayWater& water,
+                                                 const acoustics::Environment& environment,
+                                                 const PathQuery& query, const SeabedProfile& seabed);
 
 // Search for the eigenrays of links that differ only in the depths of their ends: their sea is built once.
 // Not to be shared between threads.
@@ -141,10 +142,10 @@ class PathLine {
   // Searches like search_paths(), which is used where an end lies below the bottom. With `shared` rays, links
   // may differ as those rays allow (acoustics::SharedRays); the first call must have the greatest range, and
   // the mean depth is that of its link.
-  std::shared_ptr<const FoundPaths> search(const RayModel& model, const acoustics::RayWater& water,
-                                           const acoustics::Environment& environment, const PathQuery& query,
-                                           const SeabedProfile& seabed,
-                                           acoustics::SharedRays* shared = nullptr);
+  std::shared_ptr<const SearchResult> search(const RayModel& model, const acoustics::RayWater& water,
+                                             const acoustics::Environment& environment,
+                                             const PathQuery& query, const SeabedProfile& seabed,
+                                             acoustics::SharedRays* shared = nullptr);
 
  private:
   std::unique_ptr<const PathSea> sea_;  // built by the first call
@@ -161,11 +162,11 @@ struct SharedLine {
   std::unique_ptr<acoustics::SharedRays> rays;  // refers to the sea of `line`
 };
 
-// Returns the arrivals of a link by its incoherent energy flux alone (acoustics/link/energy_flux.h), when the
-// link is weak enough and its bottom uneven enough; null for other links.
-std::shared_ptr<const FoundPaths> flux_only_paths(const RayModel& model, const acoustics::RayWater& water,
-                                                  const acoustics::Environment& environment,
-                                                  const PathQuery& query, const SeabedPlaces& seabed);
+// Returns the eigenrays of a link by its incoherent energy flux alone (acoustics/link/energy_flux.h), when
+// the link is weak enough and its bottom uneven enough; null for other links.
+std::shared_ptr<const SearchResult> flux_only_paths(const RayModel& model, const acoustics::RayWater& water,
+                                                    const acoustics::Environment& environment,
+                                                    const PathQuery& query, const SeabedPlaces& seabed);
 
 // False when flux_only_paths() would be null whatever the bottom, so that the bottom need not be looked up.
 bool may_be_flux_only(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query);
@@ -192,9 +193,5 @@ Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment&
 std::optional<acoustics::RaySolver> usable_solver(std::optional<acoustics::RaySolver> wanted,
                                                   const acoustics::RaySea& sea,
                                                   const acoustics::RayLink& link);
-
-// Packs the identity of a path into one number. The identity is that from the link's end of lower id, so both
-// directions have the same number.
-std::uint64_t number_of(const acoustics::PathIdentity& identity);
 
 }  // namespace halocline::channel_server

@@ -12,9 +12,9 @@ namespace halocline::channel_server {
 namespace {
 
 template <class Counts>
-Decibels summed_level(const std::vector<SoundPath>& paths, const Counts& counts) {
+Decibels summed_level(const std::vector<Arrival>& paths, const Counts& counts) {
   PowerRatio sum;
-  for (const SoundPath& path : paths) {
+  for (const Arrival& path : paths) {
     if (counts(path)) sum = sum + to_power_ratio(path.level);
   }
   return sum.value > 0 ? std::max(to_decibels(sum), kSilence) : kSilence;
@@ -22,60 +22,58 @@ Decibels summed_level(const std::vector<SoundPath>& paths, const Counts& counts)
 
 }  // namespace
 
-std::size_t first_significant(const std::vector<SoundPath>& paths) {
+std::size_t first_significant(const std::vector<Arrival>& paths) {
   const auto strongest = std::max_element(
-      paths.begin(), paths.end(), [](const SoundPath& a, const SoundPath& b) { return a.level < b.level; });
+      paths.begin(), paths.end(), [](const Arrival& a, const Arrival& b) { return a.level < b.level; });
   const Decibels least = strongest->level - kSignificantBelowStrongest;
   const auto first =
-      std::find_if(paths.begin(), strongest, [&](const SoundPath& path) { return path.level >= least; });
+      std::find_if(paths.begin(), strongest, [&](const Arrival& path) { return path.level >= least; });
   return static_cast<std::size_t>(first - paths.begin());
 }
 
-double delay_spread_s(const std::vector<SoundPath>& paths) {
+double delay_spread_s(const std::vector<Arrival>& paths) {
   if (paths.size() < 2) return 0;
-  const SoundPath& first = paths[first_significant(paths)];
+  const Arrival& first = paths[first_significant(paths)];
   Decibels strongest = first.level;
-  for (const SoundPath& path : paths) strongest = std::max(strongest, path.level);
-  const auto last = std::find_if(paths.rbegin(), paths.rend(), [&](const SoundPath& path) {
+  for (const Arrival& path : paths) strongest = std::max(strongest, path.level);
+  const auto last = std::find_if(paths.rbegin(), paths.rend(), [&](const Arrival& path) {
     return path.level >= strongest - kSignificantBelowStrongest;
   });
   return last->delay_s - first.delay_s;
 }
 
-Decibels total_level(const std::vector<SoundPath>& paths) {
-  return summed_level(paths, [](const SoundPath&) { return true; });
+Decibels total_level(const std::vector<Arrival>& paths) {
+  return summed_level(paths, [](const Arrival&) { return true; });
 }
 
-std::size_t number_of_paths(const std::vector<SoundPath>& paths) {
+std::size_t number_of_paths(const std::vector<Arrival>& paths) {
   return static_cast<std::size_t>(
-      std::count_if(paths.begin(), paths.end(), [](const SoundPath& path) { return !path.diffuse; }));
+      std::count_if(paths.begin(), paths.end(), [](const Arrival& path) { return !path.diffuse; }));
 }
 
-Decibels diffuse_level(const std::vector<SoundPath>& paths) {
-  return summed_level(paths, [](const SoundPath& path) { return path.diffuse; });
+Decibels diffuse_level(const std::vector<Arrival>& paths) {
+  return summed_level(paths, [](const Arrival& path) { return path.diffuse; });
 }
 
-LinkTracks Propagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+LinkChart Propagation::chart(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   const Reception reception = this->reception(at, from, to);
-  const acoustics::LinkBudget& budget = reception.budget;
   const double surface_z_m = environment(at).sea_surface_z_m;
   const Vec3 way = to.position_ned_m - from.position_ned_m;
-  LinkTracks tracks{.link = {depth_below_surface_m(from.position_ned_m, surface_z_m),
-                             depth_below_surface_m(to.position_ned_m, surface_z_m),
-                             elementary::hypot(way.x(), way.y())}};
-  for (const SoundPath& path : reception.paths) {
-    PathTrack track{.path = path, .length_m = budget.range_m};
-    track.absorption_db = budget.absorption_db_per_km * budget.range_m / 1000;
-    track.beam_db =
+  LinkChart chart{.link = {depth_below_surface_m(from.position_ned_m, surface_z_m),
+                           depth_below_surface_m(to.position_ned_m, surface_z_m),
+                           elementary::hypot(way.x(), way.y())}};
+  for (const Arrival& path : reception.paths) {
+    LinkChart::Row row{.arrival = path};
+    row.beam_db =
         (from.modem->beam.loss(path.launch_angle_rad) + to.modem->beam.loss(-path.arrival_angle_rad)).value;
-    track.spreading_db = (from.modem->source_level - path.level).value - track.absorption_db - track.beam_db;
+    row.spreading_db = (from.modem->source_level - path.level).value - path.absorption_db - row.beam_db;
     if (!reception.measured)
-      track.points = {{0, tracks.link.source_depth_m}, {tracks.link.range_m, tracks.link.receiver_depth_m}};
-    tracks.paths.push_back(std::move(track));
+      row.course = {{0, chart.link.source_depth_m}, {chart.link.range_m, chart.link.receiver_depth_m}};
+    chart.rows.push_back(std::move(row));
   }
-  tracks.paths_left_out = keep_strongest(tracks.paths);
-  weigh(reception.paths, *to.modem, tracks);
-  return tracks;
+  chart.keep_strongest();
+  chart.weigh(reception.paths, *to.modem);
+  return chart;
 }
 
 std::vector<std::optional<Reception>> Propagation::packet_receptions(SimTime at,

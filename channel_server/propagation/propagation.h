@@ -21,17 +21,18 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/measured_channel.h"
 #include "acoustics/fading/path_fading.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/energy_flux.h"
 #include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/link_tracks.h"
+#include "channel_server/propagation/link_chart.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/for_each.h"
@@ -68,7 +69,7 @@ struct LinkEnd {
   Decibels above_ambient = {};              // receivers only: noise above that of the environment
 };
 
-using acoustics::SoundPath;
+using acoustics::Arrival;
 
 // A link in one direction.
 struct EndPair {
@@ -111,10 +112,11 @@ struct Reception {
   acoustics::LinkBudget budget;
   PathState state = PathState::kOpen;
   PropagationUsed used = PropagationUsed::kStraight;
-  double delay_spread_s = 0;  // from the first significant path to the last
+  acoustics::RaySolver solver = acoustics::RaySolver::kImages;  // of the paths; valid along rays
+  double delay_spread_s = 0;                                    // from the first significant path to the last
   // Level of the diffuse paths, a part of the received level; kSilence without any.
   Decibels diffuse_level = kSilence;
-  std::vector<SoundPath> paths;  // sorted by delay; empty unless the state is kOpen
+  std::vector<Arrival> paths;  // sorted by delay; empty unless the state is kOpen
   // Age of the paths: time since the search of which they are the result was up to date for this link. Older
   // paths are extrapolated to the present geometry. Above 0 only in link tables with a limited number of
   // searches a tick.
@@ -135,16 +137,16 @@ struct FluxOnlyLinks {
 
 // Returns the index of the first path within kSignificantBelowStrongest of the strongest. `paths` are by
 // rising delay and not empty.
-std::size_t first_significant(const std::vector<SoundPath>& paths);
+std::size_t first_significant(const std::vector<Arrival>& paths);
 // Returns the delay from the first significant path to the last significant one, s; 0 for one path or none.
 // `paths` are by rising delay.
-double delay_spread_s(const std::vector<SoundPath>& paths);
+double delay_spread_s(const std::vector<Arrival>& paths);
 // Returns the level of the sum of the powers; kSilence without a path.
-Decibels total_level(const std::vector<SoundPath>& paths);
+Decibels total_level(const std::vector<Arrival>& paths);
 // Returns the number of paths that are not diffuse.
-std::size_t number_of_paths(const std::vector<SoundPath>& paths);
+std::size_t number_of_paths(const std::vector<Arrival>& paths);
 // Returns the level of the diffuse paths; kSilence without any.
-Decibels diffuse_level(const std::vector<SoundPath>& paths);
+Decibels diffuse_level(const std::vector<Arrival>& paths);
 
 class Propagation {
  public:
@@ -197,7 +199,7 @@ class Propagation {
   virtual Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                    const std::shared_ptr<const SeabedProfile>& seabed);
   // Returns the link in full detail, with the paths that reception() computes; here along the straight line.
-  virtual LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to);
+  virtual LinkChart chart(SimTime at, const LinkEnd& from, const LinkEnd& to);
   // Returns a lower bound of the loss of every link at a frequency between ends no deeper than
   // `deepest_end_m` (acoustics/link/least_loss.h); empty: levels have no bound by range.
   virtual std::optional<acoustics::LeastLoss> least_loss(SimTime /*at*/, double /*frequency_hz*/,

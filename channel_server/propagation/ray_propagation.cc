@@ -17,11 +17,11 @@
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
-#include "channel_server/propagation/link_tracks.h"
+#include "channel_server/propagation/link_chart.h"
 #include "channel_server/propagation/path_reuse.h"
 #include "channel_server/propagation/path_search.h"
-#include "channel_server/propagation/ray_tracks.h"
-#include "channel_server/propagation/received_path.h"
+#include "channel_server/propagation/ray_arrival.h"
+#include "channel_server/propagation/ray_chart.h"
 #include "core/elementary.h"
 
 namespace halocline::channel_server {
@@ -54,21 +54,6 @@ Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const 
   if (!seabed) return straight_instead(at, {from, to}, PropagationUsed::kStraightWithoutBottom, kCapacity);
   const Task task = searches_.over(at, from, to, seabed);
   return answer(task, *searches_.find(task, line), kCapacity);
-}
-
-acoustics::Arrivals RayPropagation::arrivals(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  const Task task = searches_.for_itself(at, from, to);
-  const LinkSearches::Paths found_paths = searches_.find(task);
-  if (!found_paths) return {};
-  acoustics::Arrivals all = found_paths->arrivals;
-  if (task.reversed) {
-    for (acoustics::Arrival& path : all.paths) path = backwards(path);
-  }
-  const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
-  std::erase_if(all.paths,
-                [&](const acoustics::Arrival& path) { return !(weighted_pressure(path, beams) > 0); });
-  if (all.silent() && !found_paths->arrivals.silent()) all.lack = acoustics::PathLack::kTooWeak;
-  return all;
 }
 
 std::vector<std::optional<Reception>> RayPropagation::packet_receptions(SimTime at,
@@ -151,20 +136,21 @@ Reception RayPropagation::straight_instead(SimTime at, const EndPair& ends, Prop
   return reception;
 }
 
-Reception RayPropagation::answer(const Task& task, const FoundPaths& found,
+Reception RayPropagation::answer(const Task& task, const SearchResult& found,
                                  acoustics::Capacity capacity) const {
   Reception reception;
   reception.used = found.beyond_terrain ? PropagationUsed::kRaysBeyondTerrain : PropagationUsed::kRays;
   reception.paths_age = task.age;
-  const std::optional<acoustics::Arrivals> elsewhere =
-      reused_arrivals(task.link, task.query, *task.water, *task.environment, found.arrivals);
-  const acoustics::Arrivals& arrivals = elsewhere ? *elsewhere : found.arrivals;
+  const std::optional<acoustics::Eigenrays> elsewhere =
+      reused_eigenrays(task.link, task.query, *task.water, *task.environment, found.eigenrays);
+  const acoustics::Eigenrays& eigenrays = elsewhere ? *elsewhere : found.eigenrays;
+  reception.solver = eigenrays.solver;
   reception.paths = with_reverberation(model_.reverberation, {found.mean_depth_m, boundaries_.trapped_share},
-                                       sound_paths(task, arrivals));
+                                       arrivals(task, eigenrays));
   reception.delay_spread_s = delay_spread_s(reception.paths);
   reception.diffuse_level = diffuse_level(reception.paths);
   if (!reception.paths.empty()) {
-    set_open(task, arrivals, capacity, reception);
+    set_open(task, eigenrays, capacity, reception);
   } else {
     reception.state = state_without_path(found);
     set_silent(task, capacity, reception);
@@ -172,49 +158,46 @@ Reception RayPropagation::answer(const Task& task, const FoundPaths& found,
   return reception;
 }
 
-PathState RayPropagation::state_without_path(const FoundPaths& found) {
+PathState RayPropagation::state_without_path(const SearchResult& found) {
   using acoustics::PathLack;
-  if (!found.arrivals.silent()) return PathState::kTooWeak;  // absorbed beyond the range of a double
-  if (found.arrivals.lack == PathLack::kTooWeak) return PathState::kTooWeak;
-  if (found.arrivals.lack == PathLack::kTooSteep) return PathState::kTooSteep;
+  if (!found.eigenrays.silent()) return PathState::kTooWeak;  // absorbed beyond the range of a double
+  if (found.eigenrays.lack == PathLack::kTooWeak) return PathState::kTooWeak;
+  if (found.eigenrays.lack == PathLack::kTooSteep) return PathState::kTooSteep;
   return found.blocked ? PathState::kBlocked : PathState::kShadow;
 }
 
-std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,
-                                                   const acoustics::Arrivals& arrivals) const {
-  std::vector<SoundPath> paths;
-  for (const acoustics::Arrival& arrival : arrivals.paths) {
-    if (const auto path = received_path(boundaries_, *task.environment, task.ends, arrival, task.reversed))
+std::vector<Arrival> RayPropagation::arrivals(const Task& task, const acoustics::Eigenrays& eigenrays) const {
+  std::vector<Arrival> paths;
+  for (const acoustics::Eigenray& eigenray : eigenrays.paths) {
+    if (const auto path = arrival_of(boundaries_, *task.environment, task.ends, eigenray, task.reversed))
       paths.push_back(*path);
   }
   return paths;
 }
 
-LinkTracks RayPropagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+LinkChart RayPropagation::chart(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   const Task task = searches_.for_itself(at, from, to);
-  const LinkSearches::Paths found_paths = searches_.find(task);
-  if (!found_paths) return Propagation::tracks(at, from, to);
+  const LinkSearches::Paths found = searches_.find(task);
+  if (!found) return Propagation::chart(at, from, to);
   const acoustics::BottomProfile bottom =
       bottom_under(*searches_.seabed_of(task.query), task.link, task.environment->sea_surface_z_m);
   const acoustics::RaySurface surface{model_.surface, task.environment->noise.wind_mps};
-  std::vector<FoundPath> paths;
-  for (const acoustics::Arrival& arrival : found_paths->arrivals.paths) {
-    if (const auto path = received_path(boundaries_, *task.environment, task.ends, arrival, task.reversed)) {
-      paths.push_back({arrival, *path,
-                       kept_at_surface(boundaries_, *task.environment, task.query.frequency_hz, arrival)});
-    }
+  std::vector<LinkChart::Row> rows;
+  for (const Arrival& arrival : arrivals(task, found->eigenrays)) {
+    const Decibels kept = kept_at_surface(boundaries_, *task.environment, task.query.frequency_hz, arrival);
+    rows.push_back({.arrival = arrival, .surface_db = arrival.surface_loss_db - kept.value});
   }
   const acoustics::LinkWater water =
       water_along(model_, *task.water, *task.environment, task.query, bottom.deepest_m());
-  LinkTracks tracks = tracks_of({water.water, bottom, model_.bottom, surface, model_.options,
-                                 /*core_speed_mps=*/0, water.section.get()},
-                                task.link, task.reversed, std::move(paths), *from.modem, *to.modem);
-  weigh(answer(task, *found_paths, acoustics::Capacity::kLeftOut).paths, *to.modem, tracks);
-  return tracks;
+  LinkChart chart = chart_of({water.water, bottom, model_.bottom, surface, model_.options,
+                              /*core_speed_mps=*/0, water.section.get()},
+                             task.link, task.reversed, std::move(rows), *from.modem, *to.modem);
+  chart.weigh(answer(task, *found, acoustics::Capacity::kLeftOut).paths, *to.modem);
+  return chart;
 }
 
-Decibels RayPropagation::received_level(const Task& task, const acoustics::Arrivals& arrivals,
-                                        const std::vector<SoundPath>& paths) const {
+Decibels RayPropagation::received_level(const Task& task, const acoustics::Eigenrays& eigenrays,
+                                        const std::vector<Arrival>& paths) const {
   if (model_.fading.enabled) {
     const double power = mean_power(model_.fading, paths, task.ends.from.modem->band());
     return power > 0 ? std::max(to_decibels(PowerRatio{power}), kSilence) : kSilence;
@@ -224,27 +207,21 @@ Decibels RayPropagation::received_level(const Task& task, const acoustics::Arriv
   const LinkEnd &first = task.reversed ? to : from, &last = task.reversed ? from : to;
   acoustics::FieldOptions field;
   field.transducers = {first.modem->beam, last.modem->beam};
-  return std::max(from.modem->source_level + coherent_level(arrivals, from.modem->centre_frequency_hz, field),
-                  kSilence);
+  return std::max(
+      from.modem->source_level + coherent_level(eigenrays, from.modem->centre_frequency_hz, field), kSilence);
 }
 
-void RayPropagation::set_open(const Task& task, const acoustics::Arrivals& arrivals,
+void RayPropagation::set_open(const Task& task, const acoustics::Eigenrays& eigenrays,
                               acoustics::Capacity capacity, Reception& reception) const {
   const Vec3 &from = task.ends.from.position_ned_m, &to = task.ends.to.position_ned_m;
-  const Decibels level = received_level(task, arrivals, reception.paths);
-  const SoundPath& first = reception.paths[first_significant(reception.paths)];
-  // There are as many arrivals as paths unless one was absorbed altogether, so the arrival is found by its
-  // delay.
-  const auto arrival = std::find_if(arrivals.paths.begin(), arrivals.paths.end(),
-                                    [&](const auto& one) { return one.delay_s == first.delay_s; });
+  const Decibels level = received_level(task, eigenrays, reception.paths);
+  const Arrival& first = reception.paths[first_significant(reception.paths)];
   acoustics::LinkBudget& budget = reception.budget;
   budget = task.kernel->budget_of_path(from, to, task.ends.from.modem->source_level - level,
-                                       arrival->path_length_m, capacity, task.ends.to.above_ambient);
+                                       first.path_length_m, capacity, task.ends.to.above_ambient);
   budget.delay_s = reception.paths[best_window(reception.paths, *task.ends.to.modem).strongest].delay_s;
   if (first.delay_s > 0) budget.mean_sound_speed_mps = budget.range_m / first.delay_s;
-  if (arrival->path_length_m > 0) {
-    budget.absorption_db_per_km = 1000 * arrival->absorption_db / arrival->path_length_m;
-  }
+  if (first.path_length_m > 0) budget.absorption_db_per_km = 1000 * first.absorption_db / first.path_length_m;
 }
 
 void RayPropagation::set_silent(const Task& task, acoustics::Capacity capacity, Reception& reception) const {

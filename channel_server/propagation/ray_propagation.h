@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Propagation along rays over the known bottom between the ends of a link.
 //
-// Model. acoustics/rays/eigenray.h finds the paths. The level of each path is, in dB,
+// Model. acoustics/rays/eigenray_search.h finds the paths. The level of each path is, in dB,
 //
 //   source level - spreading - losses at bounces - absorption - loss of both beams
 //
@@ -35,7 +35,7 @@
 // earlier tick: Reception::paths_age.
 //
 // Ends above the surface are placed on it. Left out: the slope of the bottom across the link
-// (acoustics/rays/eigenray.h).
+// (acoustics/rays/eigenray_search.h).
 #pragma once
 
 #include <cstdint>
@@ -43,23 +43,23 @@
 #include <optional>
 #include <vector>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/link_chart.h"
 #include "channel_server/propagation/link_searches.h"
-#include "channel_server/propagation/link_tracks.h"
 #include "channel_server/propagation/path_exchange.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/propagation/received_path.h"
+#include "channel_server/propagation/ray_arrival.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/propagation/straight_propagation.h"
@@ -114,10 +114,7 @@ class RayPropagation : public Propagation {
   // the link by itself.
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed, SharedLine* line);
-  // Returns the eigenrays behind reception(), one for each of its paths except those of reverberation, in
-  // their order. Amplitudes exclude the beams of the modems.
-  acoustics::Arrivals arrivals(SimTime at, const LinkEnd& from, const LinkEnd& to);
-  LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  LinkChart chart(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
                                                  double deepest_end_m) const override;
   std::optional<FluxOnlyLinks> flux_only_links(SimTime at, double frequency_hz,
@@ -134,12 +131,12 @@ class RayPropagation : public Propagation {
   Reception along_rays(SimTime at, const Task& task, acoustics::Capacity capacity);
   Reception straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,
                              acoustics::Capacity capacity = acoustics::Capacity::kComputed);
-  Reception answer(const Task& task, const FoundPaths& found, acoustics::Capacity capacity) const;
-  static PathState state_without_path(const FoundPaths& found);
-  std::vector<SoundPath> sound_paths(const Task& task, const acoustics::Arrivals& arrivals) const;
-  Decibels received_level(const Task& task, const acoustics::Arrivals& arrivals,
-                          const std::vector<SoundPath>& paths) const;
-  void set_open(const Task& task, const acoustics::Arrivals& arrivals, acoustics::Capacity capacity,
+  Reception answer(const Task& task, const SearchResult& found, acoustics::Capacity capacity) const;
+  static PathState state_without_path(const SearchResult& found);
+  std::vector<Arrival> arrivals(const Task& task, const acoustics::Eigenrays& eigenrays) const;
+  Decibels received_level(const Task& task, const acoustics::Eigenrays& eigenrays,
+                          const std::vector<Arrival>& paths) const;
+  void set_open(const Task& task, const acoustics::Eigenrays& eigenrays, acoustics::Capacity capacity,
                 Reception& reception) const;
   void set_silent(const Task& task, acoustics::Capacity capacity, Reception& reception) const;
 

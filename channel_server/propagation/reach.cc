@@ -55,6 +55,9 @@ Decibels noise_at(const acoustics::Modem& sender, const acoustics::Modem& receiv
   return to_decibels({density.value * sender.bandwidth_hz}) - receiver.directivity_index;
 }
 
+// Returns the level below which `receiver` neither detects sound of `sender` nor is disturbed by it, dB re 1
+// uPa over the sender's band. `noise_density`, uPa^2/Hz, is the least over that band; `unnoticed_db` is
+// unnoticed_sinr_db() of the sender.
 Decibels least_level(const ReachRule& rule, const acoustics::Modem& sender, const acoustics::Modem& receiver,
                      PowerRatio noise_density, double unnoticed_db) {
   constexpr double kNoiseDeviations = 3;
@@ -75,11 +78,6 @@ Decibels least_beam_loss(const acoustics::Modem& modem) {
 }
 
 }  // namespace
-
-Decibels least_level_that_matters(const ReachRule& rule, const acoustics::Modem& sender,
-                                  const acoustics::Modem& receiver, PowerRatio noise_density) {
-  return least_level(rule, sender, receiver, noise_density, unnoticed_sinr_db(sender, rule));
-}
 
 // A vehicle of speed v meets sound of speed c after range / (c - v) at the latest, no nearer than
 //

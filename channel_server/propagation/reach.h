@@ -61,11 +61,6 @@ struct ReachRule {
 // Sound that departed earlier is no longer under way: it has travelled 180 km.
 inline constexpr SimDuration kLongestFlight = SimDuration::from_milliseconds(120'000);
 
-// Returns the level below which `receiver` neither detects sound of `sender` nor is disturbed by it, dB re 1
-// uPa over the sender's band. `noise_density`, uPa^2/Hz, is the least over that band.
-Decibels least_level_that_matters(const ReachRule& rule, const acoustics::Modem& sender,
-                                  const acoustics::Modem& receiver, PowerRatio noise_density);
-
 // True when a receiver `range_m` away at the departure of sound is still further than `reach_m` away when the
 // sound arrives. `speed_mps` is its speed over ground at the departure; it may speed up by 5 m/s (our
 // choice), and sound travels at 1400 m/s at least on average.

@@ -132,7 +132,6 @@ class SeabedMap {
 
   // Number that differs after each clear().
   std::int64_t version() const { return version_; }
-  std::size_t tiles_kept() const { return tiles_.size(); }
   const SeabedRule& rule() const { return rule_; }
 
  private:

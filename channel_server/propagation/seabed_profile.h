@@ -12,7 +12,7 @@
 #include <array>
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/bottom_profile.h"
 
 namespace halocline::channel_server {

@@ -45,7 +45,7 @@ class SearchScheduler {
   struct Scheduled {
     PathQuery query;
     SimTime current_at;  // latest tick at which this was the link's query
-    std::shared_ptr<const FoundPaths>
+    std::shared_ptr<const SearchResult>
         paths;  // set after the search; null before, and where the bottom is unknown
   };
 

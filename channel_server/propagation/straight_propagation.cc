@@ -4,29 +4,31 @@
 #include <algorithm>
 #include <utility>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 #include "acoustics/link/bottom_echo.h"
 #include "acoustics/link/line_means.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/modem/beam_pattern.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {
 namespace {
 
-SoundPath straight_path(const acoustics::Environment& water, const acoustics::LinkBudget& budget,
-                        const LinkEnd& from, const LinkEnd& to) {
+Arrival straight_path(const acoustics::Environment& water, const acoustics::LinkBudget& budget,
+                      const LinkEnd& from, const LinkEnd& to) {
   const double angle = acoustics::angle_down_rad(from.position_ned_m, to.position_ned_m);
   const Vec3 along = acoustics::ray_direction(from.position_ned_m, to.position_ned_m, angle);
-  SoundPath path;
+  Arrival path;
   path.delay_s = budget.delay_s;
   path.level = budget.received_level;
   path.doppler_factor =
       acoustics::doppler_factor(from.velocity_ned_mps.dot(along), sound_speed_at(water, from.position_ned_m),
                                 to.velocity_ned_mps.dot(along), sound_speed_at(water, to.position_ned_m));
   path.launch_angle_rad = path.arrival_angle_rad = angle;
+  path.path_length_m = budget.range_m;
+  path.absorption_db = budget.absorption_db_per_km * budget.range_m / 1000;
   return path;
 }
 
@@ -84,7 +86,7 @@ Reception StraightPropagation::along_line(const acoustics::LinkKernel& kernel,
   Reception reception;
   reception.budget = kernel.budget(from.position_ned_m, to.position_ned_m, capacity, to.above_ambient);
   if (water.field) take_field(kernel, water, ends, capacity, reception.budget);
-  SoundPath& path = reception.paths.emplace_back(straight_path(water, reception.budget, from, to));
+  Arrival& path = reception.paths.emplace_back(straight_path(water, reception.budget, from, to));
   path.fading = path_fading(fading_, water.noise.wind_mps, from.modem->centre_frequency_hz, 0, 0);
   if (capacity == acoustics::Capacity::kComputed) reception.bottom_echo = bottom_echo(kernel, ends);
   return reception;

@@ -74,8 +74,6 @@ class StraightPropagation : public Propagation {
   std::shared_ptr<const acoustics::LinkKernel> kernel_of(SimTime at, const acoustics::Modem& transmitter,
                                                          const acoustics::Modem& receiver);
 
-  std::size_t kernels_kept() const { return kernels_.size(); }
-
  private:
   // Numbers that a budget depends on, beam, family.
   using ModemKey = std::tuple<std::array<double, 5>, std::vector<double>, std::string>;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "bus/messages/message_checks.h"
 
 namespace halocline::channel_server {
@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::size_t kMaxEigenrays = 400;
 
-bool fits(const acoustics::Arrival& path) {
+bool fits(const acoustics::Eigenray& path) {
   const acoustics::PathIdentity& id = path.identity;
   return std::max({path.surface_bounces, path.bottom_bounces, path.caustics, id.surface_bounces,
                    id.bottom_bounces, id.upper_turns, id.lower_turns, id.branch}) <=
          std::numeric_limits<std::int16_t>::max();
 }
 
-eigenray_t to_message(const acoustics::Arrival& path) {
+eigenray_t to_message(const acoustics::Eigenray& path) {
   const auto count = [](int number) { return static_cast<std::int16_t>(number); };
   const acoustics::PathIdentity& id = path.identity;
   return {.delay_s = path.delay_s,
@@ -48,8 +48,8 @@ eigenray_t to_message(const acoustics::Arrival& path) {
           .branch = count(id.branch)};
 }
 
-acoustics::Arrival to_arrival(const eigenray_t& m) {
-  acoustics::Arrival path;
+acoustics::Eigenray to_eigenray(const eigenray_t& m) {
+  acoustics::Eigenray path;
   path.delay_s = m.delay_s;
   path.amplitude = m.amplitude;
   path.phase_rad = m.phase_rad;
@@ -75,8 +75,8 @@ acoustics::Arrival to_arrival(const eigenray_t& m) {
 }  // namespace
 
 std::optional<link_search_t> to_message(std::int64_t sea_hash, const PathQuery& query,
-                                        const FoundPaths& found) {
-  const auto& paths = found.arrivals.paths;
+                                        const SearchResult& found) {
+  const auto& paths = found.eigenrays.paths;
   if (paths.size() > kMaxEigenrays || !std::all_of(paths.begin(), paths.end(), fits)) return std::nullopt;
   link_search_t message;
   message.sea_hash = sea_hash;
@@ -89,9 +89,9 @@ std::optional<link_search_t> to_message(std::int64_t sea_hash, const PathQuery& 
   message.mean_depth_m = found.mean_depth_m;
   message.is_blocked = found.blocked;
   message.is_beyond_terrain = found.beyond_terrain;
-  message.ray_solver = static_cast<std::int8_t>(found.arrivals.solver);
-  message.path_lack = static_cast<std::int8_t>(found.arrivals.lack);
-  for (const acoustics::Arrival& path : paths) message.eigenrays.push_back(to_message(path));
+  message.ray_solver = static_cast<std::int8_t>(found.eigenrays.solver);
+  message.path_lack = static_cast<std::int8_t>(found.eigenrays.lack);
+  for (const acoustics::Eigenray& path : paths) message.eigenrays.push_back(to_message(path));
   message.num_eigenrays = static_cast<std::int32_t>(paths.size());
   return bus::problem_in(message).empty() ? std::optional(std::move(message)) : std::nullopt;
 }
@@ -105,15 +105,15 @@ PathQuery to_query(const link_search_t& message) {
   return query;
 }
 
-FoundPaths to_found(const link_search_t& message) {
-  FoundPaths found;
+SearchResult to_result(const link_search_t& message) {
+  SearchResult found;
   found.mean_depth_m = message.mean_depth_m;
   found.blocked = message.is_blocked != 0;
   found.beyond_terrain = message.is_beyond_terrain != 0;
-  found.arrivals.solver = static_cast<acoustics::RaySolver>(message.ray_solver);
-  found.arrivals.lack = static_cast<acoustics::PathLack>(message.path_lack);
-  found.arrivals.paths.reserve(message.eigenrays.size());
-  for (const eigenray_t& path : message.eigenrays) found.arrivals.paths.push_back(to_arrival(path));
+  found.eigenrays.solver = static_cast<acoustics::RaySolver>(message.ray_solver);
+  found.eigenrays.lack = static_cast<acoustics::PathLack>(message.path_lack);
+  found.eigenrays.paths.reserve(message.eigenrays.size());
+  for (const eigenray_t& path : message.eigenrays) found.eigenrays.paths.push_back(to_eigenray(path));
   return found;
 }
 

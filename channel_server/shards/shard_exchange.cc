@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ray_water.h"
 #include "bus/messages/channels.h"
@@ -104,16 +104,15 @@ void ShardExchange::take(const found_paths_t& message) {
 }
 
 void ShardExchange::keep(const link_search_t& search) {
-  ++received_;
-  const auto paths = std::make_shared<const FoundPaths>(to_found(search));
-  newer_.paths += paths->arrivals.paths.size() + 1;
+  const auto paths = std::make_shared<const SearchResult>(to_result(search));
+  newer_.paths += paths->eigenrays.paths.size() + 1;
   newer_.searches.insert_or_assign(key_of(search.sea_hash, to_query(search)), paths);
   if (newer_.paths < kMaxPathsOfHalf) return;
   older_ = std::move(newer_);
   newer_ = {};
 }
 
-std::shared_ptr<const FoundPaths> ShardExchange::received(const SharedQuery& query) {
+std::shared_ptr<const SearchResult> ShardExchange::received(const SharedQuery& query) {
   if (newer_.searches.empty() && older_.searches.empty()) return nullptr;
   const Key key = key_of(sea_hash(query), query.query);
   for (const Half* half : {&newer_, &older_}) {
@@ -122,7 +121,7 @@ std::shared_ptr<const FoundPaths> ShardExchange::received(const SharedQuery& que
   return nullptr;
 }
 
-void ShardExchange::found(const SharedQuery& query, const FoundPaths& paths) {
+void ShardExchange::found(const SharedQuery& query, const SearchResult& paths) {
   auto search = to_message(sea_hash(query), query.query, paths);
   if (!search) return;
   const int other = shard_.of(shard_.serves(query.from) ? query.to : query.from);
@@ -154,7 +153,6 @@ void ShardExchange::publish(found_paths_t message, std::size_t peer) {
   message.shard_index = shard_.index;
   message.shard_count = shard_.count;
   message.num_searches = static_cast<std::int32_t>(message.searches.size());
-  published_ += message.num_searches;
   publisher_.publish(channel_of(static_cast<int>(peer)), std::move(message));
 }
 

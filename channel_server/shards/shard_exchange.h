@@ -57,8 +57,8 @@ class ShardExchange : public PathExchange {
   }
   bool is_owner(VehicleId a, VehicleId b) const override { return shard_.owner_of(a, b) == shard_.index; }
   void await(VehicleId a, VehicleId b) override;
-  std::shared_ptr<const FoundPaths> received(const SharedQuery& query) override;
-  void found(const SharedQuery& query, const FoundPaths& paths) override;
+  std::shared_ptr<const SearchResult> received(const SharedQuery& query) override;
+  void found(const SharedQuery& query, const SearchResult& paths) override;
 
   // Sets the terrain, and drops everything received and awaited for another one. With `tells` the other
   // servers learn that there is a terrain to ask for, by a FOUND_PATHS without searches that ends no tick.
@@ -78,15 +78,12 @@ class ShardExchange : public PathExchange {
   // Drops everything, for another run.
   void clear();
 
-  std::int64_t searches_received() const { return received_; }
-  std::int64_t searches_published() const { return published_; }
-
  private:
   // Hash of the sea; frequency; ends of the bottom profile; source depth, receiver depth and range;
   // diffuse_below_pressure.
   using Key = std::tuple<std::int64_t, double, ProfileEnds, std::array<double, 3>, double>;
   struct Half {
-    std::map<Key, std::shared_ptr<const FoundPaths>> searches;
+    std::map<Key, std::shared_ptr<const SearchResult>> searches;
     std::size_t paths = 0;
   };
   struct Peer {
@@ -114,7 +111,6 @@ class ShardExchange : public PathExchange {
   Half newer_, older_;
   SimTime tick_, waits_until_ = SimTime::never();
   bool has_news_of_terrain_ = false;
-  std::int64_t received_ = 0, published_ = 0;
 };
 
 }  // namespace halocline::channel_server

@@ -40,8 +40,6 @@ class UnlistedVehicles {
   // Notes that one tracked vehicle is not tracked any more.
   void leave();
 
-  std::size_t tracked() const { return tracked_; }
-
  private:
   struct Candidate {
     VehicleId id = 0;

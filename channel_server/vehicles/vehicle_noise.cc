@@ -18,11 +18,6 @@ VehicleNoise::VehicleNoise(std::vector<NoiseSource> sources, SimDuration lag) : 
   }
 }
 
-bool VehicleNoise::needs_rates() const {
-  return std::any_of(sources_.begin(), sources_.end(),
-                     [](const auto& entry) { return entry.second.driver == NoiseDriver::kPropeller; });
-}
-
 void VehicleNoise::add_rate(std::string_view vehicle, SimTime at, double turns_per_s) {
   for (const auto& [id, source] : sources_) {
     if (source.vehicle != vehicle) continue;

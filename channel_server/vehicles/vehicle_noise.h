@@ -56,7 +56,6 @@ class VehicleNoise {
 
   // Noise sources by vehicle id.
   const std::map<VehicleId, NoiseSource>& sources() const { return sources_; }
-  bool needs_rates() const;
   // Adds the turn rate of the vehicle's fastest propeller at `at`, turns per second. No effect for a vehicle
   // that radiates no noise.
   void add_rate(std::string_view vehicle, SimTime at, double turns_per_s);

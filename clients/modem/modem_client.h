@@ -137,7 +137,6 @@ class ModemClient {
   std::optional<modem_receipt_t> receipt_of(std::int64_t packet_sequence) const;
   // Returns true while the SEND of this packet is being repeated: neither answered nor given up.
   bool is_pending(std::int64_t packet_sequence) const { return pending_.contains(packet_sequence); }
-  std::size_t num_pending() const { return pending_.size(); }  // packets whose SEND is being repeated
   // Returns the packet that has waited longest; nothing when there is none.
   std::optional<modem_receive_t> take_received();
 

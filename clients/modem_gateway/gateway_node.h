@@ -47,7 +47,6 @@ class GatewayNode : public bus::Node {
   // Returns the place of the i-th modem interface, with the actual port where its configuration left it open.
   std::string place_of(std::size_t door) const { return connections_.place_of(door); }
   const Door& door(std::size_t i) const { return *doors_.at(i); }
-  const ConnectionCounters& connection_counters() const { return connections_.counters(); }
 
   int ready_file() const override { return connections_.ready_file(); }
 

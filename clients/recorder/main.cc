@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   program.purpose = "Records every message of the bus in an LCM log, and requests what it misses.";
   program.node_name = "recorder-<process id>";
   program.default_name = [] { return "recorder-" + std::to_string(getpid()); };
-  program.example_scenario = "scenarios/seamount.toml --log runs/seamount.lcmlog";
+  program.example_scenario = "scenarios/seamount.toml --log results/seamount.lcmlog";
   program.other_exit_codes = {
       {RecorderNode::kExitLacking, "the log lacks messages: the last line says of whom"}};
   program.interface =

@@ -2,7 +2,7 @@
 r"""Halocline in Python: logs as NumPy arrays, paths of sound, link budgets.
 
     import halocline
-    log = halocline.read_log("runs/seamount/seamount.lcm", channels=r"STATE\..*|OUTCOME")
+    log = halocline.read_log("results/seamount/seamount.lcm", channels=r"STATE\..*|OUTCOME")
     log["state"]["position_ned_m"]                 # metres, one row a message
     link = halocline.link("scenarios/seamount.toml", "auv-1", "auv-2")
     link.budget["snr_db"], link.paths["delay_s"]

@@ -42,10 +42,4 @@ std::optional<double> NodeHealth::real_time_factor() const {
          static_cast<double>(ticks_.back().stamp_us - ticks_.front().stamp_us);
 }
 
-std::int64_t NodeHealth::total(std::int64_t node_status_t::*counter) const {
-  std::int64_t sum = 0;
-  for (const auto& [name, record] : nodes_) sum += record.status.*counter;
-  return sum;
-}
-
 }  // namespace halocline::clients

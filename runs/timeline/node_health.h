@@ -40,8 +40,6 @@ class NodeHealth {
   // Returns the simulated seconds per second of the stamps, over the last ten seconds of these. Empty before
   // the second CLOCK, and when the stamps are simulation time themselves.
   std::optional<double> real_time_factor() const;
-  // Returns the sum of a counter over all nodes, from their last STATUS.
-  std::int64_t total(std::int64_t node_status_t::*counter) const;
 
  private:
   NodeRecord& alive(std::int64_t stamp_us, const std::string& node);

@@ -25,7 +25,7 @@ std::array<Column, 4> link_columns(const acoustics::RayLink& link, std::size_t i
           Column{"rcv_range_m", link.range_m}, Column{"index", static_cast<double>(index)}};
 }
 
-std::array<Column, 13> path_columns(const acoustics::Arrival& path) {
+std::array<Column, 13> path_columns(const acoustics::Eigenray& path) {
   return {Column{"delay_s", path.delay_s},
           Column{"amplitude", path.amplitude},
           Column{"phase_deg", to_degrees(path.phase_rad)},
@@ -46,8 +46,8 @@ void append(std::string& line, const Columns& columns, const Text& text) {
   for (const Column& column : columns) line += (line.empty() ? "" : ",") + text(column);
 }
 
-std::array<Column, 2> received_columns(const ReceivedPath& path) {
-  return {Column{"level_db", path.level_db}, Column{"doppler_factor", path.doppler_factor}};
+std::array<Column, 2> received_columns(const acoustics::Arrival& path) {
+  return {Column{"level_db", path.level.value}, Column{"doppler_factor", path.doppler_factor}};
 }
 
 void print_csv(std::ostream& out, const std::vector<LinkArrivals>& links) {
@@ -59,10 +59,10 @@ void print_csv(std::ostream& out, const std::vector<LinkArrivals>& links) {
   if (!links.empty() && links.front().modems_known) append(header, received_columns({}), name);
   out << header << '\n';
   for (const LinkArrivals& found : links) {
-    for (std::size_t i = 0; i < found.arrivals.paths.size(); ++i) {
+    for (std::size_t i = 0; i < found.eigenrays.paths.size(); ++i) {
       std::string line;
       append(line, link_columns(found.link, i), number);
-      append(line, path_columns(found.arrivals.paths[i]), number);
+      append(line, path_columns(found.eigenrays.paths[i]), number);
       if (found.modems_known) append(line, received_columns(found.received.at(i)), number);
       out << line << '\n';
     }
@@ -70,11 +70,11 @@ void print_csv(std::ostream& out, const std::vector<LinkArrivals>& links) {
 }
 
 std::string finder_of(const LinkArrivals& found) {
-  return found.found_by.empty() ? std::string(to_name(found.arrivals.solver)) : found.found_by;
+  return found.found_by.empty() ? std::string(to_name(found.eigenrays.solver)) : found.found_by;
 }
 
 std::string cause_of_silence(const LinkArrivals& found) {
-  return found.blocked ? "blocked" : std::string(to_name(found.arrivals.lack));
+  return found.blocked ? "blocked" : std::string(to_name(found.eigenrays.lack));
 }
 
 nlohmann::ordered_json to_json(const LinkArrivals& found) {
@@ -82,24 +82,24 @@ nlohmann::ordered_json to_json(const LinkArrivals& found) {
                               {"rcv_depth_m", found.link.receiver_depth_m},
                               {"rcv_range_m", found.link.range_m},
                               {"solver", finder_of(found)},
-                              {"shadow", found.arrivals.shadow() && !found.blocked}};
-  if (found.arrivals.silent()) {
+                              {"shadow", found.eigenrays.shadow() && !found.blocked}};
+  if (found.eigenrays.silent()) {
     json["blocked"] = found.blocked;
     json["cause"] = cause_of_silence(found);
   } else {
-    const acoustics::ReceivedField field = acoustics::received_field(found.arrivals, {found.beams, {}});
+    const acoustics::ReceivedField field = acoustics::received_field(found.eigenrays, {found.beams, {}});
     json["transmission_loss_db"] = -field.level.value;
-    if (found.arrivals.diffuse_power() > 0)
-      json["diffuse_loss_db"] = -to_decibels(PowerRatio{found.arrivals.diffuse_power()}).value;
+    if (found.eigenrays.diffuse_power() > 0)
+      json["diffuse_loss_db"] = -to_decibels(PowerRatio{found.eigenrays.diffuse_power()}).value;
     json["first_delay_s"] = field.first_delay_s;
     json["mean_delay_s"] = field.mean_delay_s;
     if (found.spreads) json["delay_spread_s"] = found.spreads->first_to_last_s;
     json["rms_delay_spread_s"] = found.spreads ? found.spreads->rms_s : field.delay_spread_s;
   }
   json["paths"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < found.arrivals.paths.size(); ++i) {
+  for (std::size_t i = 0; i < found.eigenrays.paths.size(); ++i) {
     nlohmann::ordered_json row;
-    for (const auto& [name, value] : path_columns(found.arrivals.paths[i])) row[name] = value;
+    for (const auto& [name, value] : path_columns(found.eigenrays.paths[i])) row[name] = value;
     if (found.modems_known) {
       for (const auto& [name, value] : received_columns(found.received.at(i))) row[name] = value;
     }
@@ -108,7 +108,7 @@ nlohmann::ordered_json to_json(const LinkArrivals& found) {
   return json;
 }
 
-void print_row(std::ostream& out, const acoustics::Arrival& path) {
+void print_row(std::ostream& out, const acoustics::Eigenray& path) {
   out << std::setprecision(6) << std::setw(12) << path.delay_s << std::setprecision(2) << std::setw(11)
       << 20 * elementary::log10(path.amplitude) << std::setw(13) << path.absorption_db << std::setprecision(3)
       << std::setw(12) << to_degrees(path.launch_angle_rad) << std::setw(13)
@@ -122,32 +122,32 @@ void print_row(std::ostream& out, const acoustics::Arrival& path) {
   }
 }
 
-void print_received(std::ostream& out, const ReceivedPath& path) {
-  out << std::setprecision(2) << std::setw(13) << path.level_db << std::setw(13)
+void print_received(std::ostream& out, const acoustics::Arrival& path) {
+  out << std::setprecision(2) << std::setw(13) << path.level.value << std::setw(13)
       << 1e6 * (path.doppler_factor - 1);
 }
 
 void print_table(std::ostream& out, const LinkArrivals& found) {
   out << std::fixed << std::setprecision(2) << "from " << found.link.source_depth_m << " m to "
       << found.link.receiver_depth_m << " m deep, " << found.link.range_m
-      << " m away: " << found.arrivals.paths.size() << " paths, by " << finder_of(found) << '\n';
-  if (found.arrivals.silent()) {
+      << " m away: " << found.eigenrays.paths.size() << " paths, by " << finder_of(found) << '\n';
+  if (found.eigenrays.silent()) {
     out << why_silent(found) << '\n';
     return;
   }
   out << "     delay s   level dB  absorbed dB  launch deg  arrival deg  phase deg  surface  bottom  caustics"
       << (found.modems_known ? "  received dB  Doppler ppm\n" : "\n");
-  for (std::size_t i = 0; i < found.arrivals.paths.size(); ++i) {
-    print_row(out, found.arrivals.paths[i]);
+  for (std::size_t i = 0; i < found.eigenrays.paths.size(); ++i) {
+    print_row(out, found.eigenrays.paths[i]);
     if (found.modems_known) print_received(out, found.received.at(i));
     out << '\n';
   }
-  const acoustics::ReceivedField field = acoustics::received_field(found.arrivals, {found.beams, {}});
+  const acoustics::ReceivedField field = acoustics::received_field(found.eigenrays, {found.beams, {}});
   out << std::setprecision(2) << "transmission loss " << -field.level.value << " dB (incoherent)"
       << std::setprecision(6);
-  if (found.arrivals.diffuse_power() > 0) {
+  if (found.eigenrays.diffuse_power() > 0) {
     out << std::setprecision(2) << ", of it diffuse "
-        << -to_decibels(PowerRatio{found.arrivals.diffuse_power()}).value << " dB" << std::setprecision(6);
+        << -to_decibels(PowerRatio{found.eigenrays.diffuse_power()}).value << " dB" << std::setprecision(6);
   }
   if (found.spreads) out << ", delay spread " << found.spreads->first_to_last_s << " s";
   out << ", rms delay spread " << (found.spreads ? found.spreads->rms_s : field.delay_spread_s) << " s\n";
@@ -156,13 +156,13 @@ void print_table(std::ostream& out, const LinkArrivals& found) {
 }  // namespace
 
 double path_level_db(const LinkArrivals& found, std::size_t index) {
-  if (found.modems_known) return found.received.at(index).level_db;
-  return 20 * elementary::log10(found.arrivals.paths.at(index).received_pressure());
+  if (found.modems_known) return found.received.at(index).level.value;
+  return 20 * elementary::log10(found.eigenrays.paths.at(index).received_pressure());
 }
 
 std::string why_silent(const LinkArrivals& found) {
   if (found.blocked) return "blocked: the bottom stands in every way";
-  switch (found.arrivals.lack) {
+  switch (found.eigenrays.lack) {
     case acoustics::PathLack::kTooWeak:
       return "too weak: the bounces leave too little of every ray";
     case acoustics::PathLack::kTooSteep:
@@ -174,14 +174,14 @@ std::string why_silent(const LinkArrivals& found) {
 }
 
 void print_impulse_response(std::ostream& out, const LinkArrivals& found, double carrier_hz, double rate_hz) {
-  const acoustics::Arrivals& arrivals = found.arrivals;
+  const acoustics::Eigenrays& eigenrays = found.eigenrays;
   out << "delay_s,real,imaginary,magnitude_db\n";
-  if (arrivals.silent()) return;
+  if (eigenrays.silent()) return;
   require_in_range(rate_hz, 1, 1e7, "the rate of the impulse response", "Hz");
-  const double first = std::round(arrivals.paths.front().delay_s * rate_hz) - 1;
-  const double count = std::round(arrivals.paths.back().delay_s * rate_hz) + 2 - first;
+  const double first = std::round(eigenrays.paths.front().delay_s * rate_hz) - 1;
+  const double count = std::round(eigenrays.paths.back().delay_s * rate_hz) + 2 - first;
   require(count <= 1e7, "an impulse response has at most 1e7 samples: choose a lower rate");
-  const auto taps = acoustics::impulse_response(arrivals, carrier_hz, rate_hz, first / rate_hz,
+  const auto taps = acoustics::impulse_response(eigenrays, carrier_hz, rate_hz, first / rate_hz,
                                                 static_cast<std::size_t>(count), found.beams);
   for (std::size_t i = 0; i < taps.size(); ++i) {
     out << format_number((first + static_cast<double>(i)) / rate_hz) << ',' << format_number(taps[i].real())

@@ -7,18 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/link/received_field.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 
 namespace halocline::clients {
 
 enum class OutputFormat { kTable, kCsv, kJson };
-
-// Reception of one path from the transmitter's modem.
-struct ReceivedPath {
-  double level_db;        // dB re 1 uPa
-  double doppler_factor;  // ratio of received to sent frequency
-};
 
 // Spread of a link's paths in time, as in LINKS and `halocline link`.
 struct DelaySpreads {
@@ -29,10 +24,10 @@ struct DelaySpreads {
 // Paths of a link, and all that is known for their output.
 struct LinkArrivals {
   acoustics::RayLink link;
-  acoustics::Arrivals arrivals;
+  acoustics::Eigenrays eigenrays;
   bool modems_known = false;          // `received` has one element for each path
   acoustics::Transducers beams = {};  // beam patterns that weight the summary and the impulse response
-  std::vector<ReceivedPath> received = {};
+  std::vector<acoustics::Arrival> received = {};
   bool blocked = false;                      // the bottom cuts the straight line, and no ray arrives
   std::string found_by = {};                 // empty: the solver's name
   std::optional<DelaySpreads> spreads = {};  // only with known modems
@@ -50,7 +45,7 @@ std::string why_silent(const LinkArrivals& found);
 // that at 1 m and includes the beam patterns. Without a path there is no row.
 void print_impulse_response(std::ostream& out, const LinkArrivals& found, double carrier_hz, double rate_hz);
 
-// Writes the arrivals of several links.
+// Writes the eigenrays of several links.
 //
 // CSV has one row for each path; a link without a path has none. Columns:
 //

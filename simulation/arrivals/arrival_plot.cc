@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/arrivals/arrival_plot.h"
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "core/csv_table.h"
 #include "core/units.h"
 
@@ -25,8 +25,8 @@ Plot arrival_plot(const std::vector<LinkArrivals>& links, const std::string& tit
     Series level{.title = name, .style = Series::kStems};
     Series launch{.title = links.size() > 1 ? "" : "launch", .style = Series::kPoints};
     Series arrival{.title = links.size() > 1 ? name : "arrival", .style = Series::kPoints};
-    for (std::size_t i = 0; i < found.arrivals.paths.size(); ++i) {
-      const acoustics::Arrival& path = found.arrivals.paths[i];
+    for (std::size_t i = 0; i < found.eigenrays.paths.size(); ++i) {
+      const acoustics::Eigenray& path = found.eigenrays.paths[i];
       for (Series* series : {&level, &launch, &arrival}) series->x.push_back(path.delay_s);
       level.y.push_back(path_level_db(found, i));
       launch.y.push_back(to_degrees(path.launch_angle_rad));

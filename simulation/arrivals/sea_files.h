@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 
 namespace halocline::clients {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/measured_fading.h"
 #include "acoustics/fading/path_fading.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/waveform/analytic_signal.h"
 #include "acoustics/waveform/linear_phase_filter.h"
@@ -45,8 +45,8 @@ std::vector<PathGain> gains_of(const Reception& reception, const acoustics::Fadi
                              : fading.responses(reception.paths, modem.band(), arrival, {}, large_scale);
   const double sent = amplitude_of(modem.source_level);
   for (std::size_t i = 0; i < reception.paths.size(); ++i) {
-    const acoustics::SoundPath& path = reception.paths[i];
-    gains.push_back({path.identity, path.delay_s, pressures[i] / sent, path.doppler_factor});
+    const acoustics::Arrival& path = reception.paths[i];
+    gains.push_back({path.identity.number(), path.delay_s, pressures[i] / sent, path.doppler_factor});
   }
   return gains;
 }

@@ -13,8 +13,8 @@
 #include "acoustics/math/gauss_legendre.h"
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/modem.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
@@ -53,8 +53,8 @@ TEST(HeaderExamples, Eigenray) {
   const RayOptions options{.frequency_hz = 11'520};
   const RaySea sea{ray_water(environment, options.frequency_hz), BottomProfile::flat(100),
                    *sediment("MediumSand"), RaySurface{.wind_mps = 5}, options};
-  const Arrivals found = arrivals(sea, {.source_depth_m = 30, .receiver_depth_m = 50, .range_m = 2000});
-  for (const Arrival& path : found.paths)
+  const Eigenrays found = eigenrays(sea, {.source_depth_m = 30, .receiver_depth_m = 50, .range_m = 2000});
+  for (const Eigenray& path : found.paths)
     std::cout << path.delay_s << ' ' << path.received_pressure() << '\n';
   if (found.shadow()) std::cout << "no ray gets there\n";
   std::cout.rdbuf(to_console);

@@ -13,6 +13,7 @@
 #include "bus/messages/channels.h"
 #include "bus/transport/event_log.h"
 #include "core/sim_time.h"
+#include "tests/bathymetry/ray_queries.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 #include "tests/support/tolerance.h"
 
@@ -185,11 +186,12 @@ TEST_F(BathymetryNodeTest, RefusesQueriesBeyondWhatMayWait) {
 }
 
 TEST_F(BathymetryNodeTest, RepliesPassTheChecksOfTheBus) {
-  ask_and_step({.mode = QueryMode::kExactProfile, .rays = {{{-50, 100, 0}, {1, 0.3, 0}, 900}}});
+  ask_and_step(
+      {.mode = QueryMode::kDepthTiles, .sample_spacing_m = 10, .rays = {{{-50, 100, 0}, {0, 0, 1}, 1}}});
   ASSERT_EQ(replies_.size(), 1u);  // a NaN would have been refused on the way
   EXPECT_EQ(client_.counters().refused, 0);
-  EXPECT_GT(replies_[0].num_samples, 60);
-  EXPECT_EQ(replies_[0].sample_valid.front(), 0);
+  EXPECT_EQ(replies_[0].num_rays, 64);
+  EXPECT_EQ(replies_[0].ray_status.front(), ray_reply_t::OUTSIDE);
 }
 
 std::size_t size_of(const terrain_tile_t& tile) { return static_cast<std::size_t>(tile.getEncodedSize()); }

@@ -99,38 +99,6 @@ TEST(RayService, TakesSixtyFourTilesAndRefusesOneMore) {
   EXPECT_EQ(answers_to(batch).refusal, Refusal::kTooMany);
 }
 
-TEST(RayService, UniformProfileSamplesAtTheSpacingAlongTheHorizontalDirection) {
-  const RayAnswers answers = answers_to(
-      {.mode = QueryMode::kUniformProfile, .sample_spacing_m = 2.5, .rays = {{{0, 0, 7}, {0, 2, 5}, 100}}});
-  ASSERT_EQ(answers.samples.size(), 41u);
-  EXPECT_EQ(answers.statuses, std::vector{RayStatus::kHit});
-  EXPECT_NEAR(answers.results_m[0], 100, tolerance(1e-9));
-  EXPECT_NEAR(answers.samples[4].distance_m, 10, tolerance(1e-12));
-  EXPECT_EQ(answers.samples[4].z_m, 100);
-}
-
-TEST(RayService, AProfileShorterThanItsSpacingIsOneSample) {
-  const RayAnswers answers = answers_to(
-      {.mode = QueryMode::kUniformProfile, .sample_spacing_m = 10, .rays = {{{0, 0, 0}, {1, 0, 0}, 3}}});
-  ASSERT_EQ(answers.samples.size(), 1u);
-  EXPECT_EQ(answers.samples[0].z_m, 100);
-}
-
-TEST(RayService, ExactProfileHasEveryCrossing) {
-  const RayAnswers answers =
-      answers_to({.mode = QueryMode::kExactProfile, .rays = {{{0, 5, 0}, {1, 0, 0}, 45}}});
-  ASSERT_EQ(answers.samples.size(), 6u);
-  EXPECT_EQ(answers.samples.back().distance_m, 45);
-}
-
-TEST(RayService, AProfileStraightDownIsBadInput) {
-  const RayAnswers answers =
-      answers_to({.mode = QueryMode::kExactProfile, .rays = {{{0, 5, 0}, {0, 0, 1}, 45}}});
-  EXPECT_EQ(answers.refusal, Refusal::kNone);
-  EXPECT_EQ(answers.statuses, std::vector{RayStatus::kBadInput});
-  EXPECT_TRUE(answers.samples.empty());
-}
-
 TEST(RayService, TakesTheCapAndRefusesOneMore) {
   RayBatch batch{.rays = std::vector<Ray>(kMaxRays, {{0, 0, 40}, {0, 0, 1}, 500})};
   EXPECT_EQ(answers_to(batch).statuses.size(), kMaxRays);
@@ -139,14 +107,6 @@ TEST(RayService, TakesTheCapAndRefusesOneMore) {
   EXPECT_EQ(answers.refusal, Refusal::kTooMany);
   EXPECT_TRUE(answers.statuses.empty()) << "refused, not cut";
   EXPECT_NE(answers.reason.find("4097"), std::string::npos);
-}
-
-TEST(RayService, RefusesAProfileOfTooManySamples) {
-  RayBatch batch{
-      .mode = QueryMode::kUniformProfile, .sample_spacing_m = 1e-3, .rays = {{{0, 0, 0}, {1, 0, 0}, 90}}};
-  EXPECT_EQ(answers_to(batch).refusal, Refusal::kTooMany);
-  batch.sample_spacing_m = 1e-300;
-  EXPECT_EQ(answers_to(batch).refusal, Refusal::kTooMany);
 }
 
 TEST(RayService, RefusesToAnswerForAnotherTerrain) {
@@ -159,14 +119,11 @@ TEST(RayService, RefusesToAnswerForAnotherTerrain) {
 TEST(RayService, RefusesQueriesThatAreNone) {
   const Ray ray{{0, 0, 40}, {1, 0, 0}, 50};
   EXPECT_EQ(answers_to({.rays = {}}).refusal, Refusal::kBadQuery);
-  EXPECT_EQ(answers_to({.mode = static_cast<QueryMode>(6), .rays = {ray}}).refusal, Refusal::kBadQuery);
+  EXPECT_EQ(answers_to({.mode = static_cast<QueryMode>(4), .rays = {ray}}).refusal, Refusal::kBadQuery);
   EXPECT_EQ(answers_to({.mode = static_cast<QueryMode>(255), .rays = {ray}}).refusal, Refusal::kBadQuery);
-  EXPECT_EQ(answers_to({.mode = QueryMode::kExactProfile, .rays = {ray, ray}}).refusal, Refusal::kBadQuery);
   for (const double spacing : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
-    for (const QueryMode mode : {QueryMode::kUniformProfile, QueryMode::kDepthTiles}) {
-      const RayBatch batch{.mode = mode, .sample_spacing_m = spacing, .rays = {ray}};
-      EXPECT_EQ(answers_to(batch).refusal, Refusal::kBadQuery) << spacing;
-    }
+    const RayBatch batch{.mode = QueryMode::kDepthTiles, .sample_spacing_m = spacing, .rays = {ray}};
+    EXPECT_EQ(answers_to(batch).refusal, Refusal::kBadQuery) << spacing;
   }
 }
 

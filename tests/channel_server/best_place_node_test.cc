@@ -19,13 +19,13 @@
 #include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_noise.h"
-#include "channel_server/water_model.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/channel_server/flat_bottom.h"
 #include "tests/channel_server/link_queries.h"
 #include "tests/channel_server/node_bench.h"
+#include "tests/channel_server/water_models.h"
 
 namespace halocline::channel_server {
 namespace {

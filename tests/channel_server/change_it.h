@@ -23,6 +23,7 @@
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/frames.h"
 #include "tests/channel_server/node_bench.h"
+#include "tests/channel_server/water_models.h"
 
 namespace halocline::channel_server::testing {
 

@@ -10,6 +10,7 @@
 #include "bus/transport/event_log.h"
 #include "tests/channel_server/link_queries.h"
 #include "tests/channel_server/node_bench.h"
+#include "tests/channel_server/water_models.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -19,6 +19,7 @@
 #include "core/units.h"
 #include "tests/channel_server/link_queries.h"
 #include "tests/channel_server/node_bench.h"
+#include "tests/channel_server/water_models.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::channel_server {
@@ -62,7 +63,7 @@ struct Bench {
 
 // Source level less all losses is the level of each path.
 void expect_terms_add_up(const link_paths_t& sound) {
-  for (const ray_path_t& path : sound.paths) {
+  for (const arrival_t& path : sound.paths) {
     const double losses = path.spreading_loss_db + path.absorption_loss_db + path.surface_loss_db +
                           path.bottom_loss_db + path.beam_loss_db;
     EXPECT_NEAR(sound.source_level_db - losses, path.path_level_db, tolerance(1e-9));
@@ -131,7 +132,7 @@ TEST(LinkPaths, OfRaysAreThoseOfTheAnswer) {
   EXPECT_NEAR(sound.paths[0].launch_angle_rad, std::atan2(10, 1000), tolerance(1e-6));
   double greatest_weight = 0;
   double last_delay_s = 0;
-  for (const ray_path_t& path : sound.paths) {
+  for (const arrival_t& path : sound.paths) {
     EXPECT_GE(path.path_delay_s, std::exchange(last_delay_s, path.path_delay_s));
     greatest_weight = std::max(greatest_weight, path.guard_weight);
   }

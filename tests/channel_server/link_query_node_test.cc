@@ -16,11 +16,11 @@
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_noise.h"
-#include "channel_server/water_model.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 #include "tests/channel_server/link_queries.h"
 #include "tests/channel_server/node_bench.h"
+#include "tests/channel_server/water_models.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::channel_server {

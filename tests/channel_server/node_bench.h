@@ -32,6 +32,7 @@
 #include "core/sim_time.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/channel_server/flat_bottom.h"
+#include "tests/channel_server/water_models.h"
 
 namespace halocline::channel_server::testing {
 

@@ -19,6 +19,7 @@
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "tests/channel_server/node_bench.h"
+#include "tests/channel_server/water_models.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -16,7 +16,7 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
@@ -34,8 +34,8 @@
 
 namespace halocline::channel_server::testing {
 
-inline SoundPath path(double delay_s, double level_db, double doppler_factor = 1) {
-  SoundPath sound;
+inline Arrival path(double delay_s, double level_db, double doppler_factor = 1) {
+  Arrival sound;
   sound.delay_s = delay_s;
   sound.level = {level_db};
   sound.doppler_factor = doppler_factor;
@@ -56,7 +56,7 @@ inline double level_with_bit_error(double error, double noise_power) {
 class ScriptedPropagation : public Propagation {
  public:
   // Paths by delay; without any, silence for the reason given.
-  void set(VehicleId from, VehicleId to, std::vector<SoundPath> paths, PathState state = PathState::kOpen) {
+  void set(VehicleId from, VehicleId to, std::vector<Arrival> paths, PathState state = PathState::kOpen) {
     links_[{from, to}] = {std::move(paths), state};
   }
   // A link that is not set is in a shadow, one second away.
@@ -82,7 +82,7 @@ class ScriptedPropagation : public Propagation {
 
  private:
   acoustics::Environment water_ = even_water();
-  std::map<std::pair<VehicleId, VehicleId>, std::pair<std::vector<SoundPath>, PathState>> links_;
+  std::map<std::pair<VehicleId, VehicleId>, std::pair<std::vector<Arrival>, PathState>> links_;
 };
 
 // Four still vehicles, 1 to 4, present for two minutes from second 0 on.

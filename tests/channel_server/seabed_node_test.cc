@@ -11,6 +11,7 @@
 #include "bus/transport/event_log.h"
 #include "core/frames.h"
 #include "tests/channel_server/node_bench.h"
+#include "tests/channel_server/water_models.h"
 
 namespace halocline::channel_server {
 namespace {

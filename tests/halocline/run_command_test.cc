@@ -28,13 +28,13 @@ using ::testing::Not;
 
 TEST_F(RunCommand, TheSecondRunHasAFolderOfItsOwn) {
   EXPECT_EQ(run("run pond.toml --duration 1 --no-csv").code, 0);
-  const std::string first = bytes_of(folder_ + "/runs/pond/pond.lcm");
+  const std::string first = bytes_of(folder_ + "/results/pond/pond.lcm");
   EXPECT_THAT(first, Not(IsEmpty()));
   const Ended second = run("run pond.toml --duration 2 --no-csv");
   EXPECT_EQ(second.code, 0) << second.output;
-  EXPECT_THAT(second.output, HasSubstr("runs/pond-2/pond.lcm"));
-  EXPECT_EQ(bytes_of(folder_ + "/runs/pond/pond.lcm"), first);
-  EXPECT_GT(fs::file_size(folder_ + "/runs/pond-2/pond.lcm"), first.size());
+  EXPECT_THAT(second.output, HasSubstr("results/pond-2/pond.lcm"));
+  EXPECT_EQ(bytes_of(folder_ + "/results/pond/pond.lcm"), first);
+  EXPECT_GT(fs::file_size(folder_ + "/results/pond-2/pond.lcm"), first.size());
 }
 
 TEST_F(RunCommand, TheLastLineNamesTheReportWhichHasTheNumbersOfTheOutcomesCommand) {
@@ -336,7 +336,7 @@ TEST_F(RunCommand, ForceLeavesNothingOfAnEarlierExport) {
 
 TEST_F(RunCommand, ARunThatIsRefusedLeavesNoFolder) {
   EXPECT_EQ(run("run pond.toml --set 'vehicle.0.start_ned_m=[0.0,0.0,500.0]'").code, 2);
-  EXPECT_FALSE(fs::exists(folder_ + "/runs"));
+  EXPECT_FALSE(fs::exists(folder_ + "/results"));
 }
 
 // Where each program is started by hand, the one that makes the terrain checks the starts on it.

@@ -27,7 +27,7 @@
 #include "bus/repair/flow_watch.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/packets/reception_decision.h"
-#include "channel_server/propagation/link_tracks.h"
+#include "channel_server/propagation/link_chart.h"
 #include "channel_server/scenario_messages.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"
@@ -263,7 +263,7 @@ TEST(MessageLimits, OfCountsAndLengthsAreConstantsOfWhatTheyCount) {
   expect_max<lockstep_message_t>("channel_name", LCM_MAX_CHANNEL_NAME_LENGTH);
   expect_max<link_table_t>("num_peers", channel_server::kMaxPeers);
   expect_max<scenario_info_t>("num_vehicles", channel_server::kMaxVehiclesOfPart);
-  expect_max<link_paths_t>("num_paths", channel_server::LinkTracks::kMaxPaths);
+  expect_max<link_paths_t>("num_paths", channel_server::LinkChart::kMaxPaths);
   expect_max<terrain_tile_t>("num_posts", static_cast<std::size_t>(bathymetry::kMaxPosts));
   expect_max<packet_outcome_t>("num_colliders", channel_server::kMaxColliders);
   expect_max<modem_config_t>("num_beam_rows", acoustics::kMaxBeamRows);

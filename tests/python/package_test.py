@@ -257,8 +257,8 @@ class Interface(PackageTest):
     def test_the_example_of_its_page_runs(self):
         page = re.search(r"^```python\n(.*?)^```", (TREE / "python/README.md").read_text(), re.M | re.S)[1]
         place, found = pathlib.Path(self.folder.name, "page"), {}
-        (place / "runs/harbour").mkdir(parents=True)
-        (place / "runs/harbour/harbour.lcm").symlink_to(self.log)
+        (place / "results/harbour").mkdir(parents=True)
+        (place / "results/harbour/harbour.lcm").symlink_to(self.log)
         (place / "scenarios").symlink_to(TREE / "scenarios")
         with contextlib.chdir(place):
             exec(page, found)

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/modem/modem.h"
@@ -71,10 +72,11 @@ TEST(LinkSurvey, PowersOfThePathsAddUpToTheReceivedLevel) {
     config.channel_server.propagation.model = model;
     const LinkSurvey answer =
         survey_link(config, link_end(config, "-500,0,40"), link_end(config, "500,0,60"));
-    ASSERT_EQ(answer.arrivals.received.size(), answer.arrivals.arrivals.paths.size());
+    ASSERT_EQ(answer.arrivals.received.size(), answer.arrivals.eigenrays.paths.size());
     EXPECT_EQ(answer.arrivals.received.size() > 1, model == channel_server::PropagationModel::kRays);
     double power = 0;
-    for (const ReceivedPath& path : answer.arrivals.received) power += std::pow(10, path.level_db / 10);
+    for (const acoustics::Arrival& path : answer.arrivals.received)
+      power += std::pow(10, path.level.value / 10);
     EXPECT_NEAR(10 * std::log10(power), answer.reception.budget.received_level.value, 1e-9);
   }
 }
@@ -88,8 +90,8 @@ TEST(LinkSurvey, LevelOfAPathIsItsPressureAtTheSourceLevel) {
     const LinkSurveyEnd from = link_end(config, "-500,0,40");
     const LinkSurvey answer = survey_link(config, from, link_end(config, "500,0,60"));
     for (std::size_t i = 0; i < answer.arrivals.received.size(); ++i) {
-      const double pressure = answer.arrivals.arrivals.paths[i].received_pressure();
-      EXPECT_NEAR(answer.arrivals.received[i].level_db,
+      const double pressure = answer.arrivals.eigenrays.paths[i].received_pressure();
+      EXPECT_NEAR(answer.arrivals.received[i].level.value,
                   from.modem.modem.source_level.value + 20 * std::log10(pressure), 1e-9);
     }
   }
@@ -112,7 +114,7 @@ TEST(LinkSurvey, PathsWithTheBeamsOfTheModemsHaveTheLossOfTheBudget) {
     from.modem.modem.beam = acoustics::BeamPattern({{-0.01, 0}, {0.01, 20}});
     to.modem.modem.beam = acoustics::BeamPattern({{-0.1, 30}, {0.1, 3}});
     const LinkSurvey answer = survey_link(config, from, to);
-    const auto field = received_field(answer.arrivals.arrivals, {answer.arrivals.beams, {}});
+    const auto field = received_field(answer.arrivals.eigenrays, {answer.arrivals.beams, {}});
     EXPECT_NEAR(-field.level.value, answer.reception.budget.transmission_loss.value, tolerance(1e-9));
     EXPECT_GT(loss_db(), bare_db + 1);
   }
@@ -328,8 +330,8 @@ TEST(LinkSurvey, RaysGoThroughTheOceansField) {
   const LinkSurvey there = across_the_front(front("rays", "true")),
                    without = across_the_front(front("rays", "false"));
   EXPECT_GT(std::abs(there.reception.budget.delay_s - without.reception.budget.delay_s), 0.005);
-  ASSERT_FALSE(there.arrivals.arrivals.paths.empty());
-  EXPECT_LE(there.arrivals.arrivals.paths.front().delay_s, there.reception.budget.delay_s + 1e-9);
+  ASSERT_FALSE(there.arrivals.eigenrays.paths.empty());
+  EXPECT_LE(there.arrivals.eigenrays.paths.front().delay_s, there.reception.budget.delay_s + 1e-9);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ class ShippedScenarios : public testing::EmbeddedTest {
 
 TEST_F(ShippedScenarios, HaveTheOutputOfOneServerWithThreadsShardsAndBlocks) {
   const std::set<std::string> scenarios = shipped_scenarios();
-  EXPECT_GE(scenarios.size(), 23u);
+  EXPECT_GE(scenarios.size(), 21u);
   for (const std::string& scenario : scenarios) {
     SCOPED_TRACE(scenario);
     const std::string plain = output_of(scenario, {});

@@ -22,6 +22,7 @@
 #include "core/sim_time.h"
 #include "tests/bus/runtime/journal_files.h"
 #include "tests/support/at_ms.h"
+#include "tests/vehicle_sim/client_messages.h"
 #include "tests/vehicle_sim/world/grounds.h"
 #include "vehicle_sim/dynamics/currents.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"

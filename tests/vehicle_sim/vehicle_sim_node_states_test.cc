@@ -15,6 +15,7 @@
 #include "core/units.h"
 #include "tests/bus/runtime/journal_files.h"
 #include "tests/support/tolerance.h"
+#include "tests/vehicle_sim/client_messages.h"
 #include "tests/vehicle_sim/vehicle_sim_node_fixture.h"
 #include "vehicle_sim/state_selection.h"
 
@@ -27,7 +28,7 @@ constexpr std::int64_t kEnd_ms = 60'000;
 constexpr SimDuration kPeriod = SimDuration::from_milliseconds(100);
 
 double speed_difference_mps(const vehicle_state_t& a, const vehicle_state_t& b) {
-  return (from_message(a).velocity_ned_mps - from_message(b).velocity_ned_mps).norm();
+  return (kinematics_in(a).velocity_ned_mps - kinematics_in(b).velocity_ned_mps).norm();
 }
 
 class ReckonedStates : public VehicleSimNodeTest {
@@ -64,7 +65,7 @@ Seen seen_by_receiver(const std::vector<vehicle_state_t>& truth,
     const SimTime now = SimTime::from_utime(state.utime);
     while (last + 1 < published.size() && SimTime::from_utime(published[last + 1].utime) + delay <= now)
       ++last;
-    const KinematicState known = from_message(published[last]), true_state = from_message(state);
+    const KinematicState known = kinematics_in(published[last]), true_state = kinematics_in(state);
     const Pose carried = reckoned(known, now - SimTime::from_utime(published[last].utime)).pose;
     seen.off_m = std::max(seen.off_m, (true_state.pose.position_ned_m - carried.position_ned_m).norm());
     seen.off_rad = std::max(seen.off_rad, angle_between(true_state.pose.orientation, carried.orientation));

@@ -17,6 +17,7 @@
 #include "bus/transport/node_identity.h"
 #include "core/sim_time.h"
 #include "tests/support/tolerance.h"
+#include "tests/vehicle_sim/client_messages.h"
 #include "tests/vehicle_sim/vehicle_sim_node_fixture.h"
 #include "vehicle_sim/dynamics/currents.h"
 #include "vehicle_sim/faults.h"

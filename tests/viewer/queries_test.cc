@@ -45,7 +45,7 @@ link_reply_t reply_to(const link_query_t& query) {
   reply.answers[0].link.snr_db = 12;
   reply.answers[0].link.sinr_db = 10;
   reply.link_paths.source_level_db = 165;
-  ray_path_t path{};
+  arrival_t path{};
   path.path_level_db = 101;
   path.path_delay_s = 1;
   path.spreading_loss_db = 60;

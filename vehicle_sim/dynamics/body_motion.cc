@@ -89,11 +89,6 @@ Impulse impulse_of(const Vec3& force_n, const Vec3& point_ned_m, double step_s) 
   return {step_s * force_n, step_s * point_ned_m.cross(force_n)};
 }
 
-Impulse momentum_of(const Model& model, const VehicleState& state, const Vec3& current_ned) {
-  const Impulse own = momentum_about_origin_of_body(model, state, current_ned);
-  return about(own, -state.position_ned_m);
-}
-
 // Inverse effective mass at the point r from CO, with a = (n, r x n) the unit impulse along n in the body
 // frame:
 //

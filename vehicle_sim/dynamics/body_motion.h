@@ -44,10 +44,6 @@ struct Impulse {
 // Returns the impulse of `force_n` at `point_ned_m` over `step_s`.
 Impulse impulse_of(const Vec3& force_n, const Vec3& point_ned_m, double step_s);
 
-// Returns the momentum of vehicle and water relative to water that moves at `current_ned_mps`; the moment is
-// about the world's origin.
-Impulse momentum_of(const Model& model, const VehicleState& state, const Vec3& current_ned_mps);
-
 // Returns the change of the point's velocity along the unit vector `direction` for a unit impulse along it
 // there, 1/kg.
 double inverse_mass_at(const Model& model, const VehicleState& pose, const Vec3& point_ned_m,

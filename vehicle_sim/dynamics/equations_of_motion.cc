@@ -309,17 +309,4 @@ VehicleState rk4_step(const Model& model, const VehicleState& state, const Actua
           Quaternion(end.orientation.data()).normalized(), end.velocity.vector(), end.actuators};
 }
 
-// Mechanical energy, with z_g and z_b the z of the centres of gravity and of buoyancy:
-//
-//   E = 1/2 nu^T M nu - W z_g + B z_b
-double mechanical_energy_j(const Model& model, const VehicleState& state) {
-  const ModelParameters& p = model.parameters();
-  const double kinetic = 0.5 * state.velocity_body.dot(model.mass() * state.velocity_body);
-  const auto depth_of = [&](const Vec3& point) {
-    return (state.position_ned_m + state.orientation * point).z();
-  };
-  return kinetic - model.weight_n() * depth_of(p.center_of_gravity_m) +
-         p.buoyancy_n * depth_of(p.center_of_buoyancy_m);
-}
-
 }  // namespace halocline::vehicle_sim

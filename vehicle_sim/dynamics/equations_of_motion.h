@@ -57,9 +57,4 @@ VehicleState rk4_step(const Model& model, const VehicleState& state, const Actua
 // Returns the mechanical power of propeller and thrusters at their speeds in the state, W.
 double shaft_power_w(const Model& model, const VehicleState& state, const Water& water);
 
-// Returns the kinetic energy 1/2 nu^T M nu plus the potential energy of weight and buoyancy, J; zero at rest
-// at z = 0, level, with CO, CG and CB at one depth. For a submerged vehicle. It never grows without actuators
-// and current.
-double mechanical_energy_j(const Model& model, const VehicleState& state);
-
 }  // namespace halocline::vehicle_sim

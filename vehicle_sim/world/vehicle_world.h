@@ -108,8 +108,6 @@ class VehicleWorld {
   double tether_distance_m(std::size_t tether) const;
   double tether_pull_n(std::size_t tether) const { return tethers_[tether].pull_n; }
 
-  // Sum of the forces of other hulls and of tethers in the last step, N, world frame.
-  const Vec3& link_force_ned_n(std::size_t index) const { return vehicles_[index].link_force; }
   // True when the vehicle touched another one in the last step.
   bool touches_vehicle(std::size_t index) const { return vehicles_[index].touches_vehicle; }
 

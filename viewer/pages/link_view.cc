@@ -37,7 +37,7 @@ json rounded(std::span<const float> values, double offset) {
 
 json paths_json(const link_paths_t& paths, double surface_m) {
   std::vector<json> all;
-  for (const ray_path_t& path : paths.paths) {
+  for (const arrival_t& path : paths.paths) {
     all.push_back({{"delay_s", path.path_delay_s},
                    {"level_db", path.path_level_db - paths.source_level_db},
                    {"phase_rad", path.phase_rad},
@@ -107,7 +107,7 @@ json budget_json(const LinkSubject& subject, const link_t& link, const link_path
              "dB re 1 uPa at 1 m", "Of the sender's modem.");
   const auto strongest = std::max_element(
       paths.paths.begin(), paths.paths.end(),
-      [](const ray_path_t& a, const ray_path_t& b) { return a.path_level_db < b.path_level_db; });
+      [](const arrival_t& a, const arrival_t& b) { return a.path_level_db < b.path_level_db; });
   if (strongest != paths.paths.end()) {
     fall.step("Spreading", -strongest->spreading_loss_db, "Of the strongest path's ray tube.");
     fall.step("Absorption", -strongest->absorption_loss_db, "Along the strongest path.");

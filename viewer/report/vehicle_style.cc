@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/report/vehicle_style.h"
 
+#include <array>
+#include <cstddef>
+
 #include <fmt/format.h>
 
 #include "viewer/report/svg.h"
@@ -8,6 +11,13 @@
 namespace halocline::clients {
 namespace {
 
+// Colour as "#rrggbb" on a light and on a dark page.
+struct VehicleColour {
+  const char* on_light;
+  const char* on_dark;
+};
+
+constexpr std::size_t kVehicleColours = 8;
 // Colours in an order in which the first few differ the most.
 constexpr std::array<VehicleColour, kVehicleColours> kColours{{{"#2d2f84", "#719cf5"},
                                                                {"#c37f00", "#e9cd56"},
@@ -20,8 +30,6 @@ constexpr std::array<VehicleColour, kVehicleColours> kColours{{{"#2d2f84", "#719
 constexpr std::array<const char*, 4> kDashes{"none", "7 3", "2 3", "9 3 2 3"};
 
 }  // namespace
-
-const std::array<VehicleColour, kVehicleColours>& vehicle_colours() { return kColours; }
 
 std::string colour_of(const VehicleRecord& vehicle) {
   return fmt::format("v-{}", vehicle.index % kVehicleColours);

@@ -7,22 +7,11 @@
 // the three kinds of colour blindness (Machado, Oliveira and Fernandes 2009, severity 1).
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <string>
 
 #include "runs/timeline/vehicle_record.h"
 
 namespace halocline::clients {
-
-// Colour as "#rrggbb" on a light and on a dark page.
-struct VehicleColour {
-  const char* on_light;
-  const char* on_dark;
-};
-
-inline constexpr std::size_t kVehicleColours = 8;
-const std::array<VehicleColour, kVehicleColours>& vehicle_colours();
 
 // Returns the page's variable for the vehicle's colour: "v-3".
 std::string colour_of(const VehicleRecord& vehicle);

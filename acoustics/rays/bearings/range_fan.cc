@@ -8,8 +8,8 @@
 
 #include "acoustics/math/fold_field.h"
 #include "acoustics/math/hermite_cubic.h"
-#include "acoustics/rays/profile_path.h"
 #include "acoustics/rays/profile_rays.h"
+#include "acoustics/rays/traced_eigenray.h"
 #include "core/check.h"
 #include "core/elementary.h"
 
@@ -43,7 +43,7 @@ double held_wide(double slope, const Fold& fold, double frequency_hz) {
 }
 
 // True when zeta is continuous between two rays: they may differ by turns, but not by bounces.
-bool are_alike(const Arrival& a, const Arrival& b) {
+bool are_alike(const Eigenray& a, const Eigenray& b) {
   return a.surface_bounces == b.surface_bounces && a.bottom_bounces == b.bottom_bounces;
 }
 
@@ -57,14 +57,13 @@ RangeFan::RangeFan(std::vector<double> ranges_m) : ranges_m_(std::move(ranges_m)
 
 RangeFan::Traced RangeFan::traced(const ArcTracer& tracer, double theta) const {
   Traced traced{theta, {}, {}};
-  tracer.trace_past(
-      theta, ranges_m_, [&](std::size_t at, const TracedRay& ray, const TracedDetails& details) {
-        const double cosine = std::sqrt(1 - ray.sine * ray.sine);
-        const double orientation = (ray.surface_bounces + ray.bottom_bounces) % 2 == 0 ? 1 : -1;
-        traced.places.push_back({ray.zeta, orientation, ray.zeta - orientation * ray.z, Before::kNone});
-        traced.rays.push_back({ray.zeta_slope, orientation * ray.sine * ray.xi / cosine,
-                               arrival_of(tracer, ray, details, {ranges_m_[at], ray.zeta, cosine})});
-      });
+  tracer.trace_past(theta, ranges_m_, [&](std::size_t at, const RayTrace& ray, const TraceDetails& details) {
+    const double cosine = std::sqrt(1 - ray.sine * ray.sine);
+    const double orientation = (ray.surface_bounces + ray.bottom_bounces) % 2 == 0 ? 1 : -1;
+    traced.places.push_back({ray.zeta, orientation, ray.zeta - orientation * ray.z, Before::kNone});
+    traced.rays.push_back({ray.zeta_slope, orientation * ray.sine * ray.xi / cosine,
+                           eigenray_of(tracer, ray, details, {ranges_m_[at], ray.zeta, cosine})});
+  });
   return traced;
 }
 
@@ -120,9 +119,9 @@ Fold RangeFan::fold_between(const Ray& one, const Ray& other) {
 }
 
 // The path to an image beside the ray `i`.
-Arrival RangeFan::beside(const Range& range, std::size_t i, double target) {
+Eigenray RangeFan::beside(const Range& range, std::size_t i, double target) {
   const Ray& ray = range.rays[i];
-  Arrival path = ray.path;
+  Eigenray path = ray.path;
   const double off = target - range.places[i].zeta;
   path.delay_s += ray.slowness * off;
   path.launch_angle_rad += off / ray.zeta_slope;
@@ -130,18 +129,18 @@ Arrival RangeFan::beside(const Range& range, std::size_t i, double target) {
   return path;
 }
 
-// The mean of two arrivals, `share` of the way from one to the other, for all fields that are interpolated
+// The mean of two eigenrays, `share` of the way from one to the other, for all fields that are interpolated
 // linearly.
-Arrival RangeFan::mean_of(const Ray& one, const Ray& other, double share) {
-  Arrival path = share < 0.5 ? one.path : other.path;
-  const auto mix = [&](double Arrival::*field) {
+Eigenray RangeFan::mean_of(const Ray& one, const Ray& other, double share) {
+  Eigenray path = share < 0.5 ? one.path : other.path;
+  const auto mix = [&](double Eigenray::*field) {
     path.*field = mixed(one.path.*field, other.path.*field, share);
   };
   for (const auto field :
-       {&Arrival::amplitude, &Arrival::arrival_angle_rad, &Arrival::launch_angle_rad,
-        &Arrival::launch_slowness_spm, &Arrival::range_slowness_spm, &Arrival::path_length_m,
-        &Arrival::absorption_db, &Arrival::surface_loss_db, &Arrival::bottom_loss_db,
-        &Arrival::surface_sine_squares, &Arrival::bottom_sine_squares})
+       {&Eigenray::amplitude, &Eigenray::arrival_angle_rad, &Eigenray::launch_angle_rad,
+        &Eigenray::launch_slowness_spm, &Eigenray::range_slowness_spm, &Eigenray::path_length_m,
+        &Eigenray::absorption_db, &Eigenray::surface_loss_db, &Eigenray::bottom_loss_db,
+        &Eigenray::surface_sine_squares, &Eigenray::bottom_sine_squares})
     mix(field);
   const double turned = std::remainder(other.path.phase_rad - one.path.phase_rad, 2 * pi);
   if (std::abs(turned) < kTurned) path.phase_rad = positive_angle(one.path.phase_rad + share * turned);
@@ -149,7 +148,7 @@ Arrival RangeFan::mean_of(const Ray& one, const Ray& other, double share) {
 }
 
 // The path to an image between the rays `b` - 1 and `b`, between which zeta does not turn.
-Arrival RangeFan::between(const Range& range, std::size_t b, double target, double frequency_hz) {
+Eigenray RangeFan::between(const Range& range, std::size_t b, double target, double frequency_hz) {
   const Ray &one = range.rays[b - 1], &other = range.rays[b];
   const double zeta = range.places[b - 1].zeta, height = range.places[b].zeta - zeta;
   const double width = other.path.launch_angle_rad - one.path.launch_angle_rad;
@@ -165,7 +164,7 @@ Arrival RangeFan::between(const Range& range, std::size_t b, double target, doub
   double slope = std::abs(is_smooth ? mean_slope / bend : mean_slope);
   slope = std::max(slope, kMinBend * std::min(std::abs(one.zeta_slope), std::abs(other.zeta_slope)));
   slope = held_wide(slope, fold_between(one, other), frequency_hz);
-  Arrival path = mean_of(one, other, is_smooth ? along : share);
+  Eigenray path = mean_of(one, other, is_smooth ? along : share);
   path.delay_s = delay(share);
   path.amplitude /= std::sqrt(slope);
   return path;
@@ -174,7 +173,7 @@ Arrival RangeFan::between(const Range& range, std::size_t b, double target, doub
 // Adds the paths to an image near the fold between the rays `b` - 1 and `b`, with zeta a parabola about its
 // turn (acoustics/math/fold_field.h).
 void RangeFan::add_fold(const Range& range, std::size_t b, double target, double frequency_hz,
-                        std::vector<Arrival>& paths) {
+                        std::vector<Eigenray>& paths) {
   const Ray &one = range.rays[b - 1], &other = range.rays[b];
   const double width = other.path.launch_angle_rad - one.path.launch_angle_rad;
   const Fold fold = fold_between(one, other);
@@ -183,7 +182,7 @@ void RangeFan::add_fold(const Range& range, std::size_t b, double target, double
   const double x = (target - turn) / std::copysign(fold.length_m(frequency_hz), fold.curvature);
   if (x < kDarkFold) return;
   const auto add = [&](double after, double slope) {
-    Arrival path = mean_of(one, other, after / width);
+    Eigenray path = mean_of(one, other, after / width);
     // Delay by the mean slowness between the nearer ray and the path.
     const Ray& nearer = after < 0.5 * width ? one : other;
     const double zeta = range.places[after < 0.5 * width ? b - 1 : b].zeta;
@@ -202,14 +201,14 @@ void RangeFan::add_fold(const Range& range, std::size_t b, double target, double
   }
 }
 
-std::vector<Arrival> RangeFan::at(const ProfiledSea& sea, const RayLink& link) {
+std::vector<Eigenray> RangeFan::at(const ProfiledSea& sea, const RayLink& link) {
   const auto place = std::lower_bound(ranges_m_.begin(), ranges_m_.end(), link.range_m - kSameRange);
   if (sea.section != nullptr || place == ranges_m_.end() || *place > link.range_m + kSameRange)
     return profile_rays(sea, link);
   validate(sea.options);
   const Fan& fan = fan_of(sea, link.source_depth_m);
   const Range& range = fan.ranges[static_cast<std::size_t>(place - ranges_m_.begin())];
-  std::vector<Arrival> paths;
+  std::vector<Eigenray> paths;
   for (std::size_t b = 1; b < range.places.size(); ++b) {
     const Place &before = range.places[b - 1], &after = range.places[b];
     if (after.before == Before::kNone) continue;

@@ -21,8 +21,8 @@
 
 #include "acoustics/math/fold_field.h"
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/ray_trace.h"
 
 namespace halocline::acoustics {
 
@@ -32,7 +32,7 @@ class RangeFan : public SharedRays {
   // `ranges_m` are the horizontal ranges of the receivers, m, rising, above 0.
   explicit RangeFan(std::vector<double> ranges_m);
 
-  std::vector<Arrival> at(const ProfiledSea& sea, const RayLink& link) override;
+  std::vector<Eigenray> at(const ProfiledSea& sea, const RayLink& link) override;
 
  private:
   // The ray of the preceding launch angle: lost, of the same bounce sequence, or of another.
@@ -45,7 +45,7 @@ class RangeFan : public SharedRays {
   struct Ray {
     double zeta_slope;  // d zeta / d theta, m/rad
     double slowness;    // d delay / d zeta, s/m
-    Arrival path;       // with the amplitude of a ray tube of slope 1
+    Eigenray path;      // with the amplitude of a ray tube of slope 1
   };
   // A ray of one launch angle at the ranges that it reaches.
   struct Traced {
@@ -67,14 +67,14 @@ class RangeFan : public SharedRays {
   Traced traced(const ArcTracer& tracer, double theta) const;
   // Appends to `fan` rays between its last ray and `next`, and then `next`.
   void halve(const ArcTracer& tracer, std::vector<Traced>& fan, Traced next, int halvings) const;
-  // The fold between two rays, the mean of their arrivals, and the paths of an image that lies between two
+  // The fold between two rays, the mean of their eigenrays, and the paths of an image that lies between two
   // rays, near a fold of zeta between them, or beside a ray.
   static Fold fold_between(const Ray& one, const Ray& other);
-  static Arrival mean_of(const Ray& one, const Ray& other, double share);
-  static Arrival between(const Range& range, std::size_t b, double target, double frequency_hz);
+  static Eigenray mean_of(const Ray& one, const Ray& other, double share);
+  static Eigenray between(const Range& range, std::size_t b, double target, double frequency_hz);
   static void add_fold(const Range& range, std::size_t b, double target, double frequency_hz,
-                       std::vector<Arrival>& paths);
-  static Arrival beside(const Range& range, std::size_t i, double target);
+                       std::vector<Eigenray>& paths);
+  static Eigenray beside(const Range& range, std::size_t i, double target);
 
   std::vector<double> ranges_m_;
   std::vector<Fan> fans_;  // one for each set of options

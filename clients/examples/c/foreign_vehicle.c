@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A vehicle with a modem in C, which needs LCM and the message types alone. It circles, announces its modem,
 // sends packets, and prints what becomes of them and what it receives. To build it by hand, from the root of
-// the tree (docs/extending.md has other languages):
+// the tree (clients/examples/README.md has other languages):
 //
 //   $ mkdir -p build/mine/c && lcm-gen --c --c-cpath build/mine/c --c-hpath build/mine/c lcmtypes/*.lcm
 //   $ cc -std=gnu11 -I build/mine/c clients/examples/c/*.c build/mine/c/*.c -llcm -lm -o build/mine/vehicle_c

@@ -18,7 +18,7 @@ import lcm.lcm.LCMSubscriber;
 
 /**
  * A vehicle with a modem in Java, of LCM and the message types alone. It circles, announces its modem, sends packets, and prints
- * what becomes of them and what it receives. By hand, from the root of the tree (docs/extending.md has other languages), with
+ * what becomes of them and what it receives. By hand, from the root of the tree (clients/examples/README.md has other languages), with
  * Debian's liblcm-java:
  *
  *   $ mkdir -p build/mine && lcm-gen --java --jpath build/mine/java lcmtypes/*.lcm

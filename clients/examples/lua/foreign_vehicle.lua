@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: BSD-3-Clause
 -- A vehicle with a modem in Lua 5.2, of LCM and the message types alone. It circles, announces its modem, sends packets, and
--- prints what becomes of them and what it receives. By hand, from the root of the tree (docs/extending.md has other languages),
+-- prints what becomes of them and what it receives. By hand, from the root of the tree (clients/examples/README.md has other languages),
 -- with Debian's packages lua5.2 and liblcm-lua:
 --
 --   $ mkdir -p build/mine && lcm-gen --lua --lpath build/mine lcmtypes/*.lcm

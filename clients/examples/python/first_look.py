@@ -13,7 +13,7 @@ import numpy as np
 
 import halocline
 
-scenario, log, picture = sys.argv[1:] + ["scenarios/harbour.toml", "runs/harbour/harbour.lcm", "first_look.png"][len(sys.argv) - 1:]
+scenario, log, picture = sys.argv[1:] + ["scenarios/harbour.toml", "results/harbour/harbour.lcm", "first_look.png"][len(sys.argv) - 1:]
 
 # %% Where the vehicles went
 tables = halocline.read_log(log, channels=r"STATE\..*|OUTCOME")

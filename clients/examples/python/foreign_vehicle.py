@@ -3,7 +3,7 @@
 """A vehicle with a modem in Python, of LCM and the message types alone.
 
 It circles, announces its modem, sends packets, and prints what becomes of them and what it receives. By hand, from the root of
-the tree (docs/extending.md has the same in other languages); lcm.py beside it serves where LCM's own module is not installed:
+the tree (clients/examples/README.md has the same in other languages); lcm.py beside it serves where LCM's own module is not installed:
 
    $ mkdir -p build/mine && lcm-gen --python --ppath build/mine lcmtypes/*.lcm
    $ PYTHONPATH=build/mine ./scripts/join python3 clients/examples/python/foreign_vehicle.py --name visitor --id 77 --to 1

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <memory>
-
-#include "bus/config/config.h"
 #include "bus/runtime/node_process.h"
 #include "clients/onboard/autopilot/autopilot_config.h"
 #include "clients/onboard/autopilot/autopilot_node.h"
 
-using halocline::bus::NodeProgram;
+using halocline::clients::AutopilotConfig;
+using halocline::clients::AutopilotNode;
 
 int main(int argc, char** argv) {
-  halocline::clients::AutopilotConfig config;
-  NodeProgram program;
+  halocline::bus::NodeProgram program;
   program.program = "halocline-autopilot";
   program.purpose = "Steers the vehicles that have a [vehicle.mission] through their behaviours.";
   program.node_name = "autopilot";
@@ -22,9 +19,5 @@ int main(int argc, char** argv) {
       "           RECEIPT.<vehicle>, RECEIVE.<vehicle>, BEST_PLACE_REPLY.<vehicle>\n"
       "publishes: COMMAND.<vehicle>, PLAN.<vehicle>, AUTOPILOT.<vehicle>, SEND.<vehicle>,\n"
       "           BEST_PLACE_QUERY, STATUS.<name>";
-  program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
-  program.make_node = [&](const NodeProgram::Context& context) {
-    return std::make_unique<halocline::clients::AutopilotNode>(context.lcm, context.identity, config);
-  };
-  return halocline::bus::run_node_program(argc, argv, program);
+  return halocline::bus::run_node_program<AutopilotConfig, AutopilotNode>(argc, argv, program);
 }

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <memory>
-
-#include "bus/config/config.h"
 #include "bus/runtime/node_process.h"
 #include "clients/onboard/localiser/localiser_config.h"
 #include "clients/onboard/localiser/localiser_node.h"
 
-using halocline::bus::NodeProgram;
+using halocline::clients::LocaliserConfig;
+using halocline::clients::LocaliserNode;
 
 int main(int argc, char** argv) {
-  halocline::clients::LocaliserConfig config;
-  NodeProgram program;
+  halocline::bus::NodeProgram program;
   program.program = "halocline-localiser";
   program.purpose = "Finds the places of the vehicles that have a [vehicle.localiser], by ranges to beacons.";
   program.node_name = "localiser";
@@ -21,9 +18,5 @@ int main(int argc, char** argv) {
       "           GPS.<vehicle> (where it sets its clock, or that is estimated);\n"
       "           STATE.<vehicle>, to compute the error\n"
       "publishes: SEND.<vehicle>, ESTIMATE.<vehicle>, STATUS.<name>";
-  program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
-  program.make_node = [&](const NodeProgram::Context& context) {
-    return std::make_unique<halocline::clients::LocaliserNode>(context.lcm, context.identity, config);
-  };
-  return halocline::bus::run_node_program(argc, argv, program);
+  return halocline::bus::run_node_program<LocaliserConfig, LocaliserNode>(argc, argv, program);
 }

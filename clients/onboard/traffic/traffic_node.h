@@ -36,10 +36,6 @@ class TrafficNode : public bus::Node {
   // Throws InvalidArgument for a destination that the scenario does not have.
   TrafficNode(lcm::LCM& lcm, bus::NodeIdentity identity, const TrafficConfig& config);
 
-  // Returns the counters of the modem of the i-th vehicle in the configuration.
-  const ModemCounters& counters_of(std::size_t i) const { return senders_.at(i)->modem.counters(); }
-  const RelayCounters& relay_counters_of(std::size_t i) const { return senders_.at(i)->relay.counters(); }
-
  protected:
   bus::Due on_due() const override;
   void on_step(const bus::Now& now) override;

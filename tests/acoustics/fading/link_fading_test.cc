@@ -24,11 +24,11 @@ constexpr Band kBand{22'500, 27'500};
 
 FadingModel small_scale() { return {.enabled = true, .large_scale_db = 0}; }
 
-SoundPath path_of(double level_db, const PathFading& fading) {
-  return {.delay_s = 1, .level = {level_db}, .identity = 17, .fading = fading};
+Arrival path_of(double level_db, const PathFading& fading) {
+  return {{.delay_s = 1, .identity = {.branch = 17}}, {level_db}, 1, fading};
 }
 
-std::complex<double> response(const FadingModel& model, const FadingLink& link, const SoundPath& path,
+std::complex<double> response(const FadingModel& model, const FadingLink& link, const Arrival& path,
                               double time_s) {
   return LinkFading(model, link).responses({path}, kBand, SimTime::from_seconds(time_s), {}, 1).front();
 }
@@ -77,7 +77,7 @@ TEST(LinkFading, AmplitudesFollowRiceOverIndependentLinks) {
 
 // Over 1e5 s a sum of sines has spent all its coherence times: the mean is that of the sines themselves.
 TEST(LinkFading, MeanPowerOverADayIsThePowerOfThePath) {
-  const SoundPath path = path_of(20 * std::log10(3), {0.3, 0.2, 0.5, 1.3});
+  const Arrival path = path_of(20 * std::log10(3), {0.3, 0.2, 0.5, 1.3});
   const LinkFading fading(small_scale(), {.seed = 9, .lower_id = 1, .higher_id = 2});
   const int count = 200'000;
   double sum = 0;
@@ -144,7 +144,7 @@ TEST(LinkFading, CrossesLevelsAsOftenAsRiceSays) {
 }
 
 TEST(LinkFading, BothDirectionsFadeAlike) {
-  SoundPath there = path_of(0, {0.2, 0.5, 0.3, 1}), back = there;
+  Arrival there = path_of(0, {0.2, 0.5, 0.3, 1}), back = there;
   there.launch_angle_rad = 0.1;
   there.arrival_angle_rad = -0.2;
   back.launch_angle_rad = 0.2;
@@ -156,7 +156,7 @@ TEST(LinkFading, BothDirectionsFadeAlike) {
 }
 
 TEST(LinkFading, AValueDoesNotDependOnTheStepItIsReachedBy) {
-  const SoundPath path = path_of(0, {0.2, 0.5, 0.3, 1});
+  const Arrival path = path_of(0, {0.2, 0.5, 0.3, 1});
   const LinkFading fading(small_scale(), {.seed = 4, .lower_id = 1, .higher_id = 2});
   const auto stepped = fading.responses({path}, kBand, SimTime::from_seconds(1e6), {0, 0.01, 64}, 1);
   const auto alone = fading.responses({path}, kBand, SimTime::from_seconds(1e6), {0.63, 1, 1}, 1);
@@ -166,7 +166,7 @@ TEST(LinkFading, AValueDoesNotDependOnTheStepItIsReachedBy) {
 // Mean over links of the product of two paths' medium against its Gaussian of the distance.
 TEST(LinkFading, PathsThroughTheSameWaterShareTheMedium) {
   const double apart_rad = to_radians(4);
-  SoundPath one = path_of(0, {0, 1, 0, 0.01}), other = one;
+  Arrival one = path_of(0, {0, 1, 0, 0.01}), other = one;
   other.arrival_angle_rad = apart_rad;
   std::complex<double> product = 0;
   const int links = 4000;
@@ -182,8 +182,8 @@ TEST(LinkFading, PathsThroughTheSameWaterShareTheMedium) {
 TEST(MeanPower, OfSteadyPathsIsTheSquareOfTheirPressures) {
   const FadingModel model{.enabled = true, .rice_factor_db = 60};
   const PathFading steady = path_fading(model, 0, 25'000, 0, 0);
-  const SoundPath direct{.delay_s = 1, .level = {0}, .fading = steady};
-  SoundPath mirrored = direct;
+  const Arrival direct{{.delay_s = 1}, {0}, 1, steady};
+  Arrival mirrored = direct;
   mirrored.phase_rad = pi;
   mirrored.delay_s += 1e-6;  // an eighth of a cycle in the middle, the same over the band
   const double expected = 4 * std::pow(std::sin(pi * 25'000 * 1e-6), 2);
@@ -193,8 +193,8 @@ TEST(MeanPower, OfSteadyPathsIsTheSquareOfTheirPressures) {
 TEST(MeanPower, OfPathsFarApartIsTheSumOfTheirPowers) {
   const FadingModel model{.enabled = true};
   const PathFading fading = path_fading(model, 0, 25'000, 0, 0);
-  const SoundPath early{.delay_s = 1, .level = {0}, .fading = fading};
-  SoundPath late = early;
+  const Arrival early{{.delay_s = 1}, {0}, 1, fading};
+  Arrival late = early;
   late.delay_s += 100 / kBand.width_hz() + 0.2e-3;
   EXPECT_NEAR(mean_power(model, {early, late}, kBand), 2, 2 / (pi * 100));
 }
@@ -202,10 +202,10 @@ TEST(MeanPower, OfPathsFarApartIsTheSumOfTheirPowers) {
 // The mean over 4000 links and the band of |sum of responses|^2 is what mean_power says.
 TEST(MeanPower, IsTheMeanOfWhatIsReceived) {
   const FadingModel model = small_scale();
-  std::vector<SoundPath> paths{
-      {.delay_s = 1, .level = {0}, .identity = 1, .fading = {0.6, 0.3, 0.1, 0.5}},
-      {.delay_s = 1.00003, .level = {-3}, .phase_rad = pi, .identity = 2, .fading = {0.3, 0.2, 0.5, 0.5}},
-      {.delay_s = 1.0002, .level = {-1}, .phase_rad = 1, .identity = 3, .fading = {0.5, 0.5, 0, 0.1}}};
+  std::vector<Arrival> paths{
+      {{.delay_s = 1, .identity = {.branch = 1}}, {0}, 1, {0.6, 0.3, 0.1, 0.5}},
+      {{.delay_s = 1.00003, .phase_rad = pi, .identity = {.branch = 2}}, {-3}, 1, {0.3, 0.2, 0.5, 0.5}},
+      {{.delay_s = 1.0002, .phase_rad = 1, .identity = {.branch = 3}}, {-1}, 1, {0.5, 0.5, 0, 0.1}}};
   const int links = 4000, frequencies = 32;
   double mean = 0;
   for (std::uint32_t pair = 0; pair < links; ++pair) {

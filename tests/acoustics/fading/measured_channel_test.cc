@@ -13,11 +13,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/complex_noise.h"
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/measured_fading.h"
 #include "acoustics/fading/path_responses.h"
-#include "acoustics/fading/sound_path.h"
 #include "core/check.h"
 #include "core/random.h"
 #include "core/sim_time.h"
@@ -193,8 +193,8 @@ class MeasuredFadingTest : public ::testing::Test {
                                     0.1 * static_cast<double>(i * k));
                 }),
       kBand);
-  SoundPath reference{.delay_s = 2, .level = {70}, .doppler_factor = 1.001, .arrival_angle_rad = 0.2};
-  std::vector<SoundPath> paths = measured_paths(*channel, reference, {80});
+  Arrival reference{{.delay_s = 2, .arrival_angle_rad = 0.2}, {70}, 1.001};
+  std::vector<Arrival> paths = measured_paths(*channel, reference, {80});
 };
 
 TEST_F(MeasuredFadingTest, PathsArriveAfterTheReferenceAndHaveTheLevelInAll) {

@@ -17,18 +17,14 @@ constexpr Duct kShallow{.depth_m = 2.5, .trapped_share = 0.28};
 constexpr Reverberation kLambert{.enabled = true};
 
 // A direct path and one with four bounces.
-std::vector<SoundPath> two_paths() {
-  return {{.delay_s = 0.2, .level = {100}, .fading = {.doppler_spread_hz = 0.1}},
-          {.delay_s = 0.203,
-           .level = {94},
-           .surface_bounces = 2,
-           .bottom_bounces = 2,
-           .fading = {.doppler_spread_hz = 2}}};
+std::vector<Arrival> two_paths() {
+  return {{{.delay_s = 0.2}, {100}, 1, {.doppler_spread_hz = 0.1}},
+          {{.delay_s = 0.203, .surface_bounces = 2, .bottom_bounces = 2}, {94}, 1, {.doppler_spread_hz = 2}}};
 }
 
-double tail_power(const std::vector<SoundPath>& paths, double after_s = 0) {
+double tail_power(const std::vector<Arrival>& paths, double after_s = 0) {
   double sum = 0;
-  for (const SoundPath& path : paths) {
+  for (const Arrival& path : paths) {
     if (is_reverberation(path) && path.delay_s >= after_s) sum += to_power_ratio(path.level).value;
   }
   return sum;
@@ -53,7 +49,7 @@ TEST(Reverberation, DecaysByTheStatedLossAtEachBounce) {
   // dI/dt = R exp(-b s) / sqrt(t^2 - t0^2) from 0.23 s on, by steps of 1 us.
   const double begin_s = 0.2, rate = tail_decay_per_s(kLambert, kShallow);
   const auto paths = with_reverberation(kLambert, kShallow, two_paths());
-  const SoundPath& one = paths[paths.size() - 6];
+  const Arrival& one = paths[paths.size() - 6];
   const double half_way_s = (one.delay_s + paths[paths.size() - 7].delay_s) / 2, step_s = 1e-6;
   double expected = 0;
   for (double t = half_way_s + step_s / 2; t < 1; t += step_s) {

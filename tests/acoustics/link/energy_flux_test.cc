@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "core/random.h"
@@ -25,9 +25,9 @@ namespace {
 
 using testing::tolerance;
 
-double power_of(const std::vector<Arrival>& paths) {
+double power_of(const std::vector<Eigenray>& paths) {
   double power = 0;
-  for (const Arrival& path : paths) power += path.received_pressure() * path.received_pressure();
+  for (const Eigenray& path : paths) power += path.received_pressure() * path.received_pressure();
   return power;
 }
 
@@ -47,9 +47,9 @@ TEST(EnergyFluxLink, OfOneSpeedIsTheIntegralOverTheChannel) {
                                    range * std::tan(angle) / 100);
     }
     const auto windows =
-        energy_flux_arrivals({sea.water, 100, sea.bottom, sea.surface, sea.options}, {40, 70, range});
+        energy_flux_eigenrays({sea.water, 100, sea.bottom, sea.surface, sea.options}, {40, 70, range});
     EXPECT_NEAR(decibels(power_of(windows)), decibels(2 * integral / (range * 100)), tolerance(0.3)) << range;
-    for (const Arrival& window : windows) {
+    for (const Eigenray& window : windows) {
       EXPECT_NEAR(window.delay_s, range / 1500 / std::cos(window.launch_angle_rad), 1e-9);
       EXPECT_TRUE(window.diffuse);
     }
@@ -95,7 +95,7 @@ MeanError error_over(double range_m, double relief, bool with_slopes) {
         sea.water,   depth,       sea.bottom,
         sea.surface, sea.options, with_slopes ? mean_square_slope(sea.bottom_profile, link.range_m) : 0};
     const double error_db =
-        decibels(power_of(energy_flux_arrivals(mixed, link)) / power_of(arrivals(sea, link).paths));
+        decibels(power_of(energy_flux_eigenrays(mixed, link)) / power_of(eigenrays(sea, link).paths));
     error.db += error_db / kLinks;
     squares += error_db * error_db / kLinks;
   }
@@ -125,8 +125,8 @@ TEST(EnergyFluxLink, NothingComesToWhereNoRayDoes) {
   RaySea sea = sea_of({{0, 1500}, {50, 1480}, {100, 1500}, {1000, 1600}}, BottomProfile::flat(1000));
   sea.options.max_launch_angle_rad = 0.05;  // its rays turn within 4 m of the axis
   const EnergyFluxSea mixed{sea.water, 1000, sea.bottom, sea.surface, sea.options};
-  EXPECT_FALSE(energy_flux_arrivals(mixed, {50, 52, 20'000}).empty());
-  EXPECT_TRUE(energy_flux_arrivals(mixed, {50, 120, 20'000}).empty());
+  EXPECT_FALSE(energy_flux_eigenrays(mixed, {50, 52, 20'000}).empty());
+  EXPECT_TRUE(energy_flux_eigenrays(mixed, {50, 120, 20'000}).empty());
 }
 
 TEST(FluxOnlyLink, IsLongAndThatFarBelowThePressure) {
@@ -135,11 +135,12 @@ TEST(FluxOnlyLink, IsLongAndThatFarBelowThePressure) {
   const RayLink link{40, 70, 4000};
   const auto weak = [&](double pressure, const RayLink& at, double below_db = 6) {
     sea.options.diffuse_below_pressure = pressure;
-    return flux_only_arrivals({sea.water, 150, sea.bottom, sea.surface, sea.options}, at, Decibels{below_db});
+    return flux_only_eigenrays({sea.water, 150, sea.bottom, sea.surface, sea.options}, at,
+                               Decibels{below_db});
   };
   EXPECT_FALSE(weak(0, link));
-  const double level =
-      std::sqrt(power_of(energy_flux_arrivals({sea.water, 150, sea.bottom, sea.surface, sea.options}, link)));
+  const double level = std::sqrt(
+      power_of(energy_flux_eigenrays({sea.water, 150, sea.bottom, sea.surface, sea.options}, link)));
   EXPECT_FALSE(weak(1.99 * level, link));
   EXPECT_FALSE(weak(0.70 * level, link, -3));
   EXPECT_TRUE(weak(0.72 * level, link, -3));
@@ -156,7 +157,7 @@ class LeastFlux : public ::testing::Test {
  protected:
   RaySea sea_ = sea_of(kRoughWater, BottomProfile::flat(150));
   double loss_db(double depth_m, const RayLink& link, double mean_square_slope) const {
-    return -decibels(power_of(energy_flux_arrivals(
+    return -decibels(power_of(energy_flux_eigenrays(
         {sea_.water, depth_m, sea_.bottom, sea_.surface, sea_.options, mean_square_slope}, link)));
   }
   LeastFluxLoss least(Decibels gain) const {

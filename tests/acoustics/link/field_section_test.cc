@@ -12,10 +12,10 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/link/line_means.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/profile_path.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/ray_trace.h"
+#include "acoustics/rays/traced_eigenray.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/environment.h"

@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/link/field_section.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
@@ -106,11 +106,11 @@ void compare_link(const Environment& sea, const Vec3& from, const Vec3& to, cons
   const RungeKuttaTracer tracer(
       smooth, {kBottom, 0}, [](double sine, double c) { return bottom_magnitude_at_sine(kSand, sine, c); },
       5);
-  const auto found = arrivals(rays, link).paths;
+  const auto found = eigenrays(rays, link).paths;
   double strongest = 0;
-  for (const Arrival& path : found) strongest = std::max(strongest, path.amplitude);
+  for (const Eigenray& path : found) strongest = std::max(strongest, path.amplitude);
   std::map<std::tuple<int, int, int>, std::pair<double, Compared>> nearest;  // by bounces and microradians
-  for (const Arrival& path : found) {
+  for (const Eigenray& path : found) {
     if (path.amplitude < 0.03 * strongest) continue;
     const auto one = compare(tracer, link, path);
     if (!one) {

@@ -28,8 +28,8 @@ using halocline::testing::tolerance;
 constexpr acoustics::FadingModel kSea{.enabled = true};
 constexpr double kNoise = 1e9;  // 90 dB
 
-std::vector<acoustics::SoundPath> one_path(double level_db) {
-  acoustics::SoundPath path;
+std::vector<acoustics::Arrival> one_path(double level_db) {
+  acoustics::Arrival path;
   path.delay_s = 0.7;
   path.level = Decibels{level_db};
   path.fading = path_fading(kSea, 7, 25'000, 0, 0);

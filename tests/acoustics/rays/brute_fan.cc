@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "tests/acoustics/rays/brute_ray.h"
 
 namespace halocline::acoustics {
@@ -18,7 +18,7 @@ using std::numbers::pi;
 constexpr double kMinStep = 1e-12;     // rad: neighbours of different histories
 constexpr double kMinTurnStep = 1e-6;  // rad: neighbours that turned in different layers
 
-BruteArrival arrival_of(const BruteTracer& tracer, const RayLink& link, const BruteRay& ray) {
+BruteEigenray eigenray_of(const BruteTracer& tracer, const RayLink& link, const BruteRay& ray) {
   const double off = link.receiver_depth_m - ray.z;
   const double phase = pi * ray.surface + ray.bottom_phase_rad + pi / 2 * ray.caustics;
   // A^2 = c_r cos_s / (c_s r |q|), Jensen and others 2011, equation 3.65.
@@ -39,7 +39,7 @@ class BruteFan {
   BruteFan(const BruteSea& sea, const RayLink& link)
       : tracer_(sea, link.source_depth_m, link.range_m), link_(link) {}
 
-  std::vector<BruteArrival> run(double steepest, int count) {
+  std::vector<BruteEigenray> run(double steepest, int count) {
     const std::vector<double> angles = fan(steepest, count);
     BruteRay before = tracer_.trace(angles.front());
     for (std::size_t i = 1; i < angles.size(); ++i) {
@@ -126,25 +126,25 @@ class BruteFan {
     search(between, b);
   }
 
-  void note(const BruteRay& ray) { found_.push_back(arrival_of(tracer_, link_, ray)); }
+  void note(const BruteRay& ray) { found_.push_back(eigenray_of(tracer_, link_, ray)); }
 
   BruteTracer tracer_;
   RayLink link_;
-  std::vector<BruteArrival> found_;
+  std::vector<BruteEigenray> found_;
 };
 
 }  // namespace
 
-std::vector<BruteArrival> brute_arrivals(const BruteSea& sea, const RayLink& link, double steepest_rad,
-                                         int count) {
+std::vector<BruteEigenray> brute_eigenrays(const BruteSea& sea, const RayLink& link, double steepest_rad,
+                                           int count) {
   return BruteFan(sea, link).run(steepest_rad, count);
 }
 
-std::optional<BruteArrival> brute_arrival(const BruteSea& sea, const RayLink& link, double launch_rad) {
+std::optional<BruteEigenray> brute_eigenray(const BruteSea& sea, const RayLink& link, double launch_rad) {
   const BruteTracer tracer(sea, link.source_depth_m, link.range_m);
   const BruteRay ray = tracer.trace(launch_rad);
   if (!ray.arrived || std::abs(ray.z - link.receiver_depth_m) > 1e-3) return std::nullopt;
-  return arrival_of(tracer, link, ray);
+  return eigenray_of(tracer, link, ray);
 }
 
 }  // namespace halocline::acoustics

@@ -12,21 +12,21 @@
 #include <optional>
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "tests/acoustics/rays/brute_ray.h"
 
 namespace halocline::acoustics {
 
-struct BruteArrival {
+struct BruteEigenray {
   double delay_s, amplitude, phase_rad, launch_rad, arrival_rad;
   int surface, bottom, caustics;
 };
 
 // Rays launched within `steepest_rad`, from a fan of `count` even steps; the angle 0 alone is left out.
-std::vector<BruteArrival> brute_arrivals(const BruteSea& sea, const RayLink& link, double steepest_rad,
-                                         int count);
+std::vector<BruteEigenray> brute_eigenrays(const BruteSea& sea, const RayLink& link, double steepest_rad,
+                                           int count);
 
 // The ray launched at `launch_rad`, if it passes within a millimetre of the receiver.
-std::optional<BruteArrival> brute_arrival(const BruteSea& sea, const RayLink& link, double launch_rad);
+std::optional<BruteEigenray> brute_eigenray(const BruteSea& sea, const RayLink& link, double launch_rad);
 
 }  // namespace halocline::acoustics

@@ -14,12 +14,12 @@
 #include <cmath>
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/sound_speed_profile.h"
 
 namespace halocline::acoustics {
 
-struct FanArrival {
+struct FanEigenray {
   double delay_s, launch_angle_rad;
   int surface_bounces, bottom_bounces;
 };
@@ -47,9 +47,9 @@ class DenseFan {
   }
 
   // Rays launched within `steepest_rad` with at most `max_bottom_bounces`, from a fan of `count` even steps.
-  std::vector<FanArrival> search(double steepest_rad, int max_bottom_bounces, int count) {
+  std::vector<FanEigenray> search(double steepest_rad, int max_bottom_bounces, int count) {
     max_bottom_ = max_bottom_bounces;
-    std::vector<FanArrival> found;
+    std::vector<FanEigenray> found;
     std::vector<Passage> before, next;
     const std::vector<Real> angles = fan(steepest_rad, count);
     follow(angles.front(), before);
@@ -144,7 +144,7 @@ class DenseFan {
   }
 
   void compare(Real low, Real high, const std::vector<Passage>& a, const std::vector<Passage>& b,
-               std::vector<FanArrival>& found) const {
+               std::vector<FanEigenray>& found) const {
     for (std::size_t m = 0; m < std::min(a.size(), b.size()); ++m) {
       if (!alike(a[m], b[m]) || (a[m].r < range_) == (b[m].r < range_)) continue;
       const bool rising = b[m].r > a[m].r;

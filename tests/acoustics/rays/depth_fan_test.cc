@@ -12,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
 #include "tests/acoustics/rays/layered_waters.h"
@@ -24,9 +24,9 @@ namespace {
 
 using testing::tolerance;
 
-double power_of(const Arrivals& found) {
+double power_of(const Eigenrays& found) {
   double power = 0;
-  for (const Arrival& path : found.paths) power += path.received_pressure() * path.received_pressure();
+  for (const Eigenray& path : found.paths) power += path.received_pressure() * path.received_pressure();
   return power;
 }
 
@@ -67,18 +67,18 @@ TEST_P(DepthFanOver, HasThePathsOfEachReceiverByItself) {
   int strong = 0, missing = 0;
   for (const double depth_m : depths_of_fan(GetParam().deepest_m)) {
     const RayLink link{GetParam().source_depth_m, depth_m, GetParam().range_m};
-    const Arrivals alone = arrivals(sea, link), together = arrivals(sea, link, std::nullopt, &column);
+    const Eigenrays alone = eigenrays(sea, link), together = eigenrays(sea, link, std::nullopt, &column);
     ASSERT_EQ(alone.silent(), together.silent()) << depth_m;
     if (alone.silent()) continue;
     EXPECT_NEAR(decibels(power_of(together) / power_of(alone)), 0, tolerance(0.05)) << depth_m;
     double strongest = 0;
-    for (const Arrival& path : alone.paths) strongest = std::max(strongest, path.received_pressure());
-    for (const Arrival& path : alone.paths) {
+    for (const Eigenray& path : alone.paths) strongest = std::max(strongest, path.received_pressure());
+    for (const Eigenray& path : alone.paths) {
       if (path.received_pressure() < 0.1 * strongest) continue;
       const double weakness = strongest / path.received_pressure();
       const double slack = std::min(weakness * weakness, 100.0);  // of tolerances
       const bool is_there =
-          std::any_of(together.paths.begin(), together.paths.end(), [&](const Arrival& other) {
+          std::any_of(together.paths.begin(), together.paths.end(), [&](const Eigenray& other) {
             return other.surface_bounces == path.surface_bounces &&
                    other.bottom_bounces == path.bottom_bounces &&
                    std::abs(other.delay_s - path.delay_s) < std::min(slack, 10.0) * tolerance(1e-6) &&
@@ -109,7 +109,7 @@ TEST(DepthFanOverARoughBottom, IsTheSearchByItself) {
   DepthFan column;
   for (const double depth_m : {30.0, 80.0, 55.0}) {
     const RayLink link{40, depth_m, 1500};
-    const Arrivals alone = arrivals(sea, link), together = arrivals(sea, link, std::nullopt, &column);
+    const Eigenrays alone = eigenrays(sea, link), together = eigenrays(sea, link, std::nullopt, &column);
     ASSERT_EQ(alone.paths.size(), together.paths.size());
     for (std::size_t i = 0; i < alone.paths.size(); ++i) {
       EXPECT_EQ(alone.paths[i].delay_s, together.paths[i].delay_s);

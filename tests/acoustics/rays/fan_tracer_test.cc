@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/rays/arcs/ray_column.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "tests/acoustics/rays/layered_waters.h"
@@ -48,7 +48,7 @@ TEST_P(FanOverSeas, RaysArriveAsByTheExactTracerWithTheSameEvents) {
   const ProfiledSea sea{water, bottom, fluid_bottom(1.9, 1650, 0.8), RaySurface{}, options};
   const ArcTracer exact(sea, link);
   FanTracer quick(exact);
-  TracedRay ray;
+  RayTrace ray;
   int arrived = 0;
   for (int i = -300; i < 300; ++i) {
     const double theta = (i + 0.5) * 1.35 / 300;

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/channel_core.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ray_water.h"
@@ -38,9 +38,9 @@ RaySea sea_on_load(const SoundSpeedProfile& profile, double frequency_hz = 25'00
   return sea;
 }
 
-double level_without_bounces_db(const Arrivals& found) {
+double level_without_bounces_db(const Eigenrays& found) {
   double sum = 0;
-  for (const Arrival& path : found.paths) {
+  for (const Eigenray& path : found.paths) {
     if (path.surface_bounces + path.bottom_bounces == 0) sum += path.amplitude * path.amplitude;
   }
   return 10 * std::log10(sum);
@@ -60,7 +60,7 @@ TEST(SoundChannel, OnTheAxisOfATabulatedMunkTheLevelIsThatOfTheSmoothOne) {
       const RaySea sea = sea_on_load(profile, frequency);
       for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
         for (const double range : {3000.0, 6000.0, 10'000.0}) {
-          const Arrivals found = arrivals(sea, {1300, 1300, range}, solver);
+          const Eigenrays found = eigenrays(sea, {1300, 1300, range}, solver);
           EXPECT_NEAR(level_without_bounces_db(found), munk_axial_level_db(range), 0.5)
               << frequency << " Hz, " << range << " m by " << to_name(solver);
         }
@@ -73,7 +73,7 @@ TEST(SoundChannel, NearTheAxisTheLevelStaysThatOfTheSmoothMunk) {
   const RaySea sea = sea_on_load(SoundSpeedProfile::from_speeds(munk_rows(50), {4, 35}));
   for (const double off : {1.0, 3.0, 8.0, 12.0, 20.0, 40.0}) {
     for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
-      const Arrivals found = arrivals(sea, {1300 + off, 1300 - off / 2, 10'000}, solver);
+      const Eigenrays found = eigenrays(sea, {1300 + off, 1300 - off / 2, 10'000}, solver);
       EXPECT_NEAR(level_without_bounces_db(found), munk_axial_level_db(10'000), 1.0)
           << off << " m by " << to_name(solver);
     }
@@ -86,7 +86,7 @@ TEST(SoundChannel, AThinnedTableKeepsTheLevelOnTheAxis) {
   for (const double tolerance_mps : {0.02, 0.1}) {
     RaySea sea = sea_of({{0, 1500}}, BottomProfile::flat(5000));
     sea.water = ray_water(environment, 25'000, tolerance_mps);
-    const Arrivals found = arrivals(sea, {1300, 1300, 10'000});
+    const Eigenrays found = eigenrays(sea, {1300, 1300, 10'000});
     EXPECT_NEAR(level_without_bounces_db(found), munk_axial_level_db(10'000), 1.0) << tolerance_mps;
   }
 }
@@ -158,9 +158,9 @@ TEST(Folds, ARayWithoutAPartnerKeepsTheLevelOfItsTube) {
     sea.options.airy_folds = true;
     const BruteSea brute{rows, {{0, 5500}}, false, sea.bottom, 0.005};
     for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
-      for (const Arrival& path : arrivals(sea, link, solver).paths) {
+      for (const Eigenray& path : eigenrays(sea, link, solver).paths) {
         if (path.surface_bounces + path.bottom_bounces > 0) continue;
-        const auto ray = brute_arrival(brute, link, path.launch_angle_rad);
+        const auto ray = brute_eigenray(brute, link, path.launch_angle_rad);
         ASSERT_TRUE(ray) << describe(path);
         EXPECT_NEAR(20 * std::log10(path.amplitude / ray->amplitude), 0, 0.05)
             << describe(path) << " at " << frequency << " Hz by " << to_name(solver);

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/rays/layered_rays.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
@@ -61,16 +61,16 @@ TEST_P(RayCompleteness, NoRayOfADenseFanIsMissing) {
   const double bottom_speed = sea.water.speed_at(waters.bottom_m);
   for (int i = 0; i < waters.links; ++i) {
     const RayLink link = random_link(waters, static_cast<std::uint32_t>(i));
-    const Arrivals found = arrivals(sea, link, waters.solver);
+    const Eigenrays found = eigenrays(sea, link, waters.solver);
     int max_bounces = 0;
     double loudest = 0;
-    for (const Arrival& path : found.paths) {
+    for (const Eigenray& path : found.paths) {
       max_bounces = std::max(max_bounces, path.bottom_bounces);
       loudest = std::max(loudest, path.amplitude);
     }
     std::vector<bool> used(found.paths.size());
     DenseFan fan(waters.knots, waters.bottom_m, link);
-    for (const FanArrival& ray : fan.search(to_radians(80), max_bounces, waters.fan)) {
+    for (const FanEigenray& ray : fan.search(to_radians(80), max_bounces, waters.fan)) {
       const double cosine =
           std::cos(ray.launch_angle_rad) / sea.water.speed_at(link.source_depth_m) * bottom_speed;
       const double one =
@@ -84,7 +84,7 @@ TEST_P(RayCompleteness, NoRayOfADenseFanIsMissing) {
       if (index >= 0) used[static_cast<std::size_t>(index)] = true;
     }
     for (std::size_t k = 0; k < used.size(); ++k) {
-      const Arrival& path = found.paths[k];
+      const Eigenray& path = found.paths[k];
       const bool seen =
           used[k] || path.launch_angle_rad == 0 || std::abs(path.launch_angle_rad) > to_radians(79.9);
       EXPECT_TRUE(seen || path.amplitude < 0.03 * loudest)

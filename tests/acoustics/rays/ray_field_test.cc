@@ -10,7 +10,7 @@
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/modem/beam_pattern.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "core/check.h"
 #include "core/units.h"
 #include "tests/acoustics/reference_rows.h"
@@ -22,15 +22,15 @@ namespace {
 using std::numbers::pi;
 using testing::tolerance;
 
-Arrival path_of(double delay_s, double amplitude, double phase_rad = 0) {
-  Arrival path;
+Eigenray path_of(double delay_s, double amplitude, double phase_rad = 0) {
+  Eigenray path;
   path.delay_s = delay_s;
   path.amplitude = amplitude;
   path.phase_rad = phase_rad;
   return path;
 }
 
-Arrivals of(std::vector<Arrival> paths) { return {RaySolver::kImages, std::move(paths)}; }
+Eigenrays of(std::vector<Eigenray> paths) { return {RaySolver::kImages, std::move(paths)}; }
 
 TEST(ReceivedField, PowersOfPathsAdd) {
   const ReceivedField field = received_field(of({path_of(1, 0.003), path_of(1.1, 0.004)}));
@@ -52,7 +52,7 @@ TEST(ReceivedField, EchoesThirtyDecibelsDownDoNotLengthenIt) {
 }
 
 TEST(ReceivedField, AbsorptionCounts) {
-  Arrival path = path_of(1, 0.01);
+  Eigenray path = path_of(1, 0.01);
   path.absorption_db = 6;
   EXPECT_NEAR(received_field(of({path})).level.value, -46, tolerance(1e-12));
 }
@@ -88,7 +88,7 @@ TEST(ImpulseResponse, PutsEachPathOnItsSampleWithItsPhase) {
 }
 
 TEST(ImpulseResponse, KeepsTheEnergyOfPathsThatDoNotShareASample) {
-  const Arrivals paths = of({path_of(1, 0.01), path_of(1.01, 0.02), path_of(1.5, 0.005)});
+  const Eigenrays paths = of({path_of(1, 0.01), path_of(1.01, 0.02), path_of(1.5, 0.005)});
   double energy = 0;
   for (const auto& tap : impulse_response(paths, 25e3, 8000, 0.9, 8000)) energy += std::norm(tap);
   EXPECT_NEAR(to_decibels({energy}).value, received_field(paths).level.value, tolerance(1e-12));
@@ -120,7 +120,7 @@ TEST(BeamPattern, RefusesRowsThatDoNotRise) {
 }
 
 TEST(BeamPattern, WeighsThePathByTheAngleItLeavesInAndTheOneItComesFrom) {
-  Arrival path = path_of(1, 0.01);
+  Eigenray path = path_of(1, 0.01);
   path.launch_angle_rad = 0.5;   // leaves downward
   path.arrival_angle_rad = 0.5;  // travels downward at the receiver: comes from above
   FieldOptions down;
@@ -142,7 +142,7 @@ TEST(RayDoppler, MatchesTheClosedFormForColinearMotion) {
 const MovingEnds kMoving{{0, 0, 30}, {2, 0, 0.5}, {300, 400, 60}, {0, -1, 0}, 1500, 1490};
 
 TEST(RayDoppler, OfEachPathComesFromItsAngles) {
-  Arrival path;
+  Eigenray path;
   path.launch_angle_rad = 0.3;
   path.arrival_angle_rad = -0.2;
   // North 0.6, east 0.8 towards the receiver.
@@ -153,8 +153,8 @@ TEST(RayDoppler, OfEachPathComesFromItsAngles) {
 TEST(RayDoppler, IsOneAtRestAndAboveOneWhenClosing) {
   MovingEnds ends = kMoving;
   ends.source_velocity_mps = ends.receiver_velocity_mps = Vec3::Zero();
-  EXPECT_EQ(doppler_factor(Arrival{}, ends), 1);
-  EXPECT_GT(doppler_factor(Arrival{}, kMoving), 1);
+  EXPECT_EQ(doppler_factor(Eigenray{}, ends), 1);
+  EXPECT_GT(doppler_factor(Eigenray{}, kMoving), 1);
 }
 
 TEST(RayDoppler, RefusesSupersonicEnds) {

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/math/fold_field.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "tests/acoustics/rays/ray_reference.h"
 
@@ -32,12 +32,12 @@ struct Column {
   BottomProfile bottom = BottomProfile::flat(100);
 };
 
-std::vector<Arrival> near_caustic(double source_m, RaySolver solver, bool airy) {
+std::vector<Eigenray> near_caustic(double source_m, RaySolver solver, bool airy) {
   const Column column;
   RaySea sea = sea_of(column.rows, column.bottom);
   sea.options.airy_folds = airy;
-  std::vector<Arrival> paths;
-  for (const Arrival& path : arrivals(sea, {source_m, 78, 1900}, solver).paths) {
+  std::vector<Eigenray> paths;
+  for (const Eigenray& path : eigenrays(sea, {source_m, 78, 1900}, solver).paths) {
     const bool is_near = path.surface_bounces == 0 && path.bottom_bounces == 1 &&
                          std::abs(path.launch_angle_rad) < to_radians(2);
     if (is_near) paths.push_back(path);
@@ -45,16 +45,16 @@ std::vector<Arrival> near_caustic(double source_m, RaySolver solver, bool airy) 
   return paths;
 }
 
-std::complex<double> sum_of(const std::vector<Arrival>& paths) {
+std::complex<double> sum_of(const std::vector<Eigenray>& paths) {
   std::complex<double> sum = 0;
-  for (const Arrival& path : paths)
+  for (const Eigenray& path : paths)
     sum += std::polar(path.amplitude, path.phase_rad - 2 * pi * std::fmod(kFrequency * path.delay_s, 1.0));
   return sum;
 }
 
-double power_of(const std::vector<Arrival>& paths) {
+double power_of(const std::vector<Eigenray>& paths) {
   double power = 0;
-  for (const Arrival& path : paths) power += path.amplitude * path.amplitude;
+  for (const Eigenray& path : paths) power += path.amplitude * path.amplitude;
   return power;
 }
 
@@ -91,17 +91,17 @@ class Folds : public ::testing::TestWithParam<RaySolver> {};
 // Two rays at one place, no ray at another: from the amplitudes and the delays of the two follow where the
 // caustic is and how the field decays beyond it.
 TEST_P(Folds, TheDarkSideFollowsFromTheRaysOfTheLitSide) {
-  const std::vector<Arrival> lit = near_caustic(43.6, GetParam(), false);
+  const std::vector<Eigenray> lit = near_caustic(43.6, GetParam(), false);
   ASSERT_EQ(lit.size(), 2U);
   const double x_lit = fold_place(std::abs(lit[1].delay_s - lit[0].delay_s), kFrequency);
-  const std::vector<Arrival> nearer = near_caustic(43.5, GetParam(), false);
+  const std::vector<Eigenray> nearer = near_caustic(43.5, GetParam(), false);
   ASSERT_EQ(nearer.size(), 2U);
   const double length_m =
       0.1 / (x_lit - fold_place(std::abs(nearer[1].delay_s - nearer[0].delay_s), kFrequency));
   const double amplitude = 2 * std::sqrt(pi) * std::pow(x_lit, 0.25) * std::sqrt(power_of(lit) / 2);
   for (const double depth : {43.3, 43.1, 42.9}) {
     EXPECT_TRUE(near_caustic(depth, GetParam(), false).empty());
-    const std::vector<Arrival> dark = near_caustic(depth, GetParam(), true);
+    const std::vector<Eigenray> dark = near_caustic(depth, GetParam(), true);
     ASSERT_EQ(dark.size(), 1U) << depth;
     const double x = x_lit - (43.6 - depth) / length_m;
     EXPECT_NEAR(decibels(dark[0].amplitude / (amplitude * boost::math::airy_ai(-x))), 0, 0.5) << depth;
@@ -112,7 +112,7 @@ TEST_P(Folds, TheDarkSideFollowsFromTheRaysOfTheLitSide) {
 TEST_P(Folds, LevelsHaveNoStepAcrossTheCaustic) {
   double last_coherent = 0, last_power = 0;
   for (int i = 0; i <= 150; ++i) {  // 0.8 m in the dark to 0.7 m in the light
-    const std::vector<Arrival> paths = near_caustic(42.6 + 0.01 * i, GetParam(), true);
+    const std::vector<Eigenray> paths = near_caustic(42.6 + 0.01 * i, GetParam(), true);
     ASSERT_FALSE(paths.empty()) << i;
     const double coherent = decibels(std::abs(sum_of(paths))), power = 10 * std::log10(power_of(paths));
     if (i > 0) {
@@ -139,8 +139,8 @@ TEST(Folds, BothSolversAgree) {
 }
 
 TEST(Folds, WithoutWavesTheDarkSideIsSilentAndRaysAreTheirOwn) {
-  const std::vector<Arrival> rays = near_caustic(45, RaySolver::kSnell, false),
-                             waves = near_caustic(45, RaySolver::kSnell, true);
+  const std::vector<Eigenray> rays = near_caustic(45, RaySolver::kSnell, false),
+                              waves = near_caustic(45, RaySolver::kSnell, true);
   ASSERT_EQ(rays.size(), waves.size());  // 20 lengths of Airy away
   for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_NEAR(rays[i].amplitude / waves[i].amplitude, 1, 1e-2);
 }

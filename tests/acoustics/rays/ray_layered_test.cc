@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/rays/layered_rays.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
@@ -48,7 +48,7 @@ TEST(LayeredRays, DirectRayInAConstantGradientIsTheClosedForm) {
     const RaySea sea = sea_of({{0, c0}, {bottom, c0 + bottom * g}}, BottomProfile::flat(bottom));
     for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
       double off = 1, length_off = 1;
-      for (const Arrival& path : arrivals(sea, {tx, rx, range}, solver).paths) {
+      for (const Eigenray& path : eigenrays(sea, {tx, rx, range}, solver).paths) {
         if (path.surface_bounces + path.bottom_bounces > 0) continue;
         off = std::min(off, std::abs(path.delay_s - row.number("travel_time_s")));
         length_off = std::min(length_off, std::abs(path.path_length_m - row.number("arc_length_m")));
@@ -73,11 +73,11 @@ TEST(LayeredRays, FirstEchoesAreThoseOfTheImageMethod) {
     for (const RaySolver solver : {RaySolver::kImages, RaySolver::kSnell, RaySolver::kArcs}) {
       // Arcs stop at 89.9 degrees from the horizontal.
       if (solver == RaySolver::kArcs && row.number("range_m") < 0.05 * row.number("water_depth_m")) continue;
-      const Arrivals found =
-          arrivals(open, {row.number("depth_tx_m"), row.number("depth_rx_m"), row.number("range_m")}, solver);
+      const Eigenrays found = eigenrays(
+          open, {row.number("depth_tx_m"), row.number("depth_rx_m"), row.number("range_m")}, solver);
       for (const char* leg :
            {"t_direct_s", "t_surface_s", "t_bottom_s", "t_surface_bottom_s", "t_bottom_surface_s"}) {
-        const bool is_found = std::any_of(found.paths.begin(), found.paths.end(), [&](const Arrival& path) {
+        const bool is_found = std::any_of(found.paths.begin(), found.paths.end(), [&](const Eigenray& path) {
           return std::abs(path.delay_s - row.number(leg)) < tolerance(1e-10);
         });
         EXPECT_TRUE(is_found) << "line " << row.line() << " " << leg << " by " << to_name(solver);
@@ -88,7 +88,7 @@ TEST(LayeredRays, FirstEchoesAreThoseOfTheImageMethod) {
 
 TEST(LayeredRays, AnglesKeepSnellsInvariant) {
   const RaySea sea = sea_of(kSummer, BottomProfile::flat(120));
-  for (const Arrival& path : arrivals(sea, {15, 90, 3000}).paths) {
+  for (const Eigenray& path : eigenrays(sea, {15, 90, 3000}).paths) {
     EXPECT_NEAR(std::cos(path.launch_angle_rad) / sea.water.speed_at(15),
                 std::cos(path.arrival_angle_rad) / sea.water.speed_at(90), tolerance(1e-18));
   }
@@ -98,11 +98,11 @@ TEST(LayeredRays, AmplitudeIsTheWidthOfTheRayTubeByDifferences) {
   // |dr/dtheta| from two receivers a little apart: the same ray family, ranges +-h.
   const RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
   constexpr double kStep = 0.5;  // m
-  const Arrivals here = arrivals(sea, {20, 80, 2000}), near = arrivals(sea, {20, 80, 2000 - kStep}),
-                 far = arrivals(sea, {20, 80, 2000 + kStep});
+  const Eigenrays here = eigenrays(sea, {20, 80, 2000}), near = eigenrays(sea, {20, 80, 2000 - kStep}),
+                  far = eigenrays(sea, {20, 80, 2000 + kStep});
   int compared = 0;
-  for (const Arrival& path : here.paths) {
-    const auto same = [&path](const Arrival& other) { return other.identity == path.identity; };
+  for (const Eigenray& path : here.paths) {
+    const auto same = [&path](const Eigenray& other) { return other.identity == path.identity; };
     const auto a = std::find_if(near.paths.begin(), near.paths.end(), same);
     const auto b = std::find_if(far.paths.begin(), far.paths.end(), same);
     if (a == near.paths.end() || b == far.paths.end()) continue;
@@ -127,12 +127,12 @@ TEST_P(RayReciprocity, SwappedEndsHaveTheSameDelaysAndAmplitudes) {
     const RaySea sea = sea_of(knots, BottomProfile::flat(depth));
     for (const RayLink link :
          {RayLink{15, 90, 700}, RayLink{40, 55, 2500}, RayLink{30, 31, 4000}, RayLink{5, 99, 50}}) {
-      const Arrivals there = arrivals(sea, link, GetParam());
-      const Arrivals back =
-          arrivals(sea, {link.receiver_depth_m, link.source_depth_m, link.range_m}, GetParam());
+      const Eigenrays there = eigenrays(sea, link, GetParam());
+      const Eigenrays back =
+          eigenrays(sea, {link.receiver_depth_m, link.source_depth_m, link.range_m}, GetParam());
       ASSERT_EQ(there.paths.size(), back.paths.size()) << link.range_m;
       for (std::size_t i = 0; i < there.paths.size(); ++i) {
-        const Arrival &a = there.paths[i], &b = back.paths[i];
+        const Eigenray &a = there.paths[i], &b = back.paths[i];
         EXPECT_NEAR(a.delay_s, b.delay_s, tolerance(1e-10)) << describe(a);
         EXPECT_NEAR(20 * std::log10(a.amplitude / b.amplitude), 0, tolerance(1e-3))
             << describe(a) << describe(b);
@@ -147,16 +147,16 @@ TEST(LayeredRays, SumOfImagesAndSnellSolverAgreeInWaterOfOneSpeed) {
   const RaySea sea = sea_of({{0, 1487}}, BottomProfile::flat(73), [](double z) { return 3 + z / 50; });
   for (const RayLink link :
        {RayLink{10, 60, 5}, RayLink{10, 60, 800}, RayLink{36.5, 36.5, 1500}, RayLink{1, 72, 6000}}) {
-    const Arrivals images = arrivals(sea, link, RaySolver::kImages),
-                   snell = arrivals(sea, link, RaySolver::kSnell);
+    const Eigenrays images = eigenrays(sea, link, RaySolver::kImages),
+                    snell = eigenrays(sea, link, RaySolver::kSnell);
     ASSERT_EQ(images.paths.size(), snell.paths.size()) << link.range_m;
     for (std::size_t i = 0; i < images.paths.size(); ++i) {
-      const Arrival& a = images.paths[i];
+      const Eigenray& a = images.paths[i];
       std::vector<bool> used(snell.paths.size());
       const int j = find_path(snell.paths, used, a.delay_s, a.launch_angle_rad, a.surface_bounces,
                               a.bottom_bounces, 1e-12);
       ASSERT_GE(j, 0) << describe(a);
-      const Arrival& b = snell.paths[static_cast<std::size_t>(j)];
+      const Eigenray& b = snell.paths[static_cast<std::size_t>(j)];
       EXPECT_NEAR(a.amplitude / b.amplitude, 1, tolerance(1e-6)) << describe(a);
       EXPECT_NEAR(a.absorption_db, b.absorption_db, tolerance(1e-5)) << describe(a);
       EXPECT_LE(degrees_between(to_degrees(a.phase_rad), to_degrees(b.phase_rad)), tolerance(1e-3))
@@ -170,7 +170,7 @@ TEST(LayeredRays, AbsorptionIsTheIntegralAlongTheArc) {
   RaySea sea = sea_of(kThermocline, BottomProfile::flat(100), [](double z) { return 2 + 0.1 * z; });
   sea.options.max_launch_angle_rad = 1.57;
   sea.options.keep_steep_direct = true;
-  const Arrivals found = arrivals(sea, {10, 90, 1e-3}, RaySolver::kSnell);
+  const Eigenrays found = eigenrays(sea, {10, 90, 1e-3}, RaySolver::kSnell);
   ASSERT_FALSE(found.shadow());
   EXPECT_NEAR(found.paths.front().absorption_db, 80e-3 * (2 + 0.1 * 50), tolerance(1e-9));
 }
@@ -182,7 +182,7 @@ TEST(LayeredRays, VerticalLinkHasItsDirectPathAtEveryRange) {
   const RaySea sea = sea_of(kSummer, BottomProfile::flat(120));
   for (const double range : {0.0, 1e-6, 0.01, 1.0, 10.0}) {
     for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
-      const Arrivals found = arrivals(sea, {5, 110, range}, solver);
+      const Eigenrays found = eigenrays(sea, {5, 110, range}, solver);
       EXPECT_TRUE(has_direct_path(found)) << range << " by " << to_name(solver);
     }
   }
@@ -194,9 +194,9 @@ TEST(LayeredRays, NoPathIsSteeperThanTheLimitUnlessSteepOnesAreKept) {
     sea.options.keep_steep_direct = false;
     for (const RaySolver solver : {RaySolver::kImages, RaySolver::kSnell, RaySolver::kArcs}) {
       if (solver == RaySolver::kImages && knots.size() > 1) continue;
-      const Arrivals found = arrivals(sea, {5, 110, 10}, solver);  // the direct path leaves at 84.6 degrees
+      const Eigenrays found = eigenrays(sea, {5, 110, 10}, solver);  // the direct path leaves at 84.6 degrees
       EXPECT_FALSE(has_direct_path(found)) << to_name(solver);
-      for (const Arrival& path : found.paths) EXPECT_LE(std::abs(path.launch_angle_rad), to_radians(80));
+      for (const Eigenray& path : found.paths) EXPECT_LE(std::abs(path.launch_angle_rad), to_radians(80));
     }
   }
 }
@@ -204,9 +204,9 @@ TEST(LayeredRays, NoPathIsSteeperThanTheLimitUnlessSteepOnesAreKept) {
 TEST(LayeredRays, EndsOfOneDepthInALayerOfOneSpeedHaveAStraightHorizontalRay) {
   const RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
   for (const double depth : {50.0, 75.0, 99.0}) {
-    const Arrivals found = arrivals(sea, {depth, depth, 1200});
+    const Eigenrays found = eigenrays(sea, {depth, depth, 1200});
     const auto straight = std::find_if(found.paths.begin(), found.paths.end(),
-                                       [](const Arrival& path) { return path.launch_angle_rad == 0; });
+                                       [](const Eigenray& path) { return path.launch_angle_rad == 0; });
     ASSERT_NE(straight, found.paths.end()) << depth;
     EXPECT_NEAR(straight->delay_s, 1200 / 1490.0, tolerance(1e-12));
     EXPECT_NEAR(straight->amplitude, 1 / 1200.0, tolerance(1e-12));
@@ -216,9 +216,9 @@ TEST(LayeredRays, EndsOfOneDepthInALayerOfOneSpeedHaveAStraightHorizontalRay) {
 TEST(LayeredRays, NearlyLevelRaysInALayerOfOneSpeedAreFound) {
   const RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
   for (const double step : {1e-6, 1e-4, 1e-2, 1.0}) {
-    const Arrivals found = arrivals(sea, {70, 70 + step, 3000});
+    const Eigenrays found = eigenrays(sea, {70, 70 + step, 3000});
     double best = 1;
-    for (const Arrival& path : found.paths) {
+    for (const Eigenray& path : found.paths) {
       best = std::min(best, std::abs(path.delay_s - std::hypot(3000, step) / 1490));
     }
     EXPECT_LT(best, tolerance(1e-10)) << step;
@@ -230,9 +230,9 @@ TEST(LayeredRays, EndsAtTheBoundariesHaveRaysOfFiniteAmplitude) {
   for (const RayLink link :
        {RayLink{0, 50, 500}, RayLink{50, 100, 500}, RayLink{0, 100, 500}, RayLink{0, 0, 500}}) {
     for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
-      const Arrivals found = arrivals(sea, link, solver);
+      const Eigenrays found = eigenrays(sea, link, solver);
       EXPECT_FALSE(found.shadow());
-      for (const Arrival& path : found.paths) EXPECT_TRUE(std::isfinite(path.amplitude)) << describe(path);
+      for (const Eigenray& path : found.paths) EXPECT_TRUE(std::isfinite(path.amplitude)) << describe(path);
     }
   }
 }
@@ -240,10 +240,10 @@ TEST(LayeredRays, EndsAtTheBoundariesHaveRaysOfFiniteAmplitude) {
 TEST(LayeredRays, AShadowHasNoDirectPathAndAnAbsorbingBottomLeavesNone) {
   // Speed falls with depth: the direct ray bends away, beyond its last graze of the surface there is none.
   RaySea sea = sea_of({{0, 1520}, {100, 1490}}, BottomProfile::flat(100));
-  EXPECT_FALSE(has_direct_path(arrivals(sea, {10, 10, 2000})));
-  EXPECT_FALSE(arrivals(sea, {10, 10, 2000}).shadow());
+  EXPECT_FALSE(has_direct_path(eigenrays(sea, {10, 10, 2000})));
+  EXPECT_FALSE(eigenrays(sea, {10, 10, 2000}).shadow());
   sea.bottom = FluidBottom{1, 1, 0, 0, BottomLoss::kComplexWaveNumber};  // more water: no echo
-  EXPECT_TRUE(arrivals(sea, {10, 10, 2000}).shadow());
+  EXPECT_TRUE(eigenrays(sea, {10, 10, 2000}).shadow());
 }
 
 TEST(LayeredRays, FoldsHaveFiniteLevels) {
@@ -252,7 +252,7 @@ TEST(LayeredRays, FoldsHaveFiniteLevels) {
   sea.options.airy_folds = true;
   double loudest = 0;
   for (double range = 900; range < 1500; range += 0.5) {
-    for (const Arrival& path : arrivals(sea, {40, 60, range}).paths)
+    for (const Eigenray& path : eigenrays(sea, {40, 60, range}).paths)
       loudest = std::max(loudest, path.amplitude);
   }
   EXPECT_LT(loudest, 0.1);  // 20 dB above a free field at 100 m, at ten times the range
@@ -260,24 +260,24 @@ TEST(LayeredRays, FoldsHaveFiniteLevels) {
 
 TEST(LayeredRays, OptionsLimitBouncesAndAmplitude) {
   RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
-  const std::size_t all = arrivals(sea, {20, 80, 2000}).paths.size();
+  const std::size_t all = eigenrays(sea, {20, 80, 2000}).paths.size();
   sea.options.max_bounces = 3;
-  for (const Arrival& path : arrivals(sea, {20, 80, 2000}).paths) {
+  for (const Eigenray& path : eigenrays(sea, {20, 80, 2000}).paths) {
     EXPECT_LE(path.surface_bounces + path.bottom_bounces, 3);
   }
   sea.options.max_bounces = 400;
   sea.options.min_amplitude = 1e-4;
-  const Arrivals loud = arrivals(sea, {20, 80, 2000});
+  const Eigenrays loud = eigenrays(sea, {20, 80, 2000});
   EXPECT_LT(loud.paths.size(), all);
-  for (const Arrival& path : loud.paths) EXPECT_GE(path.amplitude, 1e-4);
+  for (const Eigenray& path : loud.paths) EXPECT_GE(path.amplitude, 1e-4);
 }
 
 TEST(LayeredRays, RefusesWhatItWouldGetWrong) {
   const RaySea slope = sea_of({{0, 1500}}, BottomProfile({{0, 100}, {1000, 50}}));
-  EXPECT_THROW(arrivals(slope, {10, 10, 500}, RaySolver::kSnell), InvalidArgument);
-  EXPECT_THROW(arrivals(slope, {10, 90, 900}), InvalidArgument);  // under the bottom
+  EXPECT_THROW(eigenrays(slope, {10, 10, 500}, RaySolver::kSnell), InvalidArgument);
+  EXPECT_THROW(eigenrays(slope, {10, 90, 900}), InvalidArgument);  // under the bottom
   const RaySea layered = sea_of(kThermocline, BottomProfile::flat(100));
-  EXPECT_THROW(arrivals(layered, {10, 10, 500}, RaySolver::kImages), InvalidArgument);
+  EXPECT_THROW(eigenrays(layered, {10, 10, 500}, RaySolver::kImages), InvalidArgument);
 }
 
 }  // namespace

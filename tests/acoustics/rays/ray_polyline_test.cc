@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/profile_path.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/ray_trace.h"
+#include "acoustics/rays/traced_eigenray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"
@@ -32,7 +32,7 @@ RaySea sea_of(std::vector<SpeedRow> knots, BottomProfile bottom) {
           RayOptions{.frequency_hz = 10'000, .max_bounces = 20}};
 }
 
-std::vector<RayPoint> way_of(const RaySea& sea, const RayLink& link, const Arrival& path,
+std::vector<RayPoint> way_of(const RaySea& sea, const RayLink& link, const Eigenray& path,
                              std::size_t max_points = kAll) {
   return polyline({sea.water, sea.bottom_profile, sea.bottom, sea.surface, sea.options}, link, path,
                   max_points);
@@ -70,10 +70,10 @@ void expect_from_end_to_end(const std::vector<RayPoint>& way, const RayLink& lin
 TEST(RayPolyline, OfImagesIsStraightFromBounceToBounce) {
   const RaySea sea = sea_of({{0, 1500}, {12'000, 1500}}, BottomProfile::flat(100));
   const RayLink link{30, 60, 1000};
-  const Arrivals found = arrivals(sea, link);
+  const Eigenrays found = eigenrays(sea, link);
   ASSERT_EQ(found.solver, RaySolver::kImages);
   ASSERT_GT(found.paths.size(), 6u);
-  for (const Arrival& path : found.paths) {
+  for (const Eigenray& path : found.paths) {
     const auto way = way_of(sea, link, path);
     expect_from_end_to_end(way, link);
     EXPECT_EQ(way.size(), 2u + static_cast<std::size_t>(path.surface_bounces + path.bottom_bounces));
@@ -82,7 +82,7 @@ TEST(RayPolyline, OfImagesIsStraightFromBounceToBounce) {
     EXPECT_NEAR(length_m(way) / 1500, path.delay_s, tolerance(1e-7));
   }
   // The bounce at the surface: 30 of 90 m of the height on a third of the range.
-  const auto once = std::find_if(found.paths.begin(), found.paths.end(), [](const Arrival& path) {
+  const auto once = std::find_if(found.paths.begin(), found.paths.end(), [](const Eigenray& path) {
     return path.surface_bounces == 1 && path.bottom_bounces == 0;
   });
   ASSERT_NE(once, found.paths.end());
@@ -100,8 +100,8 @@ TEST(RayPolyline, OfAConstantGradientLiesOnACircle) {
                              {12'000, kSurfaceSpeed + 3000 * kGradient}},
                             BottomProfile::flat(2000));
   const RayLink link{400, 500, 6000};
-  const Arrivals found = arrivals(sea, link);
-  const auto direct = std::find_if(found.paths.begin(), found.paths.end(), [](const Arrival& path) {
+  const Eigenrays found = eigenrays(sea, link);
+  const auto direct = std::find_if(found.paths.begin(), found.paths.end(), [](const Eigenray& path) {
     return path.surface_bounces + path.bottom_bounces == 0;
   });
   ASSERT_NE(direct, found.paths.end());
@@ -137,9 +137,9 @@ TEST_P(RayWays, TakeAsLongAsTheirPaths) {
                {sea_of(summer, BottomProfile::flat(150)), {60, 70, 8000}}};
   for (auto [sea, link] : cases) {
     sea.options.airy_folds = GetParam();
-    const Arrivals found = arrivals(sea, link);
+    const Eigenrays found = eigenrays(sea, link);
     ASSERT_FALSE(found.silent());
-    for (const Arrival& path : found.paths) {
+    for (const Eigenray& path : found.paths) {
       SCOPED_TRACE(std::to_string(path.launch_angle_rad));
       const auto way = way_of(sea, link, path);
       expect_from_end_to_end(way, link);
@@ -161,8 +161,8 @@ INSTANTIATE_TEST_SUITE_P(WithAndWithoutWaves, RayWays, ::testing::Bool());
 TEST(RayPolyline, KeepsToItsPointsAndStaysNearTheWay) {
   const RaySea sea = sea_of({{0, 1500}, {50, 1490}, {12'000, 1600}}, BottomProfile::flat(60));
   const RayLink link{20, 40, 3000};
-  const Arrivals found = arrivals(sea, link);
-  for (const Arrival& path : found.paths) {
+  const Eigenrays found = eigenrays(sea, link);
+  for (const Eigenray& path : found.paths) {
     const auto whole = way_of(sea, link, path), few = way_of(sea, link, path, 16);
     expect_from_end_to_end(few, link);
     EXPECT_EQ(few.size(), std::min<std::size_t>(whole.size(), 16));
@@ -173,9 +173,9 @@ TEST(RayPolyline, OfAVehicleRightAboveAnotherIsStraight) {
   const RaySea sea =
       sea_of({{0, 1500}, {50, 1490}, {12'000, 1600}}, BottomProfile({{0, 100}, {50, 99}, {100, 101}}));
   for (const RayLink& link : {RayLink{20, 80, 0}, RayLink{80, 20, 0.01}, RayLink{20.2, 20, 0}}) {
-    const Arrivals found = arrivals(sea, link);
+    const Eigenrays found = eigenrays(sea, link);
     ASSERT_FALSE(found.silent());
-    for (const Arrival& path : found.paths) {
+    for (const Eigenray& path : found.paths) {
       const auto way = way_of(sea, link, path);
       expect_from_end_to_end(way, held_apart(link));
       EXPECT_LE(way.size(), 3u + static_cast<std::size_t>(path.surface_bounces + path.bottom_bounces));
@@ -188,9 +188,9 @@ TEST(RayPolyline, OfAVehicleRightAboveAnotherIsStraight) {
 TEST(RayPolyline, OfTheCoreOfAChannelIsStraight) {
   const RaySea sea = sea_of({{0, 1520}, {100, 1500}, {200, 1520}, {12'000, 1700}}, BottomProfile::flat(300));
   const RayLink link{100, 100, 4000};
-  const Arrivals found = arrivals(sea, link);
+  const Eigenrays found = eigenrays(sea, link);
   ASSERT_FALSE(found.silent());
-  for (const Arrival& path : found.paths) expect_from_end_to_end(way_of(sea, link, path), link);
+  for (const Eigenray& path : found.paths) expect_from_end_to_end(way_of(sea, link, path), link);
 }
 
 TEST(SimplifiedPolyline, KeepsThePointsThatChangeItMost) {

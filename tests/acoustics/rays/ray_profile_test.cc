@@ -10,10 +10,10 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/rays/profile_rays.h"
-#include "acoustics/rays/traced_ray.h"
+#include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
 #include "acoustics/sea/sound_speed_profile.h"
@@ -143,18 +143,18 @@ TEST_P(ProfileCompleteness, NoRayOfADenseFanIsMissingOverTheBottom) {
   const RaySea sea = sea_of({{0, 1500}}, GetParam().profile);
   for (const RayLink link :
        {RayLink{20, 50, 2000}, RayLink{20, 60, 3000}, RayLink{60, 120, 4500}, RayLink{150, 30, 5000}}) {
-    const Arrivals found = arrivals(sea, link, RaySolver::kArcs);
+    const Eigenrays found = eigenrays(sea, link, RaySolver::kArcs);
     std::vector<bool> used(found.paths.size());
     int most = 0;
     double loudest = 0;
-    for (const Arrival& path : found.paths) {
+    for (const Eigenray& path : found.paths) {
       most = std::max(most, path.surface_bounces + path.bottom_bounces);
       loudest = std::max(loudest, path.amplitude);
     }
     for (const FanResult& ray : straight_fan(GetParam().profile, link, 20'000, most)) {
       // Rays too faint for the solver are no loss: trace again for the bounces' factor.
-      TracedRay traced;
-      TracedDetails details;
+      RayTrace traced;
+      TraceDetails details;
       const ProfiledSea profiled{sea.water, sea.bottom_profile, sea.bottom, sea.surface, sea.options};
       ArcTracer(profiled, link).trace(ray.theta, traced, &details);
       // Where a bent facet would throw a grazing ray into itself the solver lets the facet's own slope
@@ -173,7 +173,7 @@ TEST_P(ProfileCompleteness, NoRayOfADenseFanIsMissingOverTheBottom) {
     for (std::size_t i = 0; i < used.size(); ++i) {
       // The fan misses what lies between two of its rays of different history, and pairs: what it lacks has
       // to be so near to its neighbour's other side, or be a ray by the independent way as well.
-      const Arrival& path = found.paths[i];
+      const Eigenray& path = found.paths[i];
       const StraightRay again =
           straight_ray(GetParam().profile, link.source_depth_m, link.range_m, path.launch_angle_rad, most);
       const bool is_ray = again.arrived && again.surface == path.surface_bounces &&
@@ -197,8 +197,8 @@ TEST(ProfileRays, SwappedEndsHaveTheSameDelaysAndTubes) {
   for (const BottomProfile& profile : {sharp_ridge(), BottomProfile({{0, 200}, {4000, 120}})}) {
     const RayLink link{20, 60, 3000};
     const std::vector<SpeedRow> knots = {{0, 1520}, {50, 1490}, {200, 1492}};
-    const Arrivals there = arrivals(sea_of(knots, profile), link);
-    const Arrivals back = arrivals(sea_of(knots, profile.reversed(3000)), {60, 20, 3000});
+    const Eigenrays there = eigenrays(sea_of(knots, profile), link);
+    const Eigenrays back = eigenrays(sea_of(knots, profile.reversed(3000)), {60, 20, 3000});
     ASSERT_EQ(there.paths.size(), back.paths.size());
     for (std::size_t i = 0; i < there.paths.size(); ++i) {
       EXPECT_NEAR(there.paths[i].delay_s, back.paths[i].delay_s, tolerance(1e-9));
@@ -215,8 +215,8 @@ TEST(ProfileRays, OverAFlatBottomOfManyPointsAreThoseOfTheFlatSolver) {
   std::vector<ProfiledDepth> points;
   for (int i = 0; i <= 40; ++i) points.push_back({100.0 * i, 100});
   const std::vector<SpeedRow> knots = {{0, 1520}, {50, 1490}, {100, 1490}};
-  const Arrivals flat = arrivals(sea_of(knots, BottomProfile(points)), {20, 80, 2000}, RaySolver::kSnell);
-  const Arrivals arcs = arrivals(sea_of(knots, BottomProfile(points)), {20, 80, 2000}, RaySolver::kArcs);
+  const Eigenrays flat = eigenrays(sea_of(knots, BottomProfile(points)), {20, 80, 2000}, RaySolver::kSnell);
+  const Eigenrays arcs = eigenrays(sea_of(knots, BottomProfile(points)), {20, 80, 2000}, RaySolver::kArcs);
   ASSERT_EQ(flat.paths.size(), arcs.paths.size());
   for (std::size_t i = 0; i < flat.paths.size(); ++i) {
     EXPECT_NEAR(flat.paths[i].delay_s, arcs.paths[i].delay_s, tolerance(1e-10));
@@ -234,8 +234,8 @@ TEST(ProfileRays, TubeOverABentBottomFollowsTheFocusOfABasin) {
   }
   RaySea sea = sea_of({{0, 1500}}, BottomProfile(points));
   sea.options.max_bounces = 1;
-  const Arrivals found = arrivals(sea, {50, 50, 1000});
-  const auto bounce = std::find_if(found.paths.begin(), found.paths.end(), [](const Arrival& path) {
+  const Eigenrays found = eigenrays(sea, {50, 50, 1000});
+  const auto bounce = std::find_if(found.paths.begin(), found.paths.end(), [](const Eigenray& path) {
     return path.bottom_bounces == 1 && std::abs(path.launch_angle_rad + path.arrival_angle_rad) < 1e-6;
   });
   ASSERT_NE(bounce, found.paths.end());
@@ -248,8 +248,8 @@ TEST(ProfileRays, TubeOverABentBottomFollowsTheFocusOfABasin) {
 
 TEST(ProfileRays, AHillInTheWayCastsAShadow) {
   const RaySea sea = sea_of({{0, 1500}}, BottomProfile({{0, 200}, {900, 200}, {1000, 20}, {1100, 200}}));
-  EXPECT_FALSE(has_direct_path(arrivals(sea, {100, 100, 2000})));
-  EXPECT_TRUE(has_direct_path(arrivals(sea, {10, 10, 2000})));
+  EXPECT_FALSE(has_direct_path(eigenrays(sea, {100, 100, 2000})));
+  EXPECT_TRUE(has_direct_path(eigenrays(sea, {10, 10, 2000})));
 }
 
 TEST(ProfileRays, AnArcThatBendsDownOverACrestMeetsItsFarSide) {
@@ -258,7 +258,7 @@ TEST(ProfileRays, AnArcThatBendsDownOverACrestMeetsItsFarSide) {
   const RaySea sea = sea_of({{0, 1600}, {300, 1300}}, BottomProfile({{0, 200}, {500, 100}, {1500, 130}}));
   const ProfiledSea profiled{sea.water, sea.bottom_profile, sea.bottom, sea.surface, sea.options};
   const double theta = -std::atan(500 / (1600.0 - 182));
-  TracedRay ray;
+  RayTrace ray;
   ArcTracer(profiled, {182, 50, 600}).trace(theta, ray);
   EXPECT_TRUE(ray.arrived);
   EXPECT_EQ(ray.bottom_bounces, 0);

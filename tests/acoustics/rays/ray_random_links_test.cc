@@ -12,14 +12,14 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/random.h"
-#include "tests/acoustics/rays/arrival_comparison.h"
 #include "tests/acoustics/rays/brute_fan.h"
 #include "tests/acoustics/rays/brute_ray.h"
+#include "tests/acoustics/rays/eigenray_comparison.h"
 #include "tests/acoustics/rays/ray_reference.h"
 
 namespace halocline::acoustics {
@@ -85,17 +85,17 @@ RayLink random_link(const RandomWaters& waters, std::uint32_t index) {
 void compare_link(const RandomWaters& waters, const RayLink& link, int fan, ComparisonCount& count) {
   const RaySea sea = sea_of(waters.knots, BottomProfile(waters.bottom));
   const BruteSea brute{waters.knots, waters.bottom, waters.curved, sea.bottom, 0.005};
-  const std::vector<BruteArrival> expected = brute_arrivals(brute, link, to_radians(80), fan);
+  const std::vector<BruteEigenray> expected = brute_eigenrays(brute, link, to_radians(80), fan);
   const std::string where = std::string(waters.name) + " " + std::to_string(link.source_depth_m) + " " +
                             std::to_string(link.receiver_depth_m) + " " + std::to_string(link.range_m);
   std::vector<RaySolver> solvers = {RaySolver::kArcs};
   if (choose_solver(sea, link) == RaySolver::kSnell) solvers.push_back(RaySolver::kSnell);
   for (const RaySolver solver : solvers) {
-    std::vector<BruteArrival> found;
-    for (const Arrival& path : arrivals(sea, link, solver).paths) found.push_back(brute_of(path));
-    compare_arrivals(
+    std::vector<BruteEigenray> found;
+    for (const Eigenray& path : eigenrays(sea, link, solver).paths) found.push_back(brute_of(path));
+    compare_eigenrays(
         where + " by " + std::string(to_name(solver)), found, expected,
-        [&](double launch_rad) { return brute_arrival(brute, link, launch_rad); }, count);
+        [&](double launch_rad) { return brute_eigenray(brute, link, launch_rad); }, count);
   }
 }
 
@@ -110,15 +110,15 @@ TEST(RandomLinks, TheLinkAtAKnotThatAnEarlyBuildMissed) {
 TEST(RandomLinks, ARayJustOffABarrierHasTheLevelOfItsTube) {
   const RaySea munk = sea_of(munk_knots(), BottomProfile::flat(5000));
   const RayLink link{3387.707867, 2947.485451, 4199.020775};
-  const Arrivals snell = arrivals(munk, link, RaySolver::kSnell),
-                 arcs = arrivals(munk, link, RaySolver::kArcs);
+  const Eigenrays snell = eigenrays(munk, link, RaySolver::kSnell),
+                  arcs = eigenrays(munk, link, RaySolver::kArcs);
   // A spherical wave but for 0.1 dB of refraction.
   const double spherical = -20 * std::log10(std::hypot(4199, 440));
   EXPECT_NEAR(20 * std::log10(snell.paths.front().amplitude), spherical, 0.1);
   EXPECT_NEAR(snell.paths.front().amplitude / arcs.paths.front().amplitude, 1, testing::tolerance(1e-6));
 }
 
-TEST_P(RandomWatersLinks, HaveTheArrivalsOfADenseFan) {
+TEST_P(RandomWatersLinks, HaveTheEigenraysOfADenseFan) {
   const RandomWaters& waters = GetParam();
   const int links = from_environment("HALOCLINE_RAY_LINKS", waters.links);
   const int fan = from_environment("HALOCLINE_RAY_FAN", waters.fan);

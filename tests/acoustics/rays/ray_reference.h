@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The waters of tests/data/rays, and the comparison of arrivals with reference rows.
+// The waters of tests/data/rays, and the comparison of eigenrays with reference rows.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"
@@ -22,8 +22,8 @@
 
 namespace halocline::acoustics {
 
-// What an arrival is compared by.
-struct ExpectedArrival {
+// What an eigenray is compared by.
+struct ExpectedEigenray {
   double delay_s, amplitude, phase_deg, launch_deg, arrival_deg;
   int surface, bottom;
 };
@@ -60,7 +60,7 @@ inline std::map<LinkKey, std::vector<testing::CsvRow>> reference_links(const std
   return links;
 }
 
-inline std::string describe(const Arrival& path) {
+inline std::string describe(const Eigenray& path) {
   return std::to_string(path.delay_s) + " s, launched at " +
          std::to_string(to_degrees(path.launch_angle_rad)) + " deg, " + std::to_string(path.surface_bounces) +
          "+" + std::to_string(path.bottom_bounces) + " bounces, " +
@@ -68,8 +68,8 @@ inline std::string describe(const Arrival& path) {
 }
 
 // Whether any path meets neither surface nor bottom.
-inline bool has_direct_path(const Arrivals& found) {
-  return std::any_of(found.paths.begin(), found.paths.end(), [](const Arrival& path) {
+inline bool has_direct_path(const Eigenrays& found) {
+  return std::any_of(found.paths.begin(), found.paths.end(), [](const Eigenray& path) {
     return path.surface_bounces == 0 && path.bottom_bounces == 0;
   });
 }
@@ -77,12 +77,12 @@ inline bool has_direct_path(const Arrivals& found) {
 inline double degrees_between(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }
 
 // Index of the path nearest in launch angle among those of the same bounces and delay; -1 for none.
-inline int find_path(const std::vector<Arrival>& paths, const std::vector<bool>& used, double delay_s,
+inline int find_path(const std::vector<Eigenray>& paths, const std::vector<bool>& used, double delay_s,
                      double launch_rad, int surface, int bottom, double delay_tolerance_s) {
   int best = -1;
   double nearest = to_radians(0.02);
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    const Arrival& path = paths[i];
+    const Eigenray& path = paths[i];
     const double off = std::abs(path.launch_angle_rad - launch_rad);
     if (used[i] || path.surface_bounces != surface || path.bottom_bounces != bottom || off > nearest)
       continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every row of the reference arrivals, by every solver that can do its water.
+// Every row of the reference eigenrays, by every solver that can do its water.
 #include "tests/acoustics/rays/ray_reference.h"
 
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "acoustics/link/received_field.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "tests/support/csv.h"
 
 namespace halocline::acoustics {
@@ -28,7 +28,7 @@ std::string case_name(const ::testing::TestParamInfo<Case>& info) {
 // The references carry 12 digits of delay, 8 of amplitude and 5 to 7 decimals of angles: the tolerances below
 // are those of the last digits, a thousand times tighter than what is required (1e-6 s, 0.05 dB, 1 degree,
 // 0.01 degree).
-void expect_row(const testing::CsvRow& row, const Arrival& path) {
+void expect_row(const testing::CsvRow& row, const Eigenray& path) {
   const std::string where = "line " + std::to_string(row.line()) + ": " + describe(path);
   EXPECT_NEAR(path.delay_s, row.number("delay_s"), tolerance(1e-9)) << where;
   EXPECT_NEAR(20 * std::log10(path.amplitude / row.number("amplitude")), 0, tolerance(1e-5)) << where;
@@ -47,7 +47,7 @@ TEST_P(RayReference, EveryRowIsFoundAndNothingElse) {
   const RaySea sea = reference_sea(GetParam().name);
   for (const auto& [link, rows] : reference_links(GetParam().name)) {
     const auto [source, receiver, range] = link;
-    const Arrivals found = arrivals(sea, {source, receiver, range}, GetParam().solver);
+    const Eigenrays found = eigenrays(sea, {source, receiver, range}, GetParam().solver);
     std::vector<bool> used(found.paths.size());
     for (const testing::CsvRow& row : rows) {
       const int index = find_path(
@@ -72,9 +72,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(RayReference, LevelsAndSpreadsOfTheSummaryFollow) {
   for (const testing::CsvRow& row : testing::read_reference_csv("rays/summary.csv")) {
-    const Arrivals found =
-        arrivals(reference_sea(row.text("case")),
-                 {row.number("src_depth_m"), row.number("rcv_depth_m"), row.number("rcv_range_m")});
+    const Eigenrays found =
+        eigenrays(reference_sea(row.text("case")),
+                  {row.number("src_depth_m"), row.number("rcv_depth_m"), row.number("rcv_range_m")});
     const ReceivedField field = received_field(found);
     // The table has 6 digits of level and of delays.
     EXPECT_NEAR(-field.level.value, row.number("incoherent_tl_db"), tolerance(1e-4)) << "line " << row.line();

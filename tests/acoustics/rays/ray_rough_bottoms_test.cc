@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "core/random.h"
 #include "core/units.h"
@@ -40,15 +40,15 @@ RayLink random_link(std::uint32_t index, double range_m) {
   return {20 + 100 * draw(1), 20 + 100 * draw(2), range_m * (0.9 + 0.2 * draw(3))};
 }
 
-double power_of(const std::vector<Arrival>& paths) {
+double power_of(const std::vector<Eigenray>& paths) {
   double power = 0;
-  for (const Arrival& path : paths) power += path.received_pressure() * path.received_pressure();
+  for (const Eigenray& path : paths) power += path.received_pressure() * path.received_pressure();
   return power;
 }
 
-bool has(const std::vector<Arrival>& paths, const Arrival& wanted) {
+bool has(const std::vector<Eigenray>& paths, const Eigenray& wanted) {
   // About a fold both searches find one path or two, by where they begin.
-  return std::any_of(paths.begin(), paths.end(), [&](const Arrival& path) {
+  return std::any_of(paths.begin(), paths.end(), [&](const Eigenray& path) {
     return !path.diffuse && path.surface_bounces == wanted.surface_bounces &&
            path.bottom_bounces == wanted.bottom_bounces &&
            std::abs(path.delay_s - wanted.delay_s) < tolerance(2e-5) &&
@@ -67,10 +67,10 @@ Comparison compare(double range_m, std::uint32_t links) {
   for (std::uint32_t i = 0; i < links; ++i) {
     const RayLink link = random_link(i, range_m);
     const RaySea sea = rough_sea(i, link.range_m);
-    const Arrivals few = arrivals(sea, link), every = arrivals(every_ray(sea), link);
+    const Eigenrays few = eigenrays(sea, link), every = eigenrays(every_ray(sea), link);
     double strongest = 0;
-    for (const Arrival& path : every.paths) strongest = std::max(strongest, path.received_pressure());
-    for (const Arrival& path : every.paths) {
+    for (const Eigenray& path : every.paths) strongest = std::max(strongest, path.received_pressure());
+    for (const Eigenray& path : every.paths) {
       if (path.received_pressure() < strongest * std::pow(10.0, -15.0 / 20)) continue;
       ++sum.strong;
       if (!has(few.paths, path)) ++sum.lost;
@@ -112,9 +112,9 @@ TEST(RoughBottoms, DiffusePowerIsThatOfThePathsItStandsFor) {
     const RayLink link = random_link(i, 2000);
     RaySea sea = rough_sea(i, link.range_m);
     sea.options.diffuse_below_db = 10;
-    const Arrivals few = arrivals(sea, link);
+    const Eigenrays few = eigenrays(sea, link);
     diffuse += few.diffuse_power();
-    left_out += power_of(arrivals(every_ray(sea), link).paths) - power_of(few.paths) + few.diffuse_power();
+    left_out += power_of(eigenrays(every_ray(sea), link).paths) - power_of(few.paths) + few.diffuse_power();
   }
   EXPECT_GT(diffuse, 0);
   EXPECT_NEAR(10 * std::log10(diffuse / left_out), 0, tolerance(1));
@@ -127,10 +127,10 @@ TEST(RoughBottoms, PathsAboveThePressureAreKeptAndTheLevelStays) {
   for (std::uint32_t i = 0; i < 40; ++i) {
     const RayLink link = random_link(i, 2000);
     RaySea sea = rough_sea(i, link.range_m);
-    const Arrivals every = arrivals(every_ray(sea), link);
+    const Eigenrays every = eigenrays(every_ray(sea), link);
     sea.options.diffuse_below_pressure = 1e-4;
-    const Arrivals found = arrivals(sea, link);
-    for (const Arrival& path : every.paths) {
+    const Eigenrays found = eigenrays(sea, link);
+    for (const Eigenray& path : every.paths) {
       if (path.received_pressure() < 2 * sea.options.diffuse_below_pressure) continue;
       ++strong;
       if (!has(found.paths, path)) ++lost;
@@ -153,7 +153,7 @@ TEST(RoughBottoms, SmoothOnesAreSearchedForEveryRay) {
       RaySea sea = sea_of({{0, 1520}, {50, 1490}, {200, 1492}}, bottom);
       sea.options = RayOptions{};
       const RayLink link{20, 50, range_m};
-      const Arrivals found = arrivals(sea, link), every = arrivals(every_ray(sea), link);
+      const Eigenrays found = eigenrays(sea, link), every = eigenrays(every_ray(sea), link);
       ASSERT_EQ(found.paths.size(), every.paths.size()) << range_m;
       for (std::size_t i = 0; i < found.paths.size(); ++i) {
         EXPECT_EQ(found.paths[i].delay_s, every.paths[i].delay_s);
@@ -165,7 +165,7 @@ TEST(RoughBottoms, SmoothOnesAreSearchedForEveryRay) {
 
 TEST(RoughBottoms, PathsComeByDelayAndEachHasAnIdentity) {
   const RayLink link = random_link(1, 3000);
-  const std::vector<Arrival> paths = arrivals(rough_sea(1, link.range_m), link).paths;
+  const std::vector<Eigenray> paths = eigenrays(rough_sea(1, link.range_m), link).paths;
   std::vector<PathIdentity> identities;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (i > 0) {
@@ -173,7 +173,7 @@ TEST(RoughBottoms, PathsComeByDelayAndEachHasAnIdentity) {
     }
     identities.push_back(paths[i].identity);
   }
-  EXPECT_TRUE(std::any_of(paths.begin(), paths.end(), [](const Arrival& path) { return path.diffuse; }));
+  EXPECT_TRUE(std::any_of(paths.begin(), paths.end(), [](const Eigenray& path) { return path.diffuse; }));
   std::sort(identities.begin(), identities.end());
   EXPECT_EQ(std::adjacent_find(identities.begin(), identities.end()), identities.end());
 }

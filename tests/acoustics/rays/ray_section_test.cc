@@ -13,8 +13,8 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"
@@ -77,8 +77,8 @@ std::vector<double> even_depths(double step, double deepest) {
   return depths;
 }
 
-std::optional<Arrival> direct_of(const Arrivals& found) {
-  for (const Arrival& path : found.paths)
+std::optional<Eigenray> direct_of(const Eigenrays& found) {
+  for (const Eigenray& path : found.paths)
     if (path.surface_bounces + path.bottom_bounces == 0) return path;
   return std::nullopt;
 }
@@ -94,7 +94,7 @@ TEST(RaySection, AGradientInAnyDirectionHasItsClosedForm) {
     const auto speed = [&](double r, double z) { return 1500 + a * (r - 2000) + b * (z - 500); };
     const auto section = section_of(nodes_of(range, 1 + k % 9, even_depths(40, 1200), speed));
     const RayLink link{300 + 400 * share(draw), 300 + 400 * share(draw), range};
-    const auto direct = direct_of(arrivals(sea_of(section, BottomProfile::flat(1000)), link));
+    const auto direct = direct_of(eigenrays(sea_of(section, BottomProfile::flat(1000)), link));
     ASSERT_TRUE(direct);
     const double c1 = speed(0, link.source_depth_m), c2 = speed(range, link.receiver_depth_m),
                  g = std::hypot(a, b);
@@ -109,10 +109,10 @@ TEST(RaySection, AGradientInAnyDirectionHasItsClosedForm) {
   }
 }
 
-void expect_same(const Arrivals& found, const Arrivals& expected, double delay_s, double decibels) {
+void expect_same(const Eigenrays& found, const Eigenrays& expected, double delay_s, double decibels) {
   ASSERT_EQ(found.paths.size(), expected.paths.size());
   for (std::size_t i = 0; i < found.paths.size(); ++i) {
-    const Arrival &a = found.paths[i], &b = expected.paths[i];
+    const Eigenray &a = found.paths[i], &b = expected.paths[i];
     EXPECT_NEAR(a.delay_s, b.delay_s, delay_s);
     EXPECT_NEAR(20 * std::log10(a.amplitude / b.amplitude), 0, decibels);
     EXPECT_NEAR(a.absorption_db, b.absorption_db, 10 * decibels);  // the means of layers are to first order
@@ -141,10 +141,10 @@ TEST(RaySection, IsTheLayeredSearchWhereTheWaterIsTheSame) {
                                      : BottomProfile({{-100, 150}, {range / 2, 160}, {range + 100, 140}});
     RaySea sea = sea_of(section_of(nodes), bottom);
     sea.options.diffuse_below_db = 0;
-    const Arrivals found = arrivals(sea, link);
+    const Eigenrays found = eigenrays(sea, link);
     EXPECT_EQ(found.solver, RaySolver::kArcs);
     sea.section = nullptr;
-    expect_same(found, arrivals(sea, link, RaySolver::kArcs), tolerance(1e-9), tolerance(1e-4));
+    expect_same(found, eigenrays(sea, link, RaySolver::kArcs), tolerance(1e-9), tolerance(1e-4));
   }
 }
 
@@ -212,10 +212,10 @@ TEST(RaySection, RandomLinksThroughAFrontAgreeWithRungeKutta) {
     sea.options.diffuse_below_db = 0;
     const RayLink link{5 + 90 * share(draw), 5 + 90 * share(draw), range};
     const RungeKuttaTracer tracer(pieces_of(nodes), bottom, sand_magnitude, 10);
-    const Arrivals found = arrivals(sea, link);
+    const Eigenrays found = eigenrays(sea, link);
     double strongest = 0;
-    for (const Arrival& path : found.paths) strongest = std::max(strongest, path.amplitude);
-    for (const Arrival& path : found.paths) {
+    for (const Eigenray& path : found.paths) strongest = std::max(strongest, path.amplitude);
+    for (const Eigenray& path : found.paths) {
       if (path.amplitude < 0.03 * strongest) continue;
       const auto one = compare(tracer, link, path);
       if (!one) {
@@ -252,7 +252,7 @@ TEST(RaySection, ConvergesToTheFrontItSamples) {
     double delay_squares = 0, level_squares = 0;
     for (int k = 0; k < 9; ++k) {
       const RayLink link{150.0 + 10 * k, 230.0 - 5 * k, kRange};
-      for (const Arrival& path : arrivals(sea, link).paths) {
+      for (const Eigenray& path : eigenrays(sea, link).paths) {
         if (path.surface_bounces + path.bottom_bounces > 2) continue;
         const auto one = compare(tracer, link, path);
         ASSERT_TRUE(one);
@@ -278,11 +278,11 @@ TEST(RaySection, PathsAreReciprocal) {
   const BottomProfile bottom({{0, 180}, {kRange, 220}});
   RaySea sea = sea_of(section_of(nodes), bottom);
   sea.options.airy_folds = false;
-  const Arrivals there = arrivals(sea, {40, 70, kRange});
+  const Eigenrays there = eigenrays(sea, {40, 70, kRange});
   std::reverse(nodes.speeds.begin(), nodes.speeds.end());
   sea = sea_of(section_of(nodes), bottom.reversed(kRange));
   sea.options.airy_folds = false;
-  const Arrivals back = arrivals(sea, {70, 40, kRange});
+  const Eigenrays back = eigenrays(sea, {70, 40, kRange});
   ASSERT_GT(there.paths.size(), 4U);
   ASSERT_EQ(there.paths.size(), back.paths.size());
   for (std::size_t i = 0; i < there.paths.size(); ++i) {
@@ -299,7 +299,7 @@ TEST(RaySection, RefusesWhatItCannotBe) {
   EXPECT_THROW(RaySection({10}, {one}), InvalidArgument);
   const RaySea sea = sea_of(std::make_shared<const RaySection>(std::vector<double>{0}, std::vector{one}),
                             BottomProfile::flat(90));
-  EXPECT_THROW(arrivals(sea, {10, 20, 500}, RaySolver::kSnell), InvalidArgument);
+  EXPECT_THROW(eigenrays(sea, {10, 20, 500}, RaySolver::kSnell), InvalidArgument);
 }
 
 }  // namespace

@@ -12,14 +12,14 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/random.h"
-#include "tests/acoustics/rays/arrival_comparison.h"
 #include "tests/acoustics/rays/brute_fan.h"
 #include "tests/acoustics/rays/brute_ray.h"
+#include "tests/acoustics/rays/eigenray_comparison.h"
 #include "tests/acoustics/rays/ray_reference.h"
 
 namespace halocline::acoustics {
@@ -69,7 +69,7 @@ RayLink random_link(const SteepBottom& terrain, std::uint32_t index) {
 
 class SteepBottoms : public ::testing::TestWithParam<SteepBottom> {};
 
-TEST_P(SteepBottoms, HaveTheArrivalsOfADenseFan) {
+TEST_P(SteepBottoms, HaveTheEigenraysOfADenseFan) {
   const SteepBottom& terrain = GetParam();
   const RaySea sea = sea_of(kWater, BottomProfile(terrain.bottom));
   // Where every path loses much, the solver looks further than the fan.
@@ -79,12 +79,12 @@ TEST_P(SteepBottoms, HaveTheArrivalsOfADenseFan) {
   const int links = from_environment("HALOCLINE_RAY_LINKS", terrain.links);
   for (int i = 0; i < links; ++i) {
     const RayLink link = random_link(terrain, static_cast<std::uint32_t>(i));
-    std::vector<BruteArrival> found;
-    for (const Arrival& path : arrivals(sea, link).paths) found.push_back(brute_of(path));
-    compare_arrivals(
+    std::vector<BruteEigenray> found;
+    for (const Eigenray& path : eigenrays(sea, link).paths) found.push_back(brute_of(path));
+    compare_eigenrays(
         std::string(terrain.name) + " link " + std::to_string(i), found,
-        brute_arrivals(brute, link, to_radians(80), from_environment("HALOCLINE_RAY_FAN", 4000)),
-        [&](double launch_rad) { return brute_arrival(all, link, launch_rad); }, count);
+        brute_eigenrays(brute, link, to_radians(80), from_environment("HALOCLINE_RAY_FAN", 4000)),
+        [&](double launch_rad) { return brute_eigenray(all, link, launch_rad); }, count);
   }
   print(terrain.name, count);
   EXPECT_GT(count.expected, 5 * count.links);

@@ -13,8 +13,8 @@
 
 #include "acoustics/math/airy.h"
 #include "acoustics/math/turning_field.h"
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "tests/acoustics/rays/ray_reference.h"
 
@@ -108,7 +108,7 @@ double pressure_of_rays(double source_m, double receiver_m, double range_m) {
   RaySea sea = sea_of(rows, BottomProfile::flat(150));
   sea.options.airy_folds = true;
   std::complex<double> sum = 0;
-  for (const Arrival& path : arrivals(sea, {source_m, receiver_m, range_m}, RaySolver::kSnell).paths) {
+  for (const Eigenray& path : eigenrays(sea, {source_m, receiver_m, range_m}, RaySolver::kSnell).paths) {
     if (path.bottom_bounces > 0) continue;
     sum += std::polar(path.amplitude, path.phase_rad - 2 * pi * std::fmod(kFrequency * path.delay_s, 1.0));
   }
@@ -139,7 +139,7 @@ double greatest_surface_step(bool waves) {
   std::vector<double> levels;
   for (int i = 0; i <= 400; ++i) {
     double power = 0;
-    for (const Arrival& path : arrivals(sea, {25, 37, 2200.0 + i}, RaySolver::kSnell).paths)
+    for (const Eigenray& path : eigenrays(sea, {25, 37, 2200.0 + i}, RaySolver::kSnell).paths)
       power += path.amplitude * path.amplitude;
     levels.push_back(10 * std::log10(power));
   }
@@ -164,7 +164,7 @@ double greatest_row_step(bool waves) {
   std::vector<double> levels;
   for (int i = 0; i <= 40; ++i) {
     double power = 0;
-    for (const Arrival& path : arrivals(sea, {27.7 + 0.01 * i, 68.06, 491.39}, RaySolver::kSnell).paths) {
+    for (const Eigenray& path : eigenrays(sea, {27.7 + 0.01 * i, 68.06, 491.39}, RaySolver::kSnell).paths) {
       if (path.surface_bounces + path.bottom_bounces == 0) power += path.amplitude * path.amplitude;
     }
     levels.push_back(10 * std::log10(power));

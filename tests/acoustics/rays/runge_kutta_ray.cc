@@ -77,7 +77,7 @@ RungeKuttaRay RungeKuttaTracer::trace(double source_m, double range_m, double an
   return ray;
 }
 
-std::optional<double> launch_of(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path) {
+std::optional<double> launch_of(const RungeKuttaTracer& tracer, const RayLink& link, const Eigenray& path) {
   double angle = path.launch_angle_rad;
   for (int i = 0; i < 12; ++i) {
     constexpr double kStep = 1e-6;
@@ -120,7 +120,7 @@ double fold_delay_s(const RungeKuttaRay& low, const RungeKuttaRay& ray, const Ru
 
 }  // namespace
 
-std::optional<Compared> compare(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path) {
+std::optional<Compared> compare(const RungeKuttaTracer& tracer, const RayLink& link, const Eigenray& path) {
   constexpr double kApart = 2e-6, kStation = 40, kFold = 2e-5;
   const auto angle = launch_of(tracer, link, path);
   if (!angle) return std::nullopt;

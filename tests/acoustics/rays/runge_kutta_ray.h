@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 
 namespace halocline::acoustics {
 
@@ -76,9 +76,9 @@ struct Compared {
 
 // The launch angle of the ray that comes to the receiver, sought from the path's own on; empty where there is
 // none.
-std::optional<double> launch_of(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path);
+std::optional<double> launch_of(const RungeKuttaTracer& tracer, const RayLink& link, const Eigenray& path);
 // Levels without absorption. Empty where there is no such ray.
-std::optional<Compared> compare(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path);
+std::optional<Compared> compare(const RungeKuttaTracer& tracer, const RayLink& link, const Eigenray& path);
 
 // A front: cold above and on the far side, c = 1485 + 18 e^(-z / 45) + 12 W(r - tilt z) e^(-z / 120), W from
 // 1 to 0 about the range `front_m` within some `width_m`.

@@ -2,6 +2,7 @@
 #include "acoustics/reception/guard_window.h"
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -17,12 +18,20 @@ namespace {
 // 10 ms of guard, as much of taper.
 Modem modem() { return {}; }
 
-SoundPath path_at(double delay_s, double level_db) { return {.delay_s = delay_s, .level = {level_db}}; }
+Arrival path_at(double delay_s, double level_db) { return {{.delay_s = delay_s}, {level_db}}; }
+
+// Mean power that the window leaves to interfere: the sum of interference shares times P.
+double mean_interference(const std::vector<Arrival>& paths, const GuardWindow& window) {
+  double sum = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    sum += window.shares[i].interference * to_power_ratio(paths[i].level).value;
+  return sum;
+}
 
 double share_db(double power) { return to_decibels({power}).value; }
 
 TEST(GuardWindow, LocksOnTheIntervalThatHoldsTheMostPowerNotOnAWeakPrecursor) {
-  const std::vector<SoundPath> paths{path_at(1, -15), path_at(1.1, 0), path_at(1.105, -3)};
+  const std::vector<Arrival> paths{path_at(1, -15), path_at(1.1, 0), path_at(1.105, -3)};
   const GuardWindow window = best_window(paths, modem());
   EXPECT_EQ(window.first, 1u);
   EXPECT_EQ(window.strongest, 1u);
@@ -34,7 +43,7 @@ TEST(GuardWindow, LocksOnTheIntervalThatHoldsTheMostPowerNotOnAWeakPrecursor) {
 }
 
 TEST(GuardWindow, BeginsAtAPrecursorWithinTheGuardTime) {
-  const std::vector<SoundPath> paths{path_at(1, -15), path_at(1.008, 0)};
+  const std::vector<Arrival> paths{path_at(1, -15), path_at(1.008, 0)};
   const GuardWindow window = best_window(paths, modem());
   EXPECT_EQ(window.first, 0u);
   EXPECT_EQ(window.strongest, 1u);
@@ -43,7 +52,7 @@ TEST(GuardWindow, BeginsAtAPrecursorWithinTheGuardTime) {
 
 TEST(GuardWindow, WeightsAnEchoByARaisedCosineAfterTheGuardTime) {
   for (const double late : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    const std::vector<SoundPath> paths{path_at(1, 0), path_at(1.010 + 0.010 * late, -10)};
+    const std::vector<Arrival> paths{path_at(1, 0), path_at(1.010 + 0.010 * late, -10)};
     const double w = (1 + std::cos(std::numbers::pi * late)) / 2;
     const GuardWindow window = best_window(paths, modem());
     EXPECT_NEAR(window.shares[1].weight, w, 1e-9);
@@ -70,7 +79,7 @@ TEST(GuardWindow, WeighsTwoWindowsOfNearlyTheSamePower) {
 TEST(GuardWindow, HasNoWall) {
   double last_signal = 0, last_interference = 0;
   for (int i = -2000; i <= 2000; ++i) {
-    std::vector<SoundPath> paths{path_at(1, 0), path_at(1 + 15e-6 * i, -1)};
+    std::vector<Arrival> paths{path_at(1, 0), path_at(1 + 15e-6 * i, -1)};
     if (i < 0) std::swap(paths[0], paths[1]);
     const GuardWindow window = best_window(paths, modem());
     const double signal = mean_signal(paths, window), interference = mean_interference(paths, window);
@@ -91,7 +100,7 @@ TEST(GuardWindow, HoppingSparesAnEchoUntilThePatternReturns) {
   hopping.hop_count = 13;
   hopping.hop_clearing = SimDuration::from_milliseconds(72);
   const auto interference_after = [&](double echo_s) {
-    const std::vector<SoundPath> paths{path_at(1, 0), path_at(1 + echo_s, -6)};
+    const std::vector<Arrival> paths{path_at(1, 0), path_at(1 + echo_s, -6)};
     return mean_interference(paths, best_window(paths, hopping));
   };
   EXPECT_EQ(interference_after(0.02), 0);
@@ -100,7 +109,7 @@ TEST(GuardWindow, HoppingSparesAnEchoUntilThePatternReturns) {
 }
 
 TEST(GuardWindow, OfOnePathIsThatPath) {
-  const std::vector<SoundPath> paths{path_at(1, -3)};
+  const std::vector<Arrival> paths{path_at(1, -3)};
   const GuardWindow window = best_window(paths, modem());
   EXPECT_EQ(window.first, 0u);
   EXPECT_NEAR(share_db(mean_signal(paths, window)), -3, 1e-12);

@@ -17,7 +17,7 @@ namespace {
 constexpr Band kBand{22'500, 27'500};
 constexpr ReceivedTiming kTiming{0.2, 2.2};
 
-SignalHistory history_of(const FadingModel& model, const std::vector<SoundPath>& paths, const Modem& modem,
+SignalHistory history_of(const FadingModel& model, const std::vector<Arrival>& paths, const Modem& modem,
                          std::uint32_t pair = 1) {
   return signal_history(model, {.seed = 1, .lower_id = pair, .higher_id = 9999}, 1, paths,
                         {&modem, best_window(paths, modem)}, kBand, SimTime::from_seconds(100), kTiming);
@@ -25,7 +25,7 @@ SignalHistory history_of(const FadingModel& model, const std::vector<SoundPath>&
 
 TEST(SignalHistory, WithoutFadingHasTheWindowsPowerAndEachEchoDuringItsInterval) {
   const Modem modem;
-  const std::vector<SoundPath> paths{{.delay_s = 1, .level = {0}}, {.delay_s = 1.05, .level = {-10}}};
+  const std::vector<Arrival> paths{{{.delay_s = 1}, {0}}, {{.delay_s = 1.05}, {-10}}};
   const SignalHistory history = history_of({}, paths, modem);
   EXPECT_EQ(history.frequencies, 1u);
   ASSERT_EQ(history.edges_s.size(), 4u);
@@ -38,7 +38,7 @@ TEST(SignalHistory, WithoutFadingHasTheWindowsPowerAndEachEchoDuringItsInterval)
 
 TEST(SignalHistory, OfASteadyPathIsItsPowerAtEveryTimeAndFrequency) {
   const FadingModel model{.enabled = true, .large_scale_db = 0};
-  const SignalHistory history = history_of(model, {{.delay_s = 1, .level = {3}}}, Modem());
+  const SignalHistory history = history_of(model, {{{.delay_s = 1}, {3}}}, Modem());
   EXPECT_EQ(history.frequencies, 8u);
   EXPECT_GE(history.stretches(), 9u);
   for (const double s : history.signal) EXPECT_NEAR(to_decibels({s}).value, 3, 1e-9);
@@ -49,7 +49,7 @@ TEST(SignalHistory, TwoSteadyPathsMakeAComb) {
   const FadingModel model{.enabled = true};
   const double tau_s = 0.3e-3;
   const SignalHistory history =
-      history_of(model, {{.delay_s = 1, .level = {0}}, {.delay_s = 1 + tau_s, .level = {-6}}}, Modem());
+      history_of(model, {{{.delay_s = 1}, {0}}, {{.delay_s = 1 + tau_s}, {-6}}}, Modem());
   const double g = std::pow(10, -0.3);
   for (std::size_t m = 0; m < 8; ++m) {
     const double f = kBand.low_hz + (static_cast<double>(m) + 0.5) * kBand.width_hz() / 8;
@@ -64,8 +64,8 @@ TEST(SignalHistory, NoDelayIsInStepThroughAHoppingPacket) {
   modem.error_model = ErrorModel::kJanus;
   const double g = std::pow(10, -0.3);
   for (int k = 1; k < 7; ++k) {
-    const SignalHistory history = history_of(
-        {.enabled = true}, {{.delay_s = 1, .level = {0}}, {.delay_s = 1 + k / 625.0, .level = {-6}}}, modem);
+    const SignalHistory history =
+        history_of({.enabled = true}, {{{.delay_s = 1}, {0}}, {{.delay_s = 1 + k / 625.0}, {-6}}}, modem);
     double mean = 0;
     for (std::size_t i = history.stretches() - 8; i < history.stretches(); ++i)
       mean += history.mean_signal(i) / 8;
@@ -79,8 +79,8 @@ TEST(SignalHistory, PhaseShiftKeyingCollectsTheWholeBand) {
   modem.error_model = ErrorModel::kBpsk;
   const double g = std::pow(10, -0.3);
   for (const double tau_s : {0.01e-3, 0.1e-3, 0.33e-3, 1.6e-3, 7.1e-3}) {
-    const SignalHistory history = history_of(
-        {.enabled = true}, {{.delay_s = 1, .level = {0}}, {.delay_s = 1 + tau_s, .level = {-6}}}, modem);
+    const SignalHistory history =
+        history_of({.enabled = true}, {{{.delay_s = 1}, {0}}, {{.delay_s = 1 + tau_s}, {-6}}}, modem);
     const double x = std::numbers::pi * kBand.width_hz() * tau_s;
     const double expected =
         1 + g * g + 2 * g * std::cos(2 * std::numbers::pi * kBand.centre_hz() * tau_s) * std::sin(x) / x;
@@ -92,7 +92,7 @@ TEST(SignalHistory, PhaseShiftKeyingCollectsTheWholeBand) {
 TEST(SignalHistory, StretchesAreAQuarterOfTheCoherenceTimeWithin8To64) {
   const FadingModel model{.enabled = true};
   const auto stretches = [&](double spread_hz) {
-    SoundPath path{.delay_s = 1, .level = {0}};
+    Arrival path{{.delay_s = 1}, {0}};
     path.fading = {0, 0, 1, spread_hz};
     return history_of(model, {path}, Modem()).stretches();
   };
@@ -106,7 +106,7 @@ TEST(SignalHistory, PhaseShiftKeyingLosesWhatItDoesNotFollow) {
   const FadingModel model{.enabled = true, .large_scale_db = 0};
   Modem psk;
   psk.error_model = ErrorModel::kBpsk;
-  SoundPath path{.delay_s = 1, .level = {0}};
+  Arrival path{{.delay_s = 1}, {0}};
   path.fading = {0, 0, 1, 2};
   double signal = 0, echoes = 0;
   const int links = 300;
@@ -131,7 +131,7 @@ TEST(SignalHistory, AResidualDopplerShiftCostsFrequencyShiftKeyingBySincSquared)
   modem.chip = SimDuration::from_milliseconds(6);
   modem.doppler_correction = 0.001;
   const double residual = 0.0016;  // 40 Hz at 25 kHz
-  const SoundPath path{.delay_s = 1, .level = {0}, .doppler_factor = 1.001 + residual};
+  const Arrival path{{.delay_s = 1}, {0}, 1.001 + residual};
   const SignalHistory history =
       shifted_history(history_of(model, {path}, modem), doppler_share(modem, path, 25'000));
   const double x = std::numbers::pi * 25'000 * residual * 0.006, share = std::pow(std::sin(x) / x, 2);

@@ -9,7 +9,6 @@
 
 #include "bathymetry/terrain/fractal_relief.h"
 #include "bathymetry/terrain/generated_terrain.h"
-#include "bathymetry/terrain/profile.h"
 #include "bathymetry/terrain/terrain.h"
 #include "core/frames.h"
 #include "core/random.h"
@@ -86,17 +85,6 @@ TEST(EndlessTerrain, ARayIsFollowedOutOfTheGridIntoItAndPastIt) {
   EXPECT_EQ(terrain.closest_hit({{-2000, 0, 10}, {1, 0, 0}, 4000}).status, RayStatus::kMiss);
   EXPECT_EQ(terrain.closest_hit({{5000, 5000, 60}, {1, 0, 0}, 10}).status, RayStatus::kStartedBelowBottom);
   EXPECT_EQ(terrain.closest_hit({{5000, 5000, 20}, {0, 0, 1}, 0}).status, RayStatus::kMiss);
-}
-
-TEST(EndlessTerrain, ProfilesGoOn) {
-  const Terrain terrain = endless(SlopeShape{.depth_m = 100, .slope = 0.05});
-  for (const auto& points :
-       {exact_profile(terrain, {-1000, 3}, {1000, 3}), uniform_profile(terrain, {-1000, 3}, {1000, 3}, 50)}) {
-    for (const ProfilePoint& point : points) {
-      ASSERT_EQ(point.status, DepthStatus::kOk) << point.distance_m;
-      EXPECT_NEAR(point.z_m, 100 + 0.05 * (point.distance_m - 1000), tolerance(1e-3));
-    }
-  }
 }
 
 TEST(HeldDepth, IsThatOfTheEdgeBeyondAndThatOfTheNearestPostInAGap) {

@@ -38,16 +38,16 @@ TEST(FractalRelief, AnyWindowOfItIsTheSame) {
 TEST(FractalRelief, OfAPointIsThatOfTheGrid) {
   const FractalRelief relief{.rms_m = 5, .longest_wavelength_m = 400, .shortest_wavelength_m = 20, .seed = 9};
   const HeightGrid grid = relief_grid(relief, {-70, -70, 10, 15, 15});
-  EXPECT_EQ(grid.post(3, 4), static_cast<float>(relief_at(relief, -40, -30)));
+  EXPECT_EQ(grid.post(3, 4), static_cast<float>(ReliefFormula(relief, 10)(-40, -30)));
 }
 
 TEST(FractalRelief, AnotherSeedIsAnotherRelief) {
   FractalRelief relief{.seed = 1};
-  const double first = relief_at(relief, 123, 456);
+  const double first = ReliefFormula(relief, 0)(123, 456);
   relief.seed = 2;
-  EXPECT_NE(first, relief_at(relief, 123, 456));
+  EXPECT_NE(first, ReliefFormula(relief, 0)(123, 456));
   relief.seed = 1;
-  EXPECT_EQ(first, relief_at(relief, 123, 456));
+  EXPECT_EQ(first, ReliefFormula(relief, 0)(123, 456));
 }
 
 TEST(FractalRelief, HasTheRequestedRms) {

@@ -184,23 +184,6 @@ TEST(TerrainRay, AOneCellRidgeBetweenSamplesIsNotTunnelled) {
   EXPECT_NEAR(hit.range_m, 500 - 10.0 / 180, tolerance(1e-9));
 }
 
-TEST(TerrainOcclusion, SeesAndIsBlocked) {
-  const Terrain terrain(
-      make_grid(square_of_200_m(), RidgeShape{.depth_m = 100, .height_m = 60, .half_width_m = 20}));
-  EXPECT_EQ(terrain.occluded({0, -80, 30}, {0, 80, 30}, 0).status, RayStatus::kMiss);
-  const RayHit blocked = terrain.occluded({0, -80, 50}, {0, 80, 50}, 0);
-  EXPECT_EQ(blocked.status, RayStatus::kHit);
-  EXPECT_GT(blocked.range_m, 60);
-  EXPECT_LT(blocked.range_m, 80);
-}
-
-TEST(TerrainOcclusion, SkinLetsEndsLieOnTheBottom) {
-  const Terrain terrain = flat_terrain();
-  EXPECT_EQ(terrain.occluded({0, 0, 10}, {0, 50, 100}, 1e-3).status, RayStatus::kMiss);
-  EXPECT_EQ(terrain.occluded({0, 50, 100}, {0, 0, 10}, 1e-3).status, RayStatus::kMiss);
-  EXPECT_EQ(terrain.occluded({0, 0, 10}, {0, 50, 101}, 1e-3).status, RayStatus::kHit);
-}
-
 TEST(TerrainVersion, IsTheSameForTheSameContentAndMovesWithEveryPost) {
   const HugePageVector<float> posts{1, 2, 3, 4, 5, 6, 7, 8, 9};
   const std::uint64_t version = Terrain(testing::small_grid(posts)).version();

@@ -43,6 +43,13 @@ class MessageJournalTest : public ::testing::Test {
     journal.add_input(channel, &byte, 1);
     journal.write_inputs(SimTime::from_seconds(time_s));
   }
+  void flip_bit(std::uintmax_t byte_at) const {
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekg(static_cast<std::streamoff>(byte_at));
+    const int byte = file.get();
+    file.seekp(static_cast<std::streamoff>(byte_at));
+    file.put(static_cast<char>(byte ^ 4));
+  }
   // "o12 CHANNEL 5": output or input, seconds, channel, the only byte; "s12": a step without input.
   static std::vector<std::string> inherited(MessageJournal& journal) {
     std::vector<std::string> all;
@@ -115,8 +122,8 @@ TEST_F(MessageJournalTest, AnEntryWhoseBytesChangedIsNoEntry) {
   EXPECT_EQ(inherited(*open()), (Lines{"i1 STATE.a 5"}));
 }
 
-// Whichever bit it is, of head or body; two of them cost the entry.
-TEST_F(MessageJournalTest, OneFlippedBitCostsNothingAndTwoCostOneEntry) {
+// Whichever bit it is, of head or body.
+TEST_F(MessageJournalTest, AFlippedBitCostsOneEntry) {
   constexpr int kEntries = 1294;
   {
     const auto journal = open();
@@ -124,22 +131,9 @@ TEST_F(MessageJournalTest, OneFlippedBitCostsNothingAndTwoCostOneEntry) {
   }
   const auto size = std::filesystem::file_size(path_);
   for (const auto at : {size / 2, size / 2 + 7, size / 2 + 20, size / 3}) {
-    const auto flip = [&](int bits) {
-      std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
-      file.seekg(static_cast<std::streamoff>(at));
-      const int byte = file.get();
-      file.seekp(static_cast<std::streamoff>(at));
-      file.put(static_cast<char>(byte ^ bits));
-    };
     const std::string saved = path_ + ".saved";
     std::filesystem::copy_file(path_, saved, std::filesystem::copy_options::overwrite_existing);
-    flip(4);
-    const auto mended = open();
-    EXPECT_EQ(inherited(*mended).size(), kEntries + 0u);
-    EXPECT_EQ(mended->bits_mended(), 1u);
-    EXPECT_EQ(mended->bytes_damaged(), 0u);
-    std::filesystem::copy_file(saved, path_, std::filesystem::copy_options::overwrite_existing);
-    flip(5);
+    flip_bit(at);
     const auto journal = open();
     EXPECT_EQ(inherited(*journal).size(), kEntries - 1u);
     EXPECT_GT(journal->bytes_damaged(), 0u);

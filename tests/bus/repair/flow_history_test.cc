@@ -46,12 +46,12 @@ TEST(FlowHistory, OfOldMessagesTheLastOfEachFlowIsKept) {
   for (std::int64_t t = 0; t < 10 * kAge; ++t) {  // ten messages a second
     for (std::int64_t i = 0; i < 10; ++i) history.keep("BUSY", 1, 10 * t + i, message_of(10));
     history.forget_old(SimTime::from_seconds(static_cast<double>(t)));
-    ASSERT_LE(history.num_messages(), static_cast<std::size_t>(10 * (kAge + 2) + 1)) << t;
     for (const std::int64_t age : {std::int64_t{0}, kAge - 2}) {
       EXPECT_EQ(history.find("BUSY", 1, 10 * (t - age)) != nullptr, t >= age)
           << t << " s, of " << age << " s ago";
     }
-    EXPECT_EQ(history.find("BUSY", 1, 10 * (t - kAge - 2)), nullptr) << t;
+    for (std::int64_t i = 0; i < 10; ++i)
+      ASSERT_EQ(history.find("BUSY", 1, 10 * (t - kAge - 2) - i), nullptr) << t << " s, " << i;
     ASSERT_NE(history.find("QUIET", 1, 4), nullptr) << t;
   }
   EXPECT_EQ(*history.find("QUIET", 1, 4), (Bytes{1, 2}));
@@ -69,7 +69,6 @@ TEST(FlowHistory, TheLastMessageOfAFlowIsForgottenOnceItIsNotTheLast) {
   for (int minute = 6; minute < 12; ++minute) history.forget_old(at(minute));
   EXPECT_EQ(history.find("A", 1, 0), nullptr);
   EXPECT_NE(history.find("A", 1, 1), nullptr);
-  EXPECT_EQ(history.num_messages(), 1u);
 }
 
 TEST(FlowHistory, AForgottenFlowAndItsOldMessagesGoTogether) {
@@ -81,7 +80,7 @@ TEST(FlowHistory, AForgottenFlowAndItsOldMessagesGoTogether) {
   history.forget_old(SimTime::from_seconds(300));
   history.forget_old(SimTime::from_seconds(600));
   EXPECT_EQ(history.find("OLD", 1, 0), nullptr);
-  EXPECT_EQ(history.num_messages(), FlowHistory::kMaxFlows);
+  EXPECT_EQ(history.num_flows(), FlowHistory::kMaxFlows);
 }
 
 TEST(FlowHistory, ListsTheLastNumberOfEachFlowEvenWhenItsMessagesAreGone) {

@@ -3,11 +3,10 @@
 #include "channel_server/links/link_predictor.h"
 
 #include <cmath>
-#include <cstdint>
 
 #include <gtest/gtest.h>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 #include "acoustics/prediction/link_prediction.h"
 #include "acoustics/reception/signal_history.h"
 #include "core/sim_time.h"
@@ -30,8 +29,8 @@ Modem modem_of(const char* family, double bit_rate_bps) {
 
 // A weak early path before two strong ones.
 Reception reception_of(double noise_db) {
-  const auto path = [](double delay_s, double level_db, double surface_sine_squares, std::uint64_t identity) {
-    SoundPath one{.delay_s = delay_s, .level = {level_db}, .identity = identity};
+  const auto path = [](double delay_s, double level_db, double surface_sine_squares, int identity) {
+    Arrival one{{.delay_s = delay_s, .identity = {.branch = identity}}, {level_db}};
     one.fading = path_fading(kSea, 5, 25'000, surface_sine_squares, 0.01);
     return one;
   };
@@ -76,7 +75,7 @@ TEST(LinkPredictor, FaintPathsChangeNothing) {
   const Modem modem = modem_of("a", 100);
   Reception faint = reception_of(105), heard = reception_of(105);
   for (int i = 0; i < 30; ++i) {
-    SoundPath path = faint.paths[1];
+    Arrival path = faint.paths[1];
     path.level = path.level - Decibels{61};
     path.delay_s += 0.01 * (i + 1);
     faint.paths.push_back(path);
@@ -127,11 +126,11 @@ TEST(LinkPredictor, WithoutFadingCoherenceIsTheLongestStatedAndTheToleranceOfDop
   LinkPredictor predictor({});
   Modem modem = modem_of("a", 100);
   Reception reception = reception_of(60);
-  for (SoundPath& path : reception.paths) path.fading = {};
+  for (Arrival& path : reception.paths) path.fading = {};
   EXPECT_EQ(forecast_of(predictor, modem, modem, reception).coherence_time_s, 1e6);
   EXPECT_EQ(forecast_of(predictor, modem, modem, reception).doppler_spread_hz, 0);
   EXPECT_NEAR(forecast_of(predictor, modem, modem, reception).delivery_probability, 1, 1e-6);
-  for (SoundPath& path : reception.paths) path.doppler_factor = 1.01;
+  for (Arrival& path : reception.paths) path.doppler_factor = 1.01;
   modem.doppler_tolerance = 0.005;
   EXPECT_EQ(forecast_of(predictor, modem, modem, reception).delivery_probability, 0);
 }

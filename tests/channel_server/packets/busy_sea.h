@@ -13,8 +13,8 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/path_fading.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
@@ -58,7 +58,7 @@ class ThreePaths : public Propagation {
     if (pair == 2) reception.state = PathState::kBlocked;
     if (reception.state != PathState::kOpen) return reception;
     const Vec3 way = (to.position_ned_m - from.position_ned_m) / std::max(budget.range_m, 1.0);
-    SoundPath path;
+    Arrival path;
     path.doppler_factor = acoustics::doppler_factor(from.velocity_ned_mps.dot(way), kSpeedMps,
                                                     to.velocity_ned_mps.dot(way), kSpeedMps);
     const double level_db = from.modem->source_level.value - 20 * std::log10(std::max(budget.range_m, 1.0));
@@ -67,7 +67,7 @@ class ThreePaths : public Propagation {
       path.delay_s = std::sqrt(std::pow(budget.range_m, 2) + std::pow(longer_m, 2) * 30) / kSpeedMps;
       path.level = {level_db - weaker_db};
       if (fades_) {
-        path.identity = reception.paths.size() + 1;
+        path.identity.branch = static_cast<int>(reception.paths.size()) + 1;
         path.fading =
             acoustics::path_fading({.enabled = true}, 5, from.modem->centre_frequency_hz, 1e-5 * longer_m, 0);
       }

@@ -17,9 +17,9 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/path_fading.h"
-#include "acoustics/fading/sound_path.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/modem/packet_format.h"
 #include "acoustics/prediction/steady_band.h"
@@ -35,27 +35,26 @@
 namespace halocline::channel_server {
 namespace {
 
+using acoustics::Arrival;
 using acoustics::FadingModel;
-using acoustics::SoundPath;
 
 constexpr std::size_t kPayloadBytes = 32;
 constexpr int kPackets = 10'000;     // independent: of a link each
 constexpr double kConfidence = 2.6;  // standard deviations of the mean of those: 99 %
 
-SoundPath path(double delay_s, double level_db, double surface_sine_squares, double bottom_sine_squares,
-               double wind_mps, double frequency_hz, std::uint64_t identity) {
-  SoundPath one{.delay_s = delay_s, .level = {level_db}, .identity = identity};
-  one.launch_angle_rad = 0.05 * static_cast<double>(identity);
-  one.phase_rad = static_cast<double>(identity);
+Arrival path(double delay_s, double level_db, double surface_sine_squares, double bottom_sine_squares,
+             double wind_mps, double frequency_hz, int identity) {
+  Arrival one{{.delay_s = delay_s, .identity = {.branch = identity}}, {level_db}};
+  one.launch_angle_rad = 0.05 * identity;
+  one.phase_rad = identity;
   one.fading = path_fading(FadingModel{.enabled = true}, wind_mps, frequency_hz, surface_sine_squares,
                            bottom_sine_squares);
   return one;
 }
 
 // Paths of three seas: a steady direct one, a fan off a moving surface, a long tail off surface and bottom.
-std::vector<SoundPath> sea(int which, double frequency_hz) {
-  const auto p = [&](double delay_ms, double level_db, double surface, double bottom, double wind,
-                     std::uint64_t id) {
+std::vector<Arrival> sea(int which, double frequency_hz) {
+  const auto p = [&](double delay_ms, double level_db, double surface, double bottom, double wind, int id) {
     return path(1 + delay_ms / 1000, level_db, surface, bottom, wind, frequency_hz, id);
   };
   if (which == 0) return {p(0, 0, 0, 0, 0, 1), p(0.4, -8, 0, 0.003, 0, 2)};
@@ -74,14 +73,14 @@ class PredictedLink : public ::testing::TestWithParam<Case> {};
 
 // The ends sway up and down (acoustics/prediction/steady_band.h): phases of the paths as packet `i` meets
 // them.
-std::vector<SoundPath> jittered(std::vector<SoundPath> paths, double frequency_hz, std::uint64_t i) {
+std::vector<Arrival> jittered(std::vector<Arrival> paths, double frequency_hz, std::uint64_t i) {
   const auto jitter_m = [&](std::uint64_t end) {
     return acoustics::kPlatformJitterM *
            normal_at({.seed = end, .purpose = purpose_of("test-sway"), .which = i});
   };
   const double turn_per_m = 2 * std::numbers::pi * frequency_hz / 1500, from_m = jitter_m(1),
                to_m = jitter_m(2);
-  for (SoundPath& path : paths) {
+  for (Arrival& path : paths) {
     path.phase_rad +=
         turn_per_m * (from_m * std::sin(path.launch_angle_rad) + to_m * std::sin(path.arrival_angle_rad));
   }
@@ -104,7 +103,7 @@ TEST_P(PredictedLink, DeliversAsManyPacketsAsRealised) {
   constexpr std::array<double, 9> kNoiseDb{-20, -10, -5, 0, 4, 8, 12, 16, 20};
   const FadingModel model{.enabled = true};
   const acoustics::Modem modem = load_modem(GetParam().profile).modem;
-  const std::vector<SoundPath> paths = sea(GetParam().sea, modem.centre_frequency_hz);
+  const std::vector<Arrival> paths = sea(GetParam().sea, modem.centre_frequency_hz);
   const acoustics::Synchronisation sync{&modem, best_window(paths, modem)};
   const acoustics::ReceptionCurves curves(modem, std::min(kPayloadBytes, max_payload_bytes(modem)));
   const acoustics::PacketTiming timing = curves.timing();

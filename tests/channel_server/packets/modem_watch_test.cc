@@ -236,7 +236,7 @@ TEST_F(ModemWatchTest, AModemThatTransmitsSensesNothing) {
 TEST_F(ModemWatchTest, ChangesOfCarrierComeNoFasterThanADetectorAverages) {
   for (int i = 0; i < 50; ++i) send(i % 2 == 0 ? 1 : 3, 10 + 0.004 * i + (i % 2 == 0 ? 0 : 0.502), i, 0);
   // 100 paths of 1 ms, 2 ms apart.
-  std::vector<SoundPath> paths;
+  std::vector<Arrival> paths;
   for (int i = 0; i < 100; ++i) paths.push_back(path(1 + 0.002 * i, 120));
   water.set(1, 2, paths);
   change_modem({1}, [](acoustics::Modem& modem) { modem.packet_overhead = for_s(0.001); });

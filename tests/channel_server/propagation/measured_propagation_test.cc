@@ -63,12 +63,12 @@ TEST_F(MeasuredWater, TracksAreTheStrongestTapsByDelay) {
   measure({.all = std::make_shared<const acoustics::ChannelRecord>(record)});
   const Reception replayed = reception(1, 2);
   ASSERT_EQ(replayed.paths.size(), kTaps);
-  const LinkTracks tracks = measured->tracks(at_s(1), end(1), end(2));
-  ASSERT_EQ(tracks.paths.size(), LinkTracks::kMaxPaths);
-  EXPECT_EQ(tracks.paths_left_out, kTaps - LinkTracks::kMaxPaths);
-  EXPECT_EQ(tracks.paths.back().path.delay_s, replayed.paths.back().delay_s);
-  for (std::size_t i = 1; i < tracks.paths.size(); ++i)
-    EXPECT_LT(tracks.paths[i - 1].path.delay_s, tracks.paths[i].path.delay_s);
+  const LinkChart chart = measured->chart(at_s(1), end(1), end(2));
+  ASSERT_EQ(chart.rows.size(), LinkChart::kMaxPaths);
+  EXPECT_EQ(chart.paths_left_out, kTaps - LinkChart::kMaxPaths);
+  EXPECT_EQ(chart.rows.back().arrival.delay_s, replayed.paths.back().delay_s);
+  for (std::size_t i = 1; i < chart.rows.size(); ++i)
+    EXPECT_LT(chart.rows[i - 1].arrival.delay_s, chart.rows[i].arrival.delay_s);
 }
 
 TEST_F(MeasuredWater, TapsReplaceThePathsFromTheFirstSignificantOnAtTheModelsLevel) {

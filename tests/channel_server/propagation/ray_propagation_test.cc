@@ -82,9 +82,9 @@ TEST_F(RayPropagationTest, LevelsAndDelaysOverAFlatBottomAreThoseOfTheImages) {
         const double length = std::hypot(range_m, rise);
         const double bounce =
             bottom_reflection(model.bottom, std::asin(std::abs(rise) / length), kSpeedMps).magnitude;
-        const auto path =
-            std::find_if(reception.paths.begin(), reception.paths.end(),
-                         [&](const SoundPath& p) { return std::abs(p.delay_s - length / kSpeedMps) < 1e-9; });
+        const auto path = std::find_if(reception.paths.begin(), reception.paths.end(), [&](const Arrival& p) {
+          return std::abs(p.delay_s - length / kSpeedMps) < 1e-9;
+        });
         if (std::pow(bounce, bottom) < 0.005) continue;
         ASSERT_NE(path, reception.paths.end()) << surface << " " << bottom << " " << first_down;
         EXPECT_EQ(path->surface_bounces, surface);
@@ -99,7 +99,7 @@ TEST_F(RayPropagationTest, LevelsAndDelaysOverAFlatBottomAreThoseOfTheImages) {
     }
   }
   EXPECT_GE(found, 7u);
-  for (const SoundPath& path : reception.paths) power += to_power_ratio(path.level).value;
+  for (const Arrival& path : reception.paths) power += to_power_ratio(path.level).value;
   EXPECT_NEAR(reception.budget.received_level.value, to_decibels(PowerRatio{power}).value, tolerance(1e-9));
 }
 
@@ -225,7 +225,7 @@ TEST_F(RayPropagationTest, TheLevelIsThatOfAMetreBelowOneAndTheDelayThatOfTheDis
 TEST_F(RayPropagationTest, MultipathIsLikelyWhenAPathOffTheBottomIsAboveTheCutoff) {
   const Reception reception = over_flat({}, {0, 0, 30}, {500, 0, 60});
   Decibels loudest = kSilence;
-  for (const SoundPath& path : reception.paths) {
+  for (const Arrival& path : reception.paths) {
     if (path.bottom_bounces > 0) loudest = std::max(loudest, path.level);
   }
   EXPECT_EQ(multipath_of(reception, loudest - Decibels{0.1}), Multipath::kLikely);
@@ -237,7 +237,7 @@ TEST_F(RayPropagationTest, EachPathHasTheDopplerOfItsAngles) {
   const double speed = 3;
   const auto reception = propagation.reception_over(at_s(0), end({0, 0, 50}, modem_, 0, {speed, 0, 0}),
                                                     end({400, 0, 50}, modem_), flat());
-  for (const SoundPath& path : reception.paths) {
+  for (const Arrival& path : reception.paths) {
     const double along = speed * std::cos(path.launch_angle_rad);
     EXPECT_NEAR(path.doppler_factor, 1 / (1 - along / kSpeedMps), tolerance(1e-9));
   }

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/modem/modem.h"
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/propagation/environment_timeline.h"

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/prediction/link_prediction.h"
 #include "acoustics/reception/reception_curves.h"
@@ -90,8 +90,8 @@ class Predictor {
     const acoustics::Modem& modem = modems_[place.modem];
     const Reception reception = reception_at(place);
     if (reception.paths.empty()) return {};
-    std::vector<SoundPath> paths = reception.paths;
-    for (SoundPath& path : paths) path.level = path.level + Decibels{place.source_db};
+    std::vector<Arrival> paths = reception.paths;
+    for (Arrival& path : paths) path.level = path.level + Decibels{place.source_db};
     return predict_link(model_.fading, paths, modem, likely_windows(paths, modem), modem.band(), noise,
                         curves_[place.modem]);
   }

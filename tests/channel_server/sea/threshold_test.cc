@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 #include "channel_server/modems/modem_config.h"
 #include "tests/channel_server/sea/still_link.h"
 #include "tests/support/doc_table.h"
@@ -15,17 +15,17 @@
 namespace halocline::channel_server {
 namespace {
 
-using acoustics::SoundPath;
+using acoustics::Arrival;
 using testing::StillLink;
 
 constexpr acoustics::FadingModel kSea{.enabled = true};
 
 // A direct path and one off the surface, in a breeze.
 Reception reception() {
-  SoundPath direct{.delay_s = 0.5, .level = {100}, .identity = 1};
+  Arrival direct{{.delay_s = 0.5, .identity = {.branch = 1}}, {100}};
   direct.fading = path_fading(kSea, 5, 25'000, 0, 0);
-  SoundPath surface{
-      .delay_s = 0.5012, .level = {97}, .surface_bounces = 1, .phase_rad = 3.14159, .identity = 2};
+  Arrival surface{{.delay_s = 0.5012, .phase_rad = 3.14159, .surface_bounces = 1, .identity = {.branch = 2}},
+                  {97}};
   surface.fading = path_fading(kSea, 5, 25'000, 0.01, 0);
   Reception reception;
   reception.paths = {direct, surface};

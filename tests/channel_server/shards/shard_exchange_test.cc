@@ -16,7 +16,7 @@
 #include <gtest/gtest.h>
 #include <lcm/lcm-cpp.hpp>
 
-#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "bus/bus.h"
 #include "bus/messages/channels.h"
 #include "bus/messages/message_codec.h"
@@ -31,6 +31,7 @@
 #include "channel_server/water_model.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/channel_server/flat_bottom.h"
+#include "tests/channel_server/water_models.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -194,8 +195,8 @@ TEST(ShardOwner, EachServerOwnsAboutAsManyPairs) {
   }
 }
 
-acoustics::Arrival some_path(double delay_s) {
-  acoustics::Arrival path;
+acoustics::Eigenray some_path(double delay_s) {
+  acoustics::Eigenray path;
   path.delay_s = delay_s;
   path.amplitude = 1.0 / 3;
   path.phase_rad = 2.0 / 3;
@@ -223,10 +224,10 @@ TEST(PathMessages, PathsComeBackToTheLastBit) {
   query.places = {1.1, -2.2, 3.3, 1e3 / 7};
   query.link = {10.1, 20.2, 1000.3};
   query.diffuse_below_pressure = 1e-7 / 3;
-  FoundPaths found;
+  SearchResult found;
   found.mean_depth_m = 100.0 / 3;
   found.blocked = true;
-  found.arrivals = {
+  found.eigenrays = {
       acoustics::RaySolver::kArcs, {some_path(0.7), some_path(0.9)}, acoustics::PathLack::kTooWeak};
   const auto message = to_message(42, query, found);
   ASSERT_TRUE(message);
@@ -234,25 +235,25 @@ TEST(PathMessages, PathsComeBackToTheLastBit) {
   ASSERT_EQ(bus::decode(std::span<const std::uint8_t>(bus::encoded(*message)), decoded), "");
   const PathQuery query_again = to_query(decoded);
   EXPECT_EQ(query_again.key(), query.key());
-  const FoundPaths again = to_found(decoded);
+  const SearchResult again = to_result(decoded);
   EXPECT_EQ(again.mean_depth_m, found.mean_depth_m);
   EXPECT_EQ(again.blocked, found.blocked);
-  EXPECT_EQ(again.arrivals.solver, found.arrivals.solver);
-  EXPECT_EQ(again.arrivals.lack, found.arrivals.lack);
+  EXPECT_EQ(again.eigenrays.solver, found.eigenrays.solver);
+  EXPECT_EQ(again.eigenrays.lack, found.eigenrays.lack);
   EXPECT_EQ(bus::encoded(*to_message(42, query_again, again)), bus::encoded(*message));
-  EXPECT_EQ(again.arrivals.paths.at(1).identity, found.arrivals.paths[1].identity);
-  EXPECT_EQ(again.arrivals.paths[1].range_slowness_spm, found.arrivals.paths[1].range_slowness_spm);
+  EXPECT_EQ(again.eigenrays.paths.at(1).identity, found.eigenrays.paths[1].identity);
+  EXPECT_EQ(again.eigenrays.paths[1].range_slowness_spm, found.eigenrays.paths[1].range_slowness_spm);
 }
 
 TEST(PathMessages, WhatTheMessageCannotHoldIsNotTold) {
   PathQuery query;
   query.frequency_hz = 25'000;
-  FoundPaths found;
-  found.arrivals.paths.assign(401, some_path(0.7));
+  SearchResult found;
+  found.eigenrays.paths.assign(401, some_path(0.7));
   EXPECT_FALSE(to_message(42, query, found));
-  found.arrivals.paths = {some_path(0.7)};
+  found.eigenrays.paths = {some_path(0.7)};
   EXPECT_TRUE(to_message(42, query, found));
-  found.arrivals.paths[0].surface_bounces = 40'000;
+  found.eigenrays.paths[0].surface_bounces = 40'000;
   EXPECT_FALSE(to_message(42, query, found));
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
   const auto paths = [&] {
     const ha::RaySea sea{ha::ray_water(water, options.frequency_hz), ha::BottomProfile::flat(100),
                          ha::sediment("MediumSand").value(), ha::RaySurface{.wind_mps = 5}, options};
-    return ha::arrivals(sea, {.source_depth_m = 30, .receiver_depth_m = 50, .range_m = 2000}).paths;
+    return ha::eigenrays(sea, {.source_depth_m = 30, .receiver_depth_m = 50, .range_m = 2000}).paths;
   };
   const auto straight = paths();
   if (straight.empty() || std::abs(straight.front().delay_s - std::hypot(2000, 20) / 1500) > 1e-9) return 1;

@@ -28,7 +28,8 @@ TEST(NodeHealth, CountersAreThoseOfTheLastStatus) {
   health.add_status(1 * kSecond, "bathymetry", status(7, 2));
   health.add_status(2 * kSecond, "bathymetry", status(7, 3));
   health.add_status(2 * kSecond, "autopilot", status(8, 10));
-  EXPECT_EQ(health.total(&node_status_t::gaps), 13);
+  EXPECT_EQ(health.nodes().at("bathymetry").status.gaps, 3);
+  EXPECT_EQ(health.nodes().at("autopilot").status.gaps, 10);
   EXPECT_EQ(health.nodes().at("bathymetry").statuses, 2);
 }
 

@@ -10,8 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "acoustics/modem/beam_pattern.h"
-#include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "core/csv_table.h"
+#include "core/units.h"
 #include "runs/plot/plot.h"
 #include "simulation/arrivals/arrival_plot.h"
 #include "simulation/arrivals/sea_files.h"
@@ -28,7 +29,7 @@ std::vector<LinkArrivals> pekeris() {
   std::vector<LinkArrivals> found;
   for (const double range_m : {1000.0, 2000.0}) {
     const acoustics::RayLink link{30, 10, range_m};
-    found.push_back({link, acoustics::arrivals(sea, link)});
+    found.push_back({link, acoustics::eigenrays(sea, link)});
   }
   return found;
 }
@@ -68,8 +69,9 @@ TEST(ArrivalOutput, CsvHoldsTheColumnsAndRowsOfTheReference) {
 LinkArrivals with_modems() {
   LinkArrivals found = pekeris().front();
   found.modems_known = true;
-  for (std::size_t i = 0; i < found.arrivals.paths.size(); ++i)
-    found.received.push_back({100.0 - static_cast<double>(i), 1.0 + 1e-6 * static_cast<double>(i)});
+  for (std::size_t i = 0; i < found.eigenrays.paths.size(); ++i)
+    found.received.push_back(
+        {{}, Decibels{100.0 - static_cast<double>(i)}, 1.0 + 1e-6 * static_cast<double>(i)});
   return found;
 }
 
@@ -121,10 +123,10 @@ TEST(ArrivalOutput, ImpulseResponseHoldsThePowerOfAllPaths) {
     const double real = *parse_number(row.cells[1]), imaginary = *parse_number(row.cells[2]);
     power += real * real + imaginary * imaginary;
   }
-  for (const auto& path : found.arrivals.paths) expected += std::pow(path.received_pressure(), 2);
+  for (const auto& path : found.eigenrays.paths) expected += std::pow(path.received_pressure(), 2);
   EXPECT_NEAR(power / expected, 1, 1e-9);
-  EXPECT_LT(*parse_number(table.rows.front().cells[0]), found.arrivals.paths.front().delay_s);
-  EXPECT_GT(last_delay_s, found.arrivals.paths.back().delay_s);
+  EXPECT_LT(*parse_number(table.rows.front().cells[0]), found.eigenrays.paths.front().delay_s);
+  EXPECT_GT(last_delay_s, found.eigenrays.paths.back().delay_s);
 }
 
 // 6 dB at either end, in every direction: a quarter of the pressure.
@@ -163,9 +165,9 @@ TEST(ArrivalOutput, PlotHoldsAStemForEachPathAndItsTwoAngles) {
   ASSERT_EQ(plot.charts[0].series.size(), 1u);
   EXPECT_EQ(plot.charts[0].series[0].style, Series::kStems);
   EXPECT_EQ(plot.charts[0].series[0].y.at(3), 97);
-  EXPECT_EQ(plot.charts[0].series[0].x.at(3), found.arrivals.paths.at(3).delay_s);
+  EXPECT_EQ(plot.charts[0].series[0].x.at(3), found.eigenrays.paths.at(3).delay_s);
   ASSERT_EQ(plot.charts[1].series.size(), 2u);
-  EXPECT_EQ(plot.charts[1].series[1].y.at(1), to_degrees(found.arrivals.paths.at(1).arrival_angle_rad));
+  EXPECT_EQ(plot.charts[1].series[1].y.at(1), to_degrees(found.eigenrays.paths.at(1).arrival_angle_rad));
 }
 
 TEST(ArrivalOutput, PlotOfAShadowIsLabelled) {
@@ -175,22 +177,22 @@ TEST(ArrivalOutput, PlotOfAShadowIsLabelled) {
 
 TEST(ArrivalOutput, JsonDistinguishesAShadowFromALinkWithPaths) {
   auto links = pekeris();
-  links[1].arrivals.paths.clear();
+  links[1].eigenrays.paths.clear();
   std::ostringstream text;
   print_arrivals(text, links, OutputFormat::kJson);
   const auto json = nlohmann::json::parse(text.str());
   ASSERT_EQ(json.size(), 2u);
   EXPECT_FALSE(json[0]["shadow"]);
-  EXPECT_EQ(json[0]["paths"].size(), links[0].arrivals.paths.size());
-  EXPECT_DOUBLE_EQ(json[0]["first_delay_s"], links[0].arrivals.paths[0].delay_s);
+  EXPECT_EQ(json[0]["paths"].size(), links[0].eigenrays.paths.size());
+  EXPECT_DOUBLE_EQ(json[0]["first_delay_s"], links[0].eigenrays.paths[0].delay_s);
   EXPECT_TRUE(json[1]["shadow"]);
   EXPECT_FALSE(json[1].contains("first_delay_s"));
 }
 
 TEST(ArrivalOutput, JsonAndTableNameTheCauseOfALinkWithoutPaths) {
   LinkArrivals weak, steep, blocked;
-  weak.arrivals.lack = acoustics::PathLack::kTooWeak;
-  steep.arrivals.lack = acoustics::PathLack::kTooSteep;
+  weak.eigenrays.lack = acoustics::PathLack::kTooWeak;
+  steep.eigenrays.lack = acoustics::PathLack::kTooSteep;
   blocked.blocked = true;
   std::ostringstream text, table;
   print_arrivals(text, {LinkArrivals{}, weak, steep, blocked}, OutputFormat::kJson);

@@ -62,7 +62,7 @@ TEST(SeaFiles, ASedimentTakesThePlaceOfTheThreeNumbers) {
 TEST(SeaFiles, ThePathLossOfAbsorptionIsThatOfTheFormula) {
   SeaDescription sea = still_water();
   sea.absorption = "thorp";
-  const auto paths = acoustics::arrivals(make_sea(sea), {30, 30, 1000}).paths;
+  const auto paths = acoustics::eigenrays(make_sea(sea), {30, 30, 1000}).paths;
   ASSERT_FALSE(paths.empty());
   // 1 km of the direct path; the water is the same everywhere.
   EXPECT_NEAR(

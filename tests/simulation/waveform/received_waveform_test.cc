@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "acoustics/fading/sound_path.h"
+#include "acoustics/fading/arrival.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/environment.h"
@@ -109,7 +109,7 @@ TEST_F(WaveformTest, EchoesOfASweepStandAtTheArrivalsOfTheLink) {
   const Samples heard = received_waveform(config, make_terrain(config), run, {sweep},
                                           {.receiver = "east", .begin_s = 5, .has_noise = false});
   const LinkSurvey link = survey_link(config, link_end(config, "west"), link_end(config, "east"));
-  std::vector<channel_server::SoundPath> paths = link.reception.paths;
+  std::vector<channel_server::Arrival> paths = link.reception.paths;
   ASSERT_GT(paths.size(), 4u);
   std::sort(paths.begin(), paths.end(), [](const auto& a, const auto& b) { return a.level > b.level; });
   // Correlated with the sweep and its Hilbert transform, at the delay of each of the strongest that is apart

@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
+#include "tests/vehicle_sim/dynamics/mechanical_energy.h"
 #include "tests/vehicle_sim/dynamics/reference_motion.h"
 #include "vehicle_sim/dynamics/hull_forces.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"

@@ -15,6 +15,7 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
+#include "tests/vehicle_sim/dynamics/mechanical_energy.h"
 #include "vehicle_sim/dynamics/actuator_forces.h"
 #include "vehicle_sim/dynamics/actuators.h"
 #include "vehicle_sim/dynamics/body_axes.h"

@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "tests/support/at_ms.h"
 #include "tests/support/tolerance.h"
+#include "tests/vehicle_sim/dynamics/mechanical_energy.h"
 #include "tests/vehicle_sim/shipped/shipped_model.h"
 #include "tests/vehicle_sim/world/grounds.h"
 #include "vehicle_sim/dynamics/actuators.h"

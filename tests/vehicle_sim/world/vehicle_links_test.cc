@@ -143,12 +143,15 @@ std::vector<Encounter> encounters() {
           {"from above", at({0, 0, 48}, 0, 2, -1.2), at({0.9, 0.03, 50}, 1, 0)}};
 }
 
+// Momentum of all vehicles and the water that they carry along, with its moment about the world's origin.
 Impulse together(const VehicleWorld& world) {
   Impulse sum;
   for (std::size_t i = 0; i < world.size(); ++i) {
-    const Impulse one = momentum_of(world.model(i), world.state(i), Vec3::Zero());
-    sum.linear += one.linear;
-    sum.moment += one.moment;
+    const VehicleState& state = world.state(i);
+    const Vec6 momentum = world.model(i).mass() * state.velocity_body;
+    const Vec3 linear = state.orientation * Vec3(momentum.head<3>());
+    sum.linear += linear;
+    sum.moment += state.orientation * Vec3(momentum.tail<3>()) + state.position_ned_m.cross(linear);
   }
   return sum;
 }

@@ -170,7 +170,7 @@ export interface Track {
   down_m: number[];
 }
 
-export interface SoundPath {
+export interface Arrival {
   delay_s: number;
   level_db: number;
   phase_rad: number;
@@ -203,7 +203,7 @@ export interface LinkReply {
   to_depth_m: number | null;
   seabed: { range_m: number[]; depth_m: (number | null)[] } | null;
   profile: Profile | null;
-  paths: SoundPath[];
+  paths: Arrival[];
   guard: { begin_s: number; end_s: number; taper_s: number } | null;
   budget: BudgetRow[] | null;
   fading: {

@@ -130,9 +130,9 @@ class Evologics : public Protocol {
     if (!paths_client_) return;
     double strongest_db = -HUGE_VAL;
     const auto& paths = reply.link_paths.paths;
-    for (const ray_path_t& path : paths) strongest_db = std::max(strongest_db, path.path_level_db);
+    for (const arrival_t& path : paths) strongest_db = std::max(strongest_db, path.path_level_db);
     std::vector<ShownPath> shown;
-    for (const ray_path_t& path : paths)
+    for (const arrival_t& path : paths)
       shown.push_back({std::llround(1e6 * (path.path_delay_s - paths.front().path_delay_s)),
                        std::lround(1000 * elementary::exp10((path.path_level_db - strongest_db) / 20))});
     answer_paths(std::move(shown));

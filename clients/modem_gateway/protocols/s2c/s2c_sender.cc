@@ -226,7 +226,6 @@ void S2cSender::on_acknowledged(const modem_receive_t& packet) {
 // `delivered`: the message was acknowledged, or was sent and wants no acknowledgement.
 void S2cSender::finish(std::optional<OnItsWay>& place, bool delivered) {
   const S2cMessage message = std::exchange(place, std::nullopt)->message;
-  last_address_ = message.address;
   if (message.type == S2cMessage::Type::kBurst) {
     core_.tell(fmt::format("{},{},{}", delivered ? "DELIVERED" : "FAILED", ++bursts_done_, message.address));
     burst_due_ = bursts_.empty() ? SimTime::never() : core_.now();

@@ -57,7 +57,6 @@ class S2cSender {
   // Returns the one-way travel time that the last acknowledgement showed, us; 0 before the first.
   std::int64_t propagation_us() const { return propagation_us_; }
   void note_propagation(double one_way_s);
-  std::int32_t last_address() const { return last_address_; }
 
  private:
   struct OnItsWay {
@@ -89,7 +88,6 @@ class S2cSender {
   SimTime burst_due_ = SimTime::never();
   SimTime receiving_until_;  // latest end of the packet that was detected
   std::int64_t bursts_done_ = 0, propagation_us_ = 0;
-  std::int32_t last_address_ = 0;
 };
 
 }  // namespace halocline::modem_gateway

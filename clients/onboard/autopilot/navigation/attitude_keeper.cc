@@ -26,8 +26,7 @@ AttitudeKeeper::AttitudeKeeper(double gyro_bias_radps)
 
 void AttitudeKeeper::add(const AttitudeReading& reading) {
   if (last_s_ && reading.time_s <= *last_s_) return;
-  by_compass_ = reading.attitude.has_value();
-  if (by_compass_) {
+  if (reading.attitude) {
     attitude_ = *reading.attitude;
     heading_deviation_rad_ = 0;
   } else if (last_s_) {

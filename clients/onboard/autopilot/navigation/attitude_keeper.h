@@ -40,11 +40,8 @@ class AttitudeKeeper {
   const EulerAngles& attitude() const { return attitude_; }
   // Returns the heading's uncertainty beyond the compass's own error, rad; 0 while the compass works.
   double heading_deviation_rad() const { return heading_deviation_rad_; }
-  bool by_compass() const { return by_compass_; }
 
-  void archive(Archive& a) {
-    a(attitude_, heading_deviation_rad_, by_compass_, last_s_, rates_s_, rates_radps_);
-  }
+  void archive(Archive& a) { a(attitude_, heading_deviation_rad_, last_s_, rates_s_, rates_radps_); }
 
  private:
   void carry_on(const AttitudeReading& reading);
@@ -52,7 +49,6 @@ class AttitudeKeeper {
   double gyro_bias_radps_;
   EulerAngles attitude_;
   double heading_deviation_rad_;
-  bool by_compass_ = false;
   std::optional<double> last_s_;   // time of the latest reading
   std::optional<double> rates_s_;  // time of the latest rates
   Vec3 rates_radps_ = Vec3::Zero();

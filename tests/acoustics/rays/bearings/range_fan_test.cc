@@ -12,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
 #include "core/check.h"
@@ -41,9 +41,9 @@ RaySea sea_of_case(const RangeFanCase& one) {
   return sea;
 }
 
-double level_db(const Arrivals& found) {
+double level_db(const Eigenrays& found) {
   double power = 0;
-  for (const Arrival& path : found.paths) power += path.received_pressure() * path.received_pressure();
+  for (const Eigenray& path : found.paths) power += path.received_pressure() * path.received_pressure();
   return 10 * std::log10(power);
 }
 
@@ -68,14 +68,14 @@ TEST_P(RangeFanOver, HasLevelsAndStrongestPathsCloseToThoseOfSearches) {
   for (const double range_m : ranges_along()) {
     for (double depth_m = 3; depth_m < GetParam().deepest_m; depth_m += 11) {
       const RayLink link{GetParam().source_depth_m, depth_m, range_m};
-      const Arrivals alone = arrivals(sea, link), together = arrivals(sea, link, std::nullopt, &bearing);
+      const Eigenrays alone = eigenrays(sea, link), together = eigenrays(sea, link, std::nullopt, &bearing);
       ASSERT_FALSE(alone.silent() || together.silent()) << range_m << " " << depth_m;
       off_db.push_back(level_db(together) - level_db(alone));
-      const Arrival& strongest = *std::max_element(
+      const Eigenray& strongest = *std::max_element(
           alone.paths.begin(), alone.paths.end(),
           [](const auto& a, const auto& b) { return a.received_pressure() < b.received_pressure(); });
       double nearest_s = 1;
-      for (const Arrival& path : together.paths)
+      for (const Eigenray& path : together.paths)
         nearest_s = std::min(nearest_s, std::abs(path.delay_s - strongest.delay_s));
       off_s.push_back(nearest_s);
     }
@@ -96,8 +96,8 @@ TEST(RangeFan, InIsovelocityWaterHasThePathsOfImages) {
   RangeFan bearing({500, 1500, 4000});
   for (const double range_m : {4000.0, 500.0, 1500.0}) {
     const RayLink link{40, 70, range_m};
-    const Arrivals images = arrivals(level, link, RaySolver::kImages),
-                   fan = arrivals(sloping, link, std::nullopt, &bearing);
+    const Eigenrays images = eigenrays(level, link, RaySolver::kImages),
+                    fan = eigenrays(sloping, link, std::nullopt, &bearing);
     ASSERT_GE(std::min(fan.paths.size(), images.paths.size()), 6U);
     for (std::size_t i = 0; i < 6; ++i) {
       EXPECT_NEAR(fan.paths[i].delay_s, images.paths[i].delay_s, tolerance(1e-7)) << range_m << " " << i;
@@ -112,7 +112,7 @@ TEST(RangeFan, ARangeThatItWasNotMadeForIsSearched) {
   const RaySea sea = sea_of_case({"", kSummer, cosine_hill(), 0, 0, 0, 0});
   RangeFan bearing({1000, 3000});
   const RayLink link{30, 50, 2000};
-  const Arrivals alone = arrivals(sea, link), together = arrivals(sea, link, std::nullopt, &bearing);
+  const Eigenrays alone = eigenrays(sea, link), together = eigenrays(sea, link, std::nullopt, &bearing);
   ASSERT_EQ(alone.paths.size(), together.paths.size());
   EXPECT_EQ(alone.paths.front().delay_s, together.paths.front().delay_s);
   EXPECT_THROW(RangeFan({2000, 1000}), InvalidArgument);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paths of sound as they are named and coloured: by the number of their bounces.
-import type { SoundPath } from "../protocol";
+import type { Arrival } from "../protocol";
 import { degrees, number } from "./format";
 
 export const BOUNCE_KINDS = ["direct", "one bounce", "two bounces", "three or more"];
 
 /** Index into BOUNCE_KINDS, and of the classes b0 to b3 of theme.css. */
-export const bounces = (path: SoundPath) => Math.min(3, path.surface_bounces + path.bottom_bounces);
+export const bounces = (path: Arrival) => Math.min(3, path.surface_bounces + path.bottom_bounces);
 
 /** One sentence; strongest_db is the level of the strongest path. */
-export function describe(path: SoundPath, strongest_db: number): string {
+export function describe(path: Arrival, strongest_db: number): string {
   const below = strongest_db - path.level_db;
   return (
     [

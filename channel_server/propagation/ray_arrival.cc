@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "channel_server/propagation/ray_arrival.h"
+
+#include <algorithm>
+
+#include "acoustics/fading/scattering_loss.h"
+#include "acoustics/link/ray_doppler.h"
+#include "acoustics/link/received_field.h"
+#include "core/elementary.h"
+
+namespace halocline::channel_server {
+namespace {
+
+double kept_share_of(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
+                     double frequency_hz, const acoustics::Eigenray& path, double bottom_sine_squares) {
+  return kept_share(
+      boundaries.fading, environment.noise.wind_mps, frequency_hz, boundaries.trapped_share,
+      {path.surface_bounces, path.bottom_bounces, path.surface_sine_squares, bottom_sine_squares});
+}
+
+}  // namespace
+
+acoustics::Eigenray backwards(acoustics::Eigenray path) {
+  const double launch = path.launch_angle_rad;
+  path.launch_angle_rad = -path.arrival_angle_rad;
+  path.arrival_angle_rad = -launch;
+  return path;
+}
+
+std::optional<Arrival> arrival_of(const RoughBoundaries& boundaries,
+                                  const acoustics::Environment& environment, const EndPair& ends,
+                                  const acoustics::Eigenray& eigenray, bool reversed) {
+  const auto& [from, to] = ends;
+  Arrival arrival{reversed ? backwards(eigenray) : eigenray};
+  const double pressure = weighted_pressure(arrival, {from.modem->beam, to.modem->beam});
+  if (!(pressure > 0)) return std::nullopt;  // absorbed beyond the range of a double
+  const double frequency_hz = from.modem->centre_frequency_hz;
+  const double kept =
+      kept_share_of(boundaries, environment, frequency_hz, arrival, arrival.bottom_sine_squares);
+  if (!(kept > 0)) return std::nullopt;
+  const acoustics::MovingEnds moving{from.position_ned_m,
+                                     from.velocity_ned_mps,
+                                     to.position_ned_m,
+                                     to.velocity_ned_mps,
+                                     sound_speed_at(environment, from.position_ned_m),
+                                     sound_speed_at(environment, to.position_ned_m)};
+  const Decibels level = from.modem->source_level + Decibels{20 * elementary::log10(pressure)};
+  arrival.level = std::max(level + to_decibels(PowerRatio{kept}), kSilence);
+  arrival.doppler_factor = doppler_factor(arrival, moving);
+  arrival.fading = path_fading(boundaries.fading, environment.noise.wind_mps, frequency_hz,
+                               arrival.surface_sine_squares, arrival.bottom_sine_squares, kept);
+  // Many paths of random phase add to complex Gaussian noise.
+  if (arrival.diffuse && boundaries.fading.enabled)
+    arrival.fading = {.coherent = 0, .scattered = 1, .doppler_spread_hz = arrival.fading.doppler_spread_hz};
+  return arrival;
+}
+
+// Over a bottom that does not scatter, the remaining share is the surface's.
+Decibels kept_at_surface(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
+                         double frequency_hz, const acoustics::Eigenray& eigenray) {
+  return to_decibels(PowerRatio{kept_share_of(boundaries, environment, frequency_hz, eigenray, 0)});
+}
+
+}  // namespace halocline::channel_server
