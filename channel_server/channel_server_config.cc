@@ -107,7 +107,6 @@ void use(const DetailLevel& level, ChannelServerConfig& config) {
   config.rules.reach.below_noise = level.reach_below_noise;
   config.rules.reach.acquired_once_in = level.acquired_once_in;
   config.rules.reach.table_range_m = level.table_range_m;
-  config.rules.row_reuse_distance_m = level.row_reuse_distance_m;
 }
 
 void visit_detail(bus::ConfigVisitor& v, ChannelServerConfig& config) {

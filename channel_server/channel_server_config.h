@@ -110,8 +110,6 @@ struct ServerRules {
   MediumRule medium;
   ReachRule reach;
   SeabedRule seabed;
-  // Distance over which rows of link tables are reused, m (links/link_row_cache.h).
-  double row_reuse_distance_m = 0;
   int threads = 1;                   // threads that compute link tables and the paths of packets
   int predicted_payload_bytes = 32;  // payload of the packets whose delivery link tables predict
 };

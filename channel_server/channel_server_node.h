@@ -3,13 +3,15 @@
 // publishes the scenario, the water, the link tables and the outcome of every packet; and answers queries of
 // links and of best places. --interface lists its channels.
 //
+// From a STATE to LINKS the walk is Inbox, InputProcessor, VehicleRegistry, TableTick, links/link_table.h,
+// link_messages.h; ServerRun calls them in this order.
+//
 // Several servers may share the water (rules.medium.shard). Each receives what all others receive and
 // publishes its share; the first one also publishes ENVIRONMENT and SCENARIO; a query is answered by the
 // server given by its request_id. MODEM_REPLY passes on answers to pings, FOUND_PATHS the eigenrays that two
 // servers need. With a journal, a server that was killed resumes where it was (server_recovery.h).
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -25,23 +27,10 @@
 #include "bus/transport/node_identity.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/inbox.h"
-#include "channel_server/input_processor.h"
-#include "channel_server/link_table_publisher.h"
-#include "channel_server/links/best_place_service.h"
-#include "channel_server/links/link_predictor.h"
-#include "channel_server/links/link_query_service.h"
-#include "channel_server/links/link_row_cache.h"
-#include "channel_server/links/link_table.h"
-#include "channel_server/links/ray_query_client.h"
-#include "channel_server/packet_publisher.h"
-#include "channel_server/packets/packet_medium.h"
-#include "channel_server/packets/platform_noise.h"
-#include "channel_server/propagation/propagation.h"
-#include "channel_server/propagation/reach.h"
 #include "channel_server/seabed_client.h"
 #include "channel_server/server_recovery.h"
+#include "channel_server/server_run.h"
 #include "channel_server/shards/shard_exchange.h"
-#include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "channel_server/water_model.h"
@@ -70,69 +59,24 @@ class ChannelServerNode : public bus::Node {
   std::string status_text() const override;
 
  private:
-  // Returns the next instant at which something is published without being asked for: tables, the scenario,
-  // and the environment, periodically and when it changes.
-  SimTime next_instant() const { return std::min({next_tick_, next_environment_, next_scenario_}); }
-  void set_first_instants(SimTime now);
-  // Publishes what is due at the instant; returns false when a table waits for the seabed or for another
-  // server.
-  [[nodiscard]] bool run_instant(SimTime instant, SimTime steady);
-  [[nodiscard]] bool run_tick(SimTime tick, SimTime steady);
-  // The link tables of a tick in preparation. Vehicles and links stay as they were at the tick, however long
-  // the tables wait.
-  struct Tables {
-    SimTime tick;
-    std::vector<std::unique_ptr<const VehicleModem>> modems;
-    std::vector<PlacedVehicle> present;
-    std::vector<double> ranges_m;
-    TableRows rows;
-    std::vector<EndPair> links_of_all;  // links of all servers; empty when this server is alone
-    const std::vector<EndPair>& all_links() const { return links_of_all.empty() ? rows.links : links_of_all; }
-    bool is_examined = false;  // the missing tiles of the seabed are requested
-    bool is_prepared = false;  // this server's eigenray searches are done
-  };
-  Tables begin_tables(SimTime tick);
-  // Returns false when the seabed under the links is not known yet.
-  [[nodiscard]] bool prepare(Tables& tables, SimTime steady);
-  void advance_medium(SimTime time);
-  // Applies the inputs of a step. `latest` is the time by CLOCK, which `now` may lag behind.
-  void apply(StepInputs inputs, SimTime now, SimTime latest);
-  void publish_environment(SimTime instant);
-  void publish_scenario(SimTime instant);
-  void forget_old(SimTime now);
-  void answer_queries(const bus::Now& now);
+  // Constructs the run, in place of an earlier one.
+  void begin_run();
   // Redoes recorded steps; returns true when the present is reached.
   [[nodiscard]] bool recover(const bus::Now& now);
 
-  ServerRules rules_;
+  // What lasts from run to run.
+  ServerSetup setup_;
   bus::ThreadPool pool_;
   WaterModel water_;
-  VehicleRegistry vehicles_;
-  ReachModel reach_;
-  PacketMedium medium_;
-  PlatformNoise sounds_;
-  PlatformReceiverNoise noise_;  // noise in link tables and in answers to queries
-  LinkPredictor predictor_;
-  LinkRowCache link_row_cache_;
-  LinkQueryService queries_;
-  BestPlaceService places_;
-
   bus::NumberedPublisher publisher_;
   bus::CrashJournal journal_;
   Inbox inbox_;
   SeabedClient seabed_;
   ShardExchange exchange_;
-  PacketPublisher packets_;
-  LinkTablePublisher tables_;
-  InputProcessor processor_;
-  std::unique_ptr<ServerRecovery> recovery_;
+  bool shares_searches_;
 
-  std::vector<scenario_info_t> scenario_;
-  SimDuration scenario_period_;
-  SimTime next_tick_, next_environment_, next_scenario_, next_forgetting_;
-  std::optional<Tables> tables_in_work_;
-  bool table_waits_ = false;
-  bool shares_searches_ = false;
+  std::unique_ptr<ServerRecovery> recovery_;
+  std::optional<ServerRun> run_;  // never empty
 };
 
 // Returns the node of a scenario. Throws InvalidArgument when the water or a modem is impossible.

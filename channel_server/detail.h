@@ -21,8 +21,6 @@ struct DetailLevel {
   double acquired_once_in;
   // Pairs further apart have no row in link tables, m (propagation/reach.h); 0: no limit.
   double table_range_m;
-  // A row of a link table is reused until its ends have moved by this, m (links/link_row_cache.h); 0: never.
-  double row_reuse_distance_m;
   // Link tables of N vehicles search for ceil(searches_per_vehicle N) links at a tick, the most audible and
   // most changed first (propagation/search_scheduler.h); 0: for all.
   double searches_per_vehicle;
@@ -35,7 +33,6 @@ inline constexpr DetailLevel kExactLevel{.diffuse_below_noise = Decibels{5},
                                          .reach_below_noise = Decibels{30},
                                          .acquired_once_in = 1e5,
                                          .table_range_m = 0,
-                                         .row_reuse_distance_m = 0,
                                          .searches_per_vehicle = 0,
                                          .reuse_for_packets = false};
 // Values chosen for the fleets of docs/performance.md, whose modems carry 2 km.
@@ -44,7 +41,6 @@ inline constexpr DetailLevel kFastLevel{.diffuse_below_noise = Decibels{0},
                                         .reach_below_noise = Decibels{20},
                                         .acquired_once_in = 1000,
                                         .table_range_m = 4000,
-                                        .row_reuse_distance_m = 25,
                                         .searches_per_vehicle = 0.5,
                                         .reuse_for_packets = true};
 

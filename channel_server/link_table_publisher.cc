@@ -32,8 +32,8 @@ bool LinkTablePublisher::is_noise_ready(SimTime tick, const std::vector<EndPair>
 void LinkTablePublisher::publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles,
                                  const TableRows& rows) {
   NoiseOfLinks noise(models_.noise, tick);
-  for (const LinkTable& table : link_tables(tick, vehicles, rows, models_.propagation, models_.predictor,
-                                            for_each_, &models_.kept, &noise)) {
+  for (const LinkTable& table :
+       link_tables(tick, vehicles, rows, models_.propagation, models_.predictor, for_each_, &noise)) {
     const std::string channel = bus::channels::kLinks.of(models_.vehicles.name_of(table.vehicle_id));
     for (const link_table_t& message : to_messages(table, tick)) publisher_.publish(channel, message);
     links_published_ += static_cast<std::int64_t>(table.rows.size());

@@ -12,7 +12,6 @@
 #include "bus/numbered_publisher.h"
 #include "bus/transport/event_log.h"
 #include "channel_server/links/link_predictor.h"
-#include "channel_server/links/link_row_cache.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/receiver_noise.h"
 #include "channel_server/packets/platform_noise.h"
@@ -45,7 +44,6 @@ class LinkTablePublisher {
     const VehicleRegistry& vehicles;
     Propagation& propagation;
     LinkPredictor& predictor;
-    LinkRowCache& kept;
     ReceiverNoise& noise;
   };
   LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, ForEach for_each)
@@ -54,11 +52,9 @@ class LinkTablePublisher {
   // True when everything is known that publish() needs about the noise of vehicles for these links.
   bool is_noise_ready(SimTime tick, const std::vector<EndPair>& links);
   // Publishes the tables of a tick. `vehicles` are those present at `tick`; `rows` are those of vehicles that
-  // this server serves, reused or ready to be computed.
+  // this server serves, ready to be computed.
   void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
 
-  // Forgets the vehicles present, for another run.
-  void clear() { present_.clear(); }
   std::size_t vehicles_present() const { return present_.size(); }
   std::int64_t links_published() const { return links_published_; }
 

@@ -33,8 +33,8 @@ class LruCache {
   LruCache(LruCache&&) noexcept = default;
   LruCache& operator=(LruCache&&) noexcept = default;
 
-  // Returns the value of `key`, null when there is none. The pointer is valid until the entry is replaced,
-  // evicted or cleared.
+  // Returns the value of `key`, null when there is none. The pointer is valid until the entry is replaced or
+  // evicted.
   Value* find(const Key& key) {
     const auto entry = entries_.find(key);
     if (entry == entries_.end()) return nullptr;
@@ -60,11 +60,6 @@ class LruCache {
   Value& find_or_make(const Key& key, Make&& make) {
     if (Value* known = find(key)) return *known;
     return insert(key, std::forward<Make>(make)());
-  }
-
-  void clear() {
-    entries_.clear();
-    by_use_.clear();
   }
 
   // Drops the entries that were neither found nor inserted since the previous call.

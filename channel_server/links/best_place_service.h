@@ -81,7 +81,6 @@ class BestPlaceService {
   // Returns the replies that are complete at `steady` or whose deadline has passed.
   std::vector<BestPlaceReply> take_replies(SimTime steady);
   SimTime due() const;
-  void clear() { waiting_.clear(); }
 
  private:
   struct Listener {

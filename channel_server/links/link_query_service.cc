@@ -226,6 +226,4 @@ SimTime LinkQueryService::due() const {
   return due;
 }
 
-void LinkQueryService::clear() { waiting_.clear(); }
-
 }  // namespace halocline::channel_server

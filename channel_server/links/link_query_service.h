@@ -101,7 +101,6 @@ class LinkQueryService {
   std::vector<LinkReply> take_replies(SimTime steady);
   // Returns the earliest deadline; at_once() while a reply is complete.
   SimTime due() const;
-  void clear();
 
  private:
   struct ResolvedEnd {

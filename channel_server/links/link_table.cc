@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "acoustics/fading/arrival.h"
-#include "channel_server/links/link_row_cache.h"
 #include "core/frames.h"
 
 namespace halocline::channel_server {
@@ -62,57 +61,36 @@ TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vect
   return rows;
 }
 
-std::vector<EndPair> TableRows::to_compute() const {
-  if (reused.empty()) return links;
-  std::vector<EndPair> missing;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    if (!reused[i]) missing.push_back(links[i]);
-  }
-  return missing;
-}
-
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
-                                   const ForEach& for_each, LinkRowCache* kept, NoiseOfLinks* noise) {
-  std::vector<EndPair> missing = rows.to_compute();
-  for (EndPair& link : missing) {
+                                   const ForEach& for_each, NoiseOfLinks* noise) {
+  std::vector<EndPair> links = rows.links;
+  for (EndPair& link : links) {
     if (noise != nullptr) noise->set(link);
   }
-  // The transmitter's rates, for each link in `missing`.
-  std::vector<std::shared_ptr<const LinkPredictor::Rates>> rates;
-  std::size_t link = 0;
+  std::vector<std::shared_ptr<const LinkPredictor::Rates>> rates;  // of the transmitter, for each link
   for (const TableRows::Transmitter& transmitter : rows.transmitters) {
     const auto own = predictor.rates_of(vehicles[transmitter.vehicle].modem->modem);
-    for (std::size_t i = 0; i < transmitter.receivers.size(); ++i) {
-      if (!rows.is_reused(link++)) rates.push_back(own);
-    }
+    rates.insert(rates.end(), transmitter.receivers.size(), own);
   }
-  const std::vector<Reception> receptions = propagation.receptions(instant, missing, for_each);
-  std::vector<LinkForecast> forecasts(missing.size());
-  for_each(missing.size(), [&](std::size_t i) {
-    const auto& [from, to] = missing[i];
+  const std::vector<Reception> receptions = propagation.receptions(instant, links, for_each);
+  std::vector<LinkForecast> forecasts(links.size());
+  for_each(links.size(), [&](std::size_t i) {
+    const auto& [from, to] = links[i];
     forecasts[i] = predictor.forecast(*rates[i], *from.modem, *to.modem, receptions[i]);
   });
   std::vector<LinkTable> tables;
-  std::size_t computed = 0;
-  link = 0;
+  std::size_t link = 0;
   for (const TableRows::Transmitter& transmitter : rows.transmitters) {
     const PlacedVehicle& from = vehicles[transmitter.vehicle];
     LinkTable table{from.id, {}, transmitter.range_m, vehicles.size() - 1 - transmitter.receivers.size()};
     for (const std::size_t receiver : transmitter.receivers) {
       const PlacedVehicle& to = vehicles[receiver];
       LinkRow row;
-      if (rows.is_reused(link)) {
-        row = *rows.reused[link];
-      } else {
-        const Reception& reception = receptions[computed];
-        row.transmitter_id = from.id;
-        row.receiver_id = to.id;
-        row.set(reception, forecasts[computed]);
-        row.multipath = multipath_of(reception, to.modem->modem.min_receivable_level);
-        if (kept != nullptr) kept->keep(link, rows.links[link], reception, row);
-        ++computed;
-      }
+      row.transmitter_id = from.id;
+      row.receiver_id = to.id;
+      row.set(receptions[link], forecasts[link]);
+      row.multipath = multipath_of(receptions[link], to.modem->modem.min_receivable_level);
       row.transmitter_age = from.placement.age;
       row.receiver_age = to.placement.age;
       table.rows.push_back(row);

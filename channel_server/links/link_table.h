@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "acoustics/link/least_loss.h"
@@ -22,8 +21,6 @@
 
 namespace halocline::channel_server {
 
-class LinkRowCache;
-
 // Returns the verdict of a reception. Among rays, a path that bounced off the bottom above the cut-off is an
 // echo; beside a straight path the verdict is Reception::bottom_echo.
 Multipath multipath_of(const Reception& reception, Decibels cutoff);
@@ -39,7 +36,7 @@ struct LinkRow {
   PropagationUsed used = PropagationUsed::kStraight;
   std::int32_t path_count = 0;        // without diffuse paths
   Decibels diffuse_level = kSilence;  // copied from Reception
-  SimDuration paths_age;              // age in Reception plus the time since the row was computed
+  SimDuration paths_age;              // copied from Reception
   double delay_spread_s = 0;
   double doppler_factor = 1;  // on the first significant path; 1 without a path
 
@@ -72,12 +69,6 @@ struct TableRows {
   };
   std::vector<Transmitter> transmitters;
   std::vector<EndPair> links;  // the links of all transmitters
-  std::vector<std::optional<LinkRow>>
-      reused;  // reused rows (link_row_cache.h), by link; empty: none is reused
-
-  bool is_reused(std::size_t link) const { return !reused.empty() && reused[link]; }
-  // Returns the links whose rows are not reused.
-  std::vector<EndPair> to_compute() const;
 };
 
 // Returns the links that have rows. `ranges_m` holds the range of each vehicle, m
@@ -86,12 +77,11 @@ TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vect
                      Shard shard = {});
 
 // Returns one table for each transmitter, for links whose sound leaves at `instant`; a vehicle without others
-// has an empty table. `rows` holds links between `vehicles`, and the propagation must be ready for those to
-// be computed. `kept`, unless null, stores the computed rows. `noise`, unless null, replaces the ambient
-// noise of levels, capacity and forecasts.
+// has an empty table. `rows` holds links between `vehicles`, for which the propagation must be ready.
+// `noise`, unless null, replaces the ambient noise of levels, capacity and forecasts.
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
                                    const ForEach& for_each = one_after_the_other,
-                                   LinkRowCache* kept = nullptr, NoiseOfLinks* noise = nullptr);
+                                   NoiseOfLinks* noise = nullptr);
 
 }  // namespace halocline::channel_server

@@ -55,10 +55,4 @@ void FlightQueue::end(Flight& flight) {
   ended_.push_back(std::construct_at(&flight));
 }
 
-void FlightQueue::clear() {
-  entries_.clear();
-  ended_.clear();
-  flights_.clear();
-}
-
 }  // namespace halocline::channel_server

@@ -38,7 +38,6 @@ class FlightQueue {
   void add(SimTime at, Flight& flight);
   // Ends a flight that is not in the queue; its memory serves a later one.
   void end(Flight& flight);
-  void clear();
   // Calls visit(instant of the next event, flight) for each flight, in no particular order.
   template <class Visit>
   void visit(Visit&& visit) const {

@@ -130,11 +130,4 @@ void ModemWatch::forget_before(SimTime time) {
   });
 }
 
-void ModemWatch::clear() {
-  ends_.clear();
-  headers_.clear();
-  carriers_.clear();
-  due_.clear();
-}
-
 }  // namespace halocline::channel_server

@@ -62,7 +62,6 @@ class ModemWatch {
   void update_carrier_sense(const ReceiverState& heard, std::vector<MediumEvent>& events);
 
   void forget_before(SimTime time);
-  void clear();
 
  private:
   struct Carrier {

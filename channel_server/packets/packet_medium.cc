@@ -336,15 +336,4 @@ void PacketMedium::forget_before(SimTime time) {
   });
 }
 
-void PacketMedium::clear() {
-  register_ = SendRegister();
-  watch_.clear();
-  departures_.clear();
-  flights_.clear();
-  receivers_.clear();
-  answered_.clear();
-  advanced_to_ = SimTime::at_once();
-  waiting_ = false;
-}
-
 }  // namespace halocline::channel_server

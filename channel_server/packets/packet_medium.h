@@ -135,8 +135,6 @@ class PacketMedium {
 
   // Forgets receipts and transmissions from before `time`, which must be at least max_lateness ago.
   void forget_before(SimTime time);
-  // Removes all packets and receipts, for another run.
-  void clear();
 
   std::size_t packets_in_flight() const { return flights_.size(); }  // counted per receiver
   const MediumRule& rule() const { return rule_; }

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "acoustics/rays/eigenray_search.h"
+#include "channel_server/propagation/path_reuse.h"
 #include "core/elementary.h"
 #include "core/frames.h"
 #include "core/units.h"
@@ -17,7 +18,6 @@ namespace {
 
 constexpr std::size_t kMaxFound = 4096, kMaxSharedFound = 32'768;  // cached searches, 7 kB each
 constexpr std::size_t kMaxRayWaters = 256;                         // limit of the cache, 20 kB each
-constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;      // the bottom lies below it
 
 double depth_of(const LinkEnd& end, const acoustics::Environment& environment) {
   return std::clamp(depth_below_surface_m(end.position_ned_m, environment.sea_surface_z_m), 0.0,
@@ -33,12 +33,6 @@ std::vector<std::pair<SearchScheduler::LinkId, const EndPair*>> one_way_of_each(
   const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
   ways.erase(std::unique(ways.begin(), ways.end(), same), ways.end());
   return ways;
-}
-
-// True when the depth equals, to the last bit, a depth at which the gradient of sound speed jumps. Bits agree
-// when the profile and the depth of a mooring are stated in one scenario.
-bool is_knot(const acoustics::RayWater& water, double depth_m) {
-  return depth_m > 0 && std::binary_search(water.depths_m().begin(), water.depths_m().end(), depth_m);
 }
 
 SharedQuery shared_query(const LinkSearches::Task& task) {
@@ -110,21 +104,8 @@ LinkSearches::Task LinkSearches::over(SimTime at, const LinkEnd& from, const Lin
 LinkSearches::Task LinkSearches::shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   Task task = task_of(at, from, to, from.id > to.id);
   task.of_table = true;
-  // The phase of a path changes within centimetres.
-  if (model_.reuse_distance_m <= 0 || model_.coherent) return task;
-  task.shared = true;
-  if (auto shared = middle_of_cell(task.link, model_.reuse_distance_m)) {
-    shared->source_depth_m = std::min(shared->source_depth_m, kDeepestEndM);
-    shared->receiver_depth_m = std::min(shared->receiver_depth_m, kDeepestEndM);
-    // The ray tube at a knot of the profile differs from those of both layers beside it: an end there is not
-    // moved.
-    if (is_knot(*task.water, task.link.source_depth_m)) shared->source_depth_m = task.link.source_depth_m;
-    if (is_knot(*task.water, task.link.receiver_depth_m))
-      shared->receiver_depth_m = task.link.receiver_depth_m;
-    task.query.link = *shared;
-    const double apart_m = model_.profile_reuse_distance_m;
-    for (double& place_m : task.query.places) place_m = std::round(place_m / apart_m) * apart_m;
-  }
+  task.shared = reuses_paths(model_);
+  if (task.shared) task.query = query_of_cell(task.query, *task.water, model_.reuse_distance_m);
   return task;
 }
 

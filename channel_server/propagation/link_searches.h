@@ -5,10 +5,8 @@
 // A link is searched from the end where its bottom profile starts (the lower id) to the other end.
 //
 // - Reception of one link: the query of its exact ends.
-// - Link table: with a reuse distance, both ends are rounded to a horizontal lattice for the bottom profile,
-//   and the query is that of the middle of the link's cell (middle_of_cell). An end exactly at a knot of the
-//   sound-speed profile keeps its depth. Coherent levels are not reused. With a limited number of searches a
-//   tick (search_scheduler.h), it is the query of the link that was scheduled last.
+// - Link table: the query of the link's cell (path_reuse.h) or, with a limited number of searches a tick
+//   (search_scheduler.h), the query of the link that was scheduled last.
 // - Packet: the query of the link's exact ends or, with RayModel::reuse_for_packets, that of a link table. In
 //   the second case a link that has not been scheduled yet, or was scheduled in other water or over another
 //   seabed, is searched at once.

@@ -16,11 +16,8 @@
 namespace halocline::channel_server {
 namespace {
 
-constexpr double kMinCellsOfALink = 20;
-constexpr double kEvenM = 0.5;  // a bottom at least this uneven permits energy flux, m
-constexpr int kMaxHalvings = 6;
-constexpr double kRounding = 1e-6;   // m
-constexpr double kDepthShare = 0.1;  // height of a cell over its length
+constexpr double kEvenM = 0.5;      // a bottom at least this uneven permits energy flux, m
+constexpr double kRounding = 1e-6;  // m
 
 acoustics::RayOptions options_of(const RayModel& model, const PathQuery& query) {
   acoustics::RayOptions options = model.options;
@@ -32,8 +29,6 @@ acoustics::RayOptions options_of(const RayModel& model, const PathQuery& query) 
 acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environment& environment) {
   return {model.surface, environment.noise.wind_mps};
 }
-
-double middle(double value, double cell) { return cell * (std::floor(value / cell) + 0.5); }
 
 std::shared_ptr<const SearchResult> result_over(const RayModel& model, const PathSea& along,
                                                 const PathQuery& query, const SeabedProfile& seabed,
@@ -104,7 +99,6 @@ void validate(const RayModel& model) {
   require_in_range(model.greatest_depth_m, 0, acoustics::kDeepestWater, "greatest depth of the water", "m");
   require_in_range(model.least_depth_m, 0, model.greatest_depth_m, "least depth of the water", "m");
   require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
-  require_in_range(model.profile_reuse_distance_m, 0.1, 1000, "distance of reuse of bottom profiles", "m");
 }
 
 acoustics::LinkWater water_along(const RayModel& model, const acoustics::RayWater& water,
@@ -114,15 +108,6 @@ acoustics::LinkWater water_along(const RayModel& model, const acoustics::RayWate
   const auto [north, east, last_north, last_east] = query.places;
   return water_between(environment, {north, east, 0}, {last_north, last_east, 0}, deepest_m,
                        query.frequency_hz, model.speed_tolerance_mps);
-}
-
-acoustics::EndSpeeds end_speeds(const acoustics::RayWater& water, const acoustics::Environment& environment,
-                                const PathQuery& query) {
-  const double source_m = query.link.source_depth_m, receiver_m = query.link.receiver_depth_m;
-  if (!environment.field) return {water.speed_at(source_m), water.speed_at(receiver_m)};
-  const auto [north, east, last_north, last_east] = query.places;
-  return {sound_speed_at(environment, {north, east, source_m + environment.sea_surface_z_m}),
-          sound_speed_at(environment, {last_north, last_east, receiver_m + environment.sea_surface_z_m})};
 }
 
 PathSea path_sea(const RayModel& model, const acoustics::RayWater& water,
@@ -192,16 +177,6 @@ std::shared_ptr<const SearchResult> flux_only_paths(const RayModel& model, const
   found->mean_depth_m = depth_m;
   found->beyond_terrain = seabed.beyond_terrain;
   return found;
-}
-
-std::optional<acoustics::RayLink> middle_of_cell(const acoustics::RayLink& link, double distance_m) {
-  double cell = distance_m;
-  for (int halvings = 0; link.range_m < kMinCellsOfALink * cell; ++halvings, cell /= 2) {
-    if (halvings == kMaxHalvings) return std::nullopt;
-  }
-  const double height = kDepthShare * cell;
-  return acoustics::RayLink{middle(link.source_depth_m, height), middle(link.receiver_depth_m, height),
-                            middle(link.range_m, cell)};
 }
 
 }  // namespace halocline::channel_server

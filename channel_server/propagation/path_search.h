@@ -17,7 +17,6 @@
 #include "acoustics/link/field_section.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/eigenray_search.h"
-#include "acoustics/rays/extrapolate_eigenrays.h"
 #include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
@@ -29,6 +28,8 @@
 #include "core/units.h"
 
 namespace halocline::channel_server {
+
+inline constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;  // of a link; the bottom lies below it
 
 // Parameters of propagation along rays.
 struct RayModel {
@@ -43,8 +44,7 @@ struct RayModel {
   acoustics::FadingModel fading;
   acoustics::Reverberation reverberation;
   double speed_tolerance_mps = 0;  // tolerance for thinning the sound-speed profile, 0..1
-  double reuse_distance_m =
-      0;  // cell length of middle_of_cell(), 0..1000; 0: every link of a table is searched by itself
+  double reuse_distance_m = 0;     // d of path_reuse.h, 0..1000; 0: each link of a table is searched itself
   bool reuse_for_packets = false;  // packets share the searches of link tables
   // Over a rough bottom, paths that are weaker by this than the noise over the transmitter's band, less the
   // receiver's directivity, contribute only their energy (RayOptions::diffuse_below_pressure), -100..100.
@@ -57,8 +57,7 @@ struct RayModel {
   // Range of the depth of the water wherever sound travels, as far as it is known, m; it bounds the reach of
   // sound. 0..kDeepestWater, rising.
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
-  int max_searches_per_tick = 0;         // limit for link tables (search_scheduler.h); 0: unlimited
-  double profile_reuse_distance_m = 25;  // lattice spacing of profile ends under reuse, 0.1..1000
+  int max_searches_per_tick = 0;  // limit for link tables (search_scheduler.h); 0: unlimited
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
@@ -121,9 +120,6 @@ struct SearchResult {
 acoustics::LinkWater water_along(const RayModel& model, const acoustics::RayWater& water,
                                  const acoustics::Environment& environment, const PathQuery& query,
                                  double deepest_m);
-// Returns the sound speeds at the ends of the query's link, from `water` or the field, m/s.
-acoustics::EndSpeeds end_speeds(const acoustics::RayWater& water, const acoustics::Environment& environment,
-                                const PathQuery& query);
 
 // Sea that a query is searched in, and the mean depth of the water along its link, m.
 struct PathSea {
@@ -197,16 +193,5 @@ Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment&
 std::optional<acoustics::RaySolver> usable_solver(std::optional<acoustics::RaySolver> wanted,
                                                   const acoustics::RaySea& sea,
                                                   const acoustics::RayLink& link);
-
-// Returns the link that is searched in place of `link` of a table, so that one search serves similar links;
-// empty: `link` itself is searched because it is too short for cells of `distance_m` (above 0).
-//
-// The range and both depths are replaced by the middles of their cells. Cells are `distance_m` long in range
-// and a tenth of that in depth, because the wavefronts of nearly horizontal sound curve most across depth.
-// Cells are halved until the link is at least 20 cells long; links shorter than 20 / 64 of `distance_m` are
-// not replaced. So the searched link is a function of the link alone, whatever was searched before. It lies
-// within 2.5 % of the range in range and 0.25 % of the range in depth. acoustics/rays/extrapolate_eigenrays.h
-// extrapolates its paths to the link.
-std::optional<acoustics::RayLink> middle_of_cell(const acoustics::RayLink& link, double distance_m);
 
 }  // namespace halocline::channel_server

@@ -14,11 +14,11 @@
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/extrapolate_eigenrays.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/link_chart.h"
+#include "channel_server/propagation/path_reuse.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_arrival.h"
 #include "channel_server/propagation/ray_chart.h"
@@ -141,7 +141,8 @@ Reception RayPropagation::answer(const Task& task, const SearchResult& found,
   Reception reception;
   reception.used = found.beyond_terrain ? PropagationUsed::kRaysBeyondTerrain : PropagationUsed::kRays;
   reception.paths_age = task.age;
-  const std::optional<acoustics::Eigenrays> elsewhere = eigenrays_at(task, found);
+  const std::optional<acoustics::Eigenrays> elsewhere =
+      reused_eigenrays(task.link, task.query, *task.water, *task.environment, found.eigenrays);
   const acoustics::Eigenrays& eigenrays = elsewhere ? *elsewhere : found.eigenrays;
   reception.solver = eigenrays.solver;
   reception.paths = with_reverberation(model_.reverberation, {found.mean_depth_m, boundaries_.trapped_share},
@@ -163,17 +164,6 @@ PathState RayPropagation::state_without_path(const SearchResult& found) {
   if (found.eigenrays.lack == PathLack::kTooWeak) return PathState::kTooWeak;
   if (found.eigenrays.lack == PathLack::kTooSteep) return PathState::kTooSteep;
   return found.blocked ? PathState::kBlocked : PathState::kShadow;
-}
-
-std::optional<acoustics::Eigenrays> RayPropagation::eigenrays_at(const Task& task,
-                                                                 const SearchResult& found) const {
-  const acoustics::RayLink &searched = task.query.link, &link = task.link;
-  const bool itself = searched.range_m == link.range_m && searched.source_depth_m == link.source_depth_m &&
-                      searched.receiver_depth_m == link.receiver_depth_m;
-  if (itself) return std::nullopt;
-  const acoustics::EndSpeeds speeds = end_speeds(*task.water, *task.environment, task.query);
-  return acoustics::Eigenrays{found.eigenrays.solver,
-                              extrapolate_eigenrays(found.eigenrays.paths, searched, speeds, link)};
 }
 
 std::vector<Arrival> RayPropagation::arrivals(const Task& task, const acoustics::Eigenrays& eigenrays) const {

@@ -30,10 +30,9 @@
 // the two are reciprocal to the last bit, except for what the receiver's noise makes diffuse
 // (RayModel::diffuse_below_noise).
 //
-// reception() searches every link by itself. receptions(), for tables, may let links share searches, whose
-// paths are extrapolated to each link (link_searches.h, acoustics/rays/extrapolate_eigenrays.h); so may
-// packets. With a limited number of searches a tick, a link may keep the paths of an earlier tick,
-// extrapolated in the same way: Reception::paths_age.
+// reception() searches every link by itself. receptions(), for tables, may let links share searches
+// (path_reuse.h); so may packets. With a limited number of searches a tick, a link may keep the paths of an
+// earlier tick: Reception::paths_age.
 //
 // Ends above the surface are placed on it. Left out: the slope of the bottom across the link
 // (acoustics/rays/eigenray_search.h).
@@ -134,8 +133,6 @@ class RayPropagation : public Propagation {
                              acoustics::Capacity capacity = acoustics::Capacity::kComputed);
   Reception answer(const Task& task, const SearchResult& found, acoustics::Capacity capacity) const;
   static PathState state_without_path(const SearchResult& found);
-  // Returns the eigenrays extrapolated to the ends of the task; empty when they were found at these ends.
-  std::optional<acoustics::Eigenrays> eigenrays_at(const Task& task, const SearchResult& found) const;
   std::vector<Arrival> arrivals(const Task& task, const acoustics::Eigenrays& eigenrays) const;
   Decibels received_level(const Task& task, const acoustics::Eigenrays& eigenrays,
                           const std::vector<Arrival>& paths) const;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "channel_server/propagation/path_reuse.h"
 #include "core/elementary.h"
 
 namespace halocline::channel_server {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr double kNeverSearched = 2000, kOtherSea = 1000;  // dB of urgency: more than any level
 constexpr double kUsualChange = 25, kMinChange = 1e-3;     // m
-constexpr double kDepthsCount = 10;
 
 double change_m(const PathQuery& a, const PathQuery& b) {
   const auto moved = [&](std::size_t i) { return b.places[i] - a.places[i]; };

@@ -10,7 +10,7 @@
 //
 // where L is the received level above the receiver's least receivable level, along a straight line without
 // absorption, dB, and d is how far the ends have moved since the link was scheduled last (depths count ten
-// times; path_search.h). So the loudest and most changed links come first. Links that were never scheduled
+// times; path_reuse.h). So the loudest and most changed links come first. Links that were never scheduled
 // precede all others; links in other water or over another seabed precede those that only moved; equal
 // urgencies are ordered by id. All other links keep the paths of their last search, extrapolated to the
 // present ends.

@@ -48,7 +48,6 @@ class Schedule {
   void forget_before(SimTime time) {
     while (pieces_.size() > 1 && std::next(pieces_.begin())->first < time) pieces_.erase(pieces_.begin());
   }
-  void clear() { pieces_.clear(); }
 
  private:
   void make_room() {

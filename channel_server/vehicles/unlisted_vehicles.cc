@@ -32,9 +32,4 @@ void UnlistedVehicles::leave() {
   --tracked_;
 }
 
-void UnlistedVehicles::clear() {
-  tracked_ = 0;
-  candidates_.clear();
-}
-
 }  // namespace halocline::channel_server

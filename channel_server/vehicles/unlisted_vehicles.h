@@ -38,8 +38,6 @@ class UnlistedVehicles {
   [[nodiscard]] std::string admit(std::string_view name, VehicleId id, SimTime time);
   // Notes that one tracked vehicle is not tracked any more.
   void leave();
-  // Forgets all tracked vehicles and candidates.
-  void clear();
 
  private:
   struct Candidate {

@@ -60,8 +60,4 @@ void VehicleClocks::forget_before(SimTime time) {
   for (auto& [id, clock] : clocks_) clock.fix.forget_before(time - fix_lag_);
 }
 
-void VehicleClocks::clear() {
-  for (auto& [id, clock] : clocks_) clock.fix.clear();
-}
-
 }  // namespace halocline::channel_server

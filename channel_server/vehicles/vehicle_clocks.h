@@ -70,7 +70,6 @@ class VehicleClocks {
 
   // Drops fixes that no instant at or after `time` needs.
   void forget_before(SimTime time);
-  void clear();  // forgets all fixes
 
  private:
   struct Clock {

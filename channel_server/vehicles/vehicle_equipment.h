@@ -24,12 +24,6 @@ struct VehicleEquipment {
     power.forget_before(time);
     noise.forget_before(time);
   }
-  // Begins another run: everything is as the scenario defines it.
-  void clear() {
-    clocks.clear();
-    power.clear();
-    noise.clear();
-  }
 };
 
 }  // namespace halocline::channel_server

@@ -34,8 +34,6 @@ void VehicleNoise::forget_before(SimTime time) {
   for (auto& [id, rates] : rates_) rates.forget_before(time - lag_);
 }
 
-void VehicleNoise::clear() { rates_.clear(); }
-
 // The factor on power is 10^((60 log10 r) / 10) = r^6 with r = speed / reference.
 double noise_power_at_1m(const NoiseSource& noise, double speed, double low_hz, double high_hz) {
   const double ratio = noise.driver == NoiseDriver::kNone ? 1 : std::abs(speed) / noise.reference;

@@ -62,7 +62,6 @@ class VehicleNoise {
   double rate_at(VehicleId id, SimTime at, SimTime decided_at) const;
 
   void forget_before(SimTime time);
-  void clear();  // forgets all rates
 
  private:
   std::map<VehicleId, NoiseSource> sources_;

@@ -38,8 +38,4 @@ void VehiclePower::forget_before(SimTime time) {
   for (auto& [id, battery] : batteries_) battery.is_empty.forget_before(time - lag_);
 }
 
-void VehiclePower::clear() {
-  for (auto& [id, battery] : batteries_) battery.is_empty.clear();
-}
-
 }  // namespace halocline::channel_server

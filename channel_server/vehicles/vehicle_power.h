@@ -51,7 +51,6 @@ class VehiclePower {
 
   // Drops reports that no instant at or after `time` needs.
   void forget_before(SimTime time);
-  void clear();  // forgets all reports
 
  private:
   struct Battery {

@@ -190,15 +190,6 @@ void VehicleRegistry::forget_before(SimTime time) {
   }
 }
 
-void VehicleRegistry::clear() {
-  equipment_.clear();
-  vehicles_.clear();
-  unlisted_.clear();
-  ids_.clear();
-  announced_.clear();
-  announced_by_turn_.clear();
-}
-
 std::vector<PlacedVehicle> place_all(const VehicleRegistry& fleet, SimTime instant) {
   std::vector<PlacedVehicle> placed;
   place_all(fleet, instant, placed);

@@ -50,7 +50,7 @@ class VehicleRegistry {
   VehicleRegistry(PositionRule rule, ConfiguredModems modems, VehicleEquipment equipment = {});
 
   // Reserves the name and the id of a vehicle of the scenario: no other vehicle gets them, and it is always
-  // admitted, in later runs too.
+  // admitted.
   void reserve(std::string_view name, VehicleId id);
   // Adds a state. Returns an empty string when it is accepted (a repetition is), else the reason why not.
   [[nodiscard]] std::string add_state(std::string_view name, VehicleId id, const StampedState& state);
@@ -112,8 +112,6 @@ class VehicleRegistry {
   // Forgets vehicles without a state since `time`, modems of vehicles without any state that were received
   // before `time`, and states and modems that no later instant needs.
   void forget_before(SimTime time);
-  // Begins another run: forgets all vehicles, keeps rules and configured modems.
-  void clear();
 
   const PositionRule& rule() const { return rule_; }
   const ConfiguredModems& configured_modems() const { return modems_; }

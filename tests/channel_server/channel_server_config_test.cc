@@ -218,7 +218,6 @@ TEST(ChannelServerConfig, TheDetailOfAnEmptyScenarioIsThatOfItsStructs) {
   EXPECT_EQ(exact.rules.reach.below_noise, structs.rules.reach.below_noise);
   EXPECT_EQ(exact.rules.reach.acquired_once_in, structs.rules.reach.acquired_once_in);
   EXPECT_EQ(exact.rules.reach.table_range_m, structs.rules.reach.table_range_m);
-  EXPECT_EQ(exact.rules.row_reuse_distance_m, structs.rules.row_reuse_distance_m);
 }
 
 TEST(ChannelServerConfig, FastLeavesOutWeakSoundAndSearchesForHalfAsManyLinksAsVehicles) {
@@ -229,7 +228,6 @@ TEST(ChannelServerConfig, FastLeavesOutWeakSoundAndSearchesForHalfAsManyLinksAsV
   EXPECT_TRUE(fast.propagation.rays.reuse_for_packets);
   EXPECT_EQ(fast.propagation.rays.weak_below_diffuse, Decibels{0});
   EXPECT_EQ(fast.rules.reach.table_range_m, 4000);
-  EXPECT_EQ(fast.rules.row_reuse_distance_m, 25);
 }
 
 TEST(ChannelServerConfig, AnUnknownSedimentIsRefusedWithLineKeyAndWhatIsAllowed) {

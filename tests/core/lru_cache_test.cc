@@ -103,17 +103,6 @@ TEST(LruCache, ReleasesTheValueItEvicts) {
   EXPECT_EQ(value.use_count(), 1);
 }
 
-TEST(LruCache, IsEmptyAndUsableOnceCleared) {
-  Cache cache(2);
-  cache.insert(0, "");
-  cache.insert(1, "");
-  cache.clear();
-  EXPECT_EQ(cache.size(), 0U);
-  EXPECT_EQ(cache.find(0), nullptr);
-  for (int key = 2; key < 5; ++key) cache.insert(key, "");
-  EXPECT_EQ(kept(std::move(cache)), (std::vector<int>{3, 4}));
-}
-
 TEST(LruCache, ForgetsWhatWasNotUsedBetweenTwoCalls) {
   Cache cache(4);
   for (int key = 0; key < 3; ++key) cache.insert(key, "");

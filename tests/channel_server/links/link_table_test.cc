@@ -98,7 +98,7 @@ TEST_F(LinkTableTest, AnotherNoiseMovesRatiosCapacityAndForecasts) {
   LouderNoise louder(Decibels{7});
   NoiseOfLinks noise(louder, at_s(1));
   const LinkRow row = link_tables(at_s(1), placed, table_rows(placed), propagation_, predictor_,
-                                  one_after_the_other, nullptr, &noise)[0]
+                                  one_after_the_other, &noise)[0]
                           .rows[0];
   EXPECT_NEAR((ambient.budget.snr - row.budget.snr).value, 7, tolerance(1e-9));
   EXPECT_NEAR((ambient.budget.snr_narrowband - row.budget.snr_narrowband).value, 7, tolerance(1e-9));

@@ -332,17 +332,6 @@ TEST_F(PacketMediumTest, ALateRequestDoesNotOverlapWhatWasAcceptedMeanwhile) {
   EXPECT_EQ(receipts_in(medium_.advance_to(at_s(11))).at(0).result, SendResult::kBusy);
 }
 
-TEST_F(PacketMediumTest, ClearingSilencesTheWater) {
-  stay(1, {0, 0, 50});
-  stay(2, {3000, 0, 50});
-  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0), at_s(10)));
-  medium_.advance_to(at_s(10));
-  EXPECT_EQ(medium_.packets_in_flight(), 1u);
-  medium_.clear();
-  EXPECT_EQ(medium_.packets_in_flight(), 0u);
-  EXPECT_TRUE(medium_.advance_to(at_s(30)).empty());
-}
-
 TEST_F(PacketMediumTest, ImpossibleRulesAreRefused) {
   EXPECT_THROW(PacketMedium(fleet_, propagation_, {for_s(-1), for_s(1)}), InvalidArgument);
   EXPECT_THROW(PacketMedium(fleet_, propagation_, {for_s(1), for_s(-1)}), InvalidArgument);

@@ -117,8 +117,6 @@ TEST(OwnNoise, IsThatOfTheLatestTurnRateKnownALagBefore) {
   EXPECT_EQ(noise.rate_at(2, at_s(12), at_s(12.05)), 30);
   noise.forget_before(at_s(12.5));
   EXPECT_EQ(noise.rate_at(2, at_s(12.5), at_s(13)), 30);
-  noise.clear();
-  EXPECT_EQ(noise.rate_at(2, at_s(12.5), at_s(13)), 0);
 }
 
 TEST(OwnNoise, OfTheSenderIsHeardByTheReceiver) {

@@ -13,6 +13,7 @@
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_reuse.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"

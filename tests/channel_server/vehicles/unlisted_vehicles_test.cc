@@ -71,13 +71,5 @@ TEST(UnlistedVehicles, BeyondTheMostNobodyIsTrackedUntilOneLeaves) {
   EXPECT_EQ(unlisted.admit("more", 1000, at_s(3)), "");
 }
 
-TEST(UnlistedVehicles, AnotherRunKnowsNobody) {
-  UnlistedVehicles unlisted = crowd();
-  EXPECT_NE(unlisted.admit("more", 1000, at_s(0)), "");
-  unlisted.clear();
-  EXPECT_EQ(unlisted.admit("another", 1001, at_s(1)), "");
-  EXPECT_EQ(unlisted.admit("more", 1000, at_s(1)), "");
-}
-
 }  // namespace
 }  // namespace halocline::channel_server

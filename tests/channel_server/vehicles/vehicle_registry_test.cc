@@ -157,15 +157,6 @@ TEST(VehicleRegistry, AForgottenVehicleTakesItsModemAlong) {
   EXPECT_EQ(fleet.modem(1, at_s(21)), quick_modem());
 }
 
-TEST(VehicleRegistry, ClearingForgetsTheRunAndKeepsTheConfiguration) {
-  VehicleRegistry fleet = make_fleet();
-  EXPECT_EQ(fleet.add_state("auv1", 1, state_at(0, {0, 0, 0})), "");
-  fleet.announce_modem("auv1", at_s(0), VehicleModem{}, at_s(0));
-  fleet.clear();
-  EXPECT_TRUE(fleet.present(at_s(1)).empty());
-  EXPECT_EQ(fleet.modem("auv1", at_s(1)), quick_modem());
-}
-
 TEST(VehicleRegistry, ImpossibleRulesAreRefused) {
   EXPECT_THROW(VehicleRegistry({for_s(-0.1), for_s(5)}, {}), InvalidArgument);
   EXPECT_THROW(VehicleRegistry({for_s(0.1), for_s(0)}, {}), InvalidArgument);
