@@ -20,10 +20,14 @@ SimTime whole_microsecond_from(SimTime time) {
   return SimTime::from_utime((time + SimDuration::from_nanoseconds(499)).to_utime());
 }
 
+channel_server::VehicleClocks clocks_of(const ClockSetConfig& config) {
+  return {config.clocks, config.seed, config.fix_lag};
+}
+
 }  // namespace
 
 VehicleTime::VehicleTime(bus::Bus& bus, const ClockSetConfig& config)
-    : clocks_(config.clocks, config.seed, config.fix_lag), fix_lag_(config.fix_lag) {
+    : config_(config), clocks_(clocks_of(config)) {
   for (const channel_server::ClockOf& clock : config.clocks) {
     owners_.emplace(clock.id, clock.vehicle);
     if (!clock.settings.is_set_by_gps) continue;
@@ -37,7 +41,7 @@ VehicleTime::VehicleTime(bus::Bus& bus, const ClockSetConfig& config)
 void VehicleTime::add_fix(std::int32_t vehicle_id, SimTime fix) {
   clocks_.add_fix(owners_.at(vehicle_id), fix);
   std::set<SimTime>& sets = sets_[vehicle_id];
-  sets.insert(fix + fix_lag_);
+  sets.insert(fix + config_.fix_lag);
   if (sets.size() > kFixesKept) sets.erase(sets.begin());
 }
 
@@ -58,7 +62,7 @@ SimTime VehicleTime::due(std::int32_t vehicle_id, SimTime shown_time) const {
   const bool is_instant = shown_time != SimTime::never() && shown_time != SimTime::at_once();
   if (!is_instant || !has_clock(vehicle_id)) return shown_time;
   constexpr double kMicrosecond_s = 1e-6;
-  const SimTime set = now_ + fix_lag_;
+  const SimTime set = now_ + config_.fix_lag;
   SimTime at = now_;
   for (double left_s = (shown_time - shown(vehicle_id, at)).seconds(); left_s > 0;
        left_s = (shown_time - shown(vehicle_id, at)).seconds()) {
@@ -88,7 +92,7 @@ SimTime VehicleTime::instant_of(std::int32_t vehicle_id, SimTime shown_time, Sim
 }
 
 void VehicleTime::restart(SimTime now) {
-  clocks_.clear();
+  clocks_ = clocks_of(config_);
   sets_.clear();
   now_ = now;
 }
@@ -97,7 +101,7 @@ void VehicleTime::archive(Archive& a) {
   a(sets_, now_);
   if (!a.is_loading()) return;
   for (const auto& [vehicle_id, vehicle] : owners_) {
-    for (const SimTime set : sets_of(vehicle_id)) clocks_.add_fix(vehicle, set - fix_lag_);
+    for (const SimTime set : sets_of(vehicle_id)) clocks_.add_fix(vehicle, set - config_.fix_lag);
   }
 }
 

@@ -59,8 +59,8 @@ class VehicleTime {
   // Returns the instants at which fixes kept set the clock; empty for a vehicle without any.
   const std::set<SimTime>& sets_of(std::int32_t vehicle_id) const;
 
+  ClockSetConfig config_;
   channel_server::VehicleClocks clocks_;
-  SimDuration fix_lag_;
   std::map<std::int32_t, std::string> owners_;      // vehicles with a clock of their own: name by id
   std::map<std::int32_t, std::set<SimTime>> sets_;  // instants at which fixes kept set a vehicle's clock
   SimTime now_;
