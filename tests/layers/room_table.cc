@@ -32,7 +32,7 @@ const std::vector<Room>& rooms() {
        "paths of sound depend on the sea, not on who sends"},
       {"acoustics/fading",
        {"core", "core/files", "acoustics/math", "acoustics/sea", "acoustics/rays"},
-        {"hdf5.h"},  // linked by the module that reads measured channels
+       {"hdf5.h"},  // linked by the module that reads measured channels
        "fading depends on paths and the sea, not on modems"},
       {"acoustics/reception",
        {"core", "acoustics/math", "acoustics/modem", "acoustics/fading"},
@@ -279,7 +279,7 @@ const std::vector<Room>& rooms() {
       {"runs/export",
        {"core", "bus", "runs/timeline", "runs/foxglove", "bathymetry/terrain/local_frame.h"},
        {"fmt/", "nlohmann/", "netcdf"},
-        "a run in formats of others needs no simulator"},
+       "a run in formats of others needs no simulator"},
       {"halocline/sweep",
        {"core", "bus", "bus/config", "bus/logs", "bus/runtime", "runs/timeline", "runs/analysis",
         "runs/export"},
