@@ -87,8 +87,9 @@ void visit_interface(ConfigVisitor& v, ModemInterfaceConfig& interface) {
   std::string place = interface.place.text();
   v.text("place", place, {}, "tcp:PORT on this host alone, tcp:ADDRESS:PORT, or pty:PATH of a serial line");
   bus::report_refusal(v, "place", [&] { interface.place = place_of(place); });
-  v.text("addresses", interface.addresses, {},
-         "of modems of this kind: VEHICLE=ADDRESS with blanks between; others have the vehicle's id");
+  v.text(
+      "addresses", interface.addresses, {},
+      "addresses of modems of this kind, VEHICLE=ADDRESS with blanks between; others have the vehicle's id");
   v.text("options", interface.options, {}, "NAME=VALUE with blanks between (docs/interfaces.md)");
 }
 

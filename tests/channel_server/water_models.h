@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "acoustics/fading/path_fading.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"
@@ -17,8 +18,9 @@ namespace halocline::channel_server {
 
 inline WaterModel straight_model(const acoustics::Environment& environment) {
   auto waters = std::make_shared<EnvironmentTimeline>(environment);
-  auto propagation = std::make_unique<StraightPropagation>(waters);
-  return {waters, std::make_shared<SeabedMap>(SeabedRule{}), std::move(propagation), {"straight", {}, {}}};
+  auto seabed = std::make_shared<SeabedMap>(SeabedRule{});
+  auto propagation = std::make_unique<StraightPropagation>(waters, acoustics::FadingModel{}, seabed);
+  return {waters, seabed, std::move(propagation), {"straight", {}, {}}};
 }
 
 inline WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
