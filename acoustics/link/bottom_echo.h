@@ -18,8 +18,8 @@
 
 namespace halocline::acoustics {
 
-// The places of the bottom: nine reflect. With the four beside each, the
-// verdict over the ridge of scripts/paper/ridge.py is that of its full relief at 98 % of the receivers.
+// The places of the bottom: nine reflect. With the four beside each, the verdict over the ridge of
+// studies/paper/ridge.py is that of its full relief at 98 % of the receivers.
 inline constexpr int kReflectingOneIn = 5, kBottomDepths = 9 * kReflectingOneIn;
 
 // Level at the receiver, dB re 1 uPa, of the path by one point of the bottom; positions as in

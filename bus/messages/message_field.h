@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Description of a message field as lcmtypes/*.lcm states it. The generated visit_fields
-// (bus/message_fields.h) passes it together with the field's value.
+// (bus/messages/message_fields.h) passes it together with the field's value.
 #pragma once
 
 #include <concepts>

@@ -32,7 +32,7 @@ struct WireField {
 // exactly; otherwise a description of the fault.
 [[nodiscard]] std::string misfit(const WireLayout& layout, const void* data, std::size_t size);
 
-// Returns the layout of a message type, made from its fields (bus/message_fields.h).
+// Returns the layout of a message type, made from its fields (bus/messages/message_fields.h).
 template <class Message>
 const WireLayout& wire_layout();
 
