@@ -2,6 +2,9 @@
 #include "channel_server/propagation/straight_propagation.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <unordered_map>
 #include <utility>
 
 #include "acoustics/fading/arrival.h"
@@ -49,6 +52,45 @@ void take_field(const acoustics::LinkKernel& kernel, const acoustics::Environmen
   budget.absorption_db_per_km = means.absorption_db_per_km;
 }
 
+// The links between two places of a table: one, or both directions.
+struct LinksOfPair {
+  std::size_t there;
+  std::optional<std::size_t> back = {};
+};
+
+// Returns all links, each with the one in the opposite direction where there is one.
+std::vector<LinksOfPair> links_of_pairs(const std::vector<EndPair>& links) {
+  constexpr int kIdBits = 32;
+  const auto key = [](VehicleId from, VehicleId to) {
+    return std::uint64_t{static_cast<std::uint32_t>(from)} << kIdBits | static_cast<std::uint32_t>(to);
+  };
+  std::unordered_map<std::uint64_t, std::size_t> single;  // the order of iteration affects no result
+  std::vector<LinksOfPair> pairs;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const auto& [from, to] = links[i];
+    const auto opposite = single.find(key(to.id, from.id));
+    if (opposite != single.end()) {
+      LinksOfPair& pair = pairs[opposite->second];
+      const auto& [start, end] = links[pair.there];
+      if (start.position_ned_m == to.position_ned_m && end.position_ned_m == from.position_ned_m) {
+        pair.back = i;
+        single.erase(opposite);
+        continue;
+      }
+    }
+    single.insert_or_assign(key(from.id, to.id), pairs.size());
+    pairs.push_back({i});
+  }
+  return pairs;
+}
+
+// Returns the two ends, that farther south (west, up) first: the same for both directions of a pair.
+std::pair<Vec3, Vec3> ends_of_pair(const EndPair& link) {
+  const Vec3 &from = link.from.position_ned_m, &to = link.to.position_ned_m;
+  const bool is_ordered = std::lexicographical_compare(from.begin(), from.end(), to.begin(), to.end());
+  return is_ordered ? std::pair(from, to) : std::pair(to, from);
+}
+
 }  // namespace
 
 StraightPropagation::StraightPropagation(acoustics::Environment environment, std::size_t max_kernels)
@@ -60,23 +102,32 @@ StraightPropagation::StraightPropagation(std::shared_ptr<const EnvironmentTimeli
                                          std::shared_ptr<SeabedMap> seabed, std::size_t max_kernels)
     : waters_(std::move(waters)), fading_(fading), seabed_(std::move(seabed)), kernels_(max_kernels) {}
 
-// Every link is examined, so that all missing tiles are requested together.
+// Every pair is examined, so that all missing tiles are requested together.
 bool StraightPropagation::are_ready(SimTime, const std::vector<EndPair>& links) {
+  if (!seabed_) return true;
   bool ready = true;
-  for (const auto& [from, to] : links) {
-    if (seabed_)
-      ready =
-          seabed_->are_places_surveyed(from.position_ned_m, to.position_ned_m, acoustics::kBottomDepths) &&
-          ready;
+  for (const LinksOfPair& pair : links_of_pairs(links)) {
+    const auto [first, last] = ends_of_pair(links[pair.there]);
+    ready = seabed_->are_places_surveyed(first, last, acoustics::kBottomDepths) && ready;
   }
   return ready;
 }
 
-Multipath StraightPropagation::bottom_echo(const acoustics::LinkKernel& kernel, const EndPair& ends) const {
-  const Vec3 &from = ends.from.position_ned_m, &to = ends.to.position_ned_m;
+// The depths are read from the same end for both directions, so a pair of links shares them to the last bit.
+void StraightPropagation::add_bottom_echoes(std::span<const EchoQuery> links_of_one_pair) const {
   std::array<double, acoustics::kBottomDepths> bottom_z_m{};
-  if (!seabed_ || !seabed_->read_between(from, to, bottom_z_m)) return Multipath::kUnknown;
-  return is_echo_likely(kernel, from, to, bottom_z_m) ? Multipath::kLikely : Multipath::kUnlikely;
+  const auto [first, last] = ends_of_pair(links_of_one_pair.front().ends);
+  if (!seabed_ || !seabed_->read_between(first, last, bottom_z_m)) return;
+  bool is_reversed = false;
+  for (const auto& [kernel, ends, reception] : links_of_one_pair) {
+    const Vec3 &from = ends.from.position_ned_m, &to = ends.to.position_ned_m;
+    if (is_reversed != (from != first)) {
+      std::ranges::reverse(bottom_z_m);
+      is_reversed = !is_reversed;
+    }
+    reception.bottom_echo =
+        is_echo_likely(kernel, from, to, bottom_z_m) ? Multipath::kLikely : Multipath::kUnlikely;
+  }
 }
 
 Reception StraightPropagation::along_line(const acoustics::LinkKernel& kernel,
@@ -88,7 +139,14 @@ Reception StraightPropagation::along_line(const acoustics::LinkKernel& kernel,
   if (water.field) take_field(kernel, water, ends, capacity, reception.budget);
   Arrival& path = reception.paths.emplace_back(straight_path(water, reception.budget, from, to));
   path.fading = path_fading(fading_, water.noise.wind_mps, from.modem->centre_frequency_hz, 0, 0);
-  if (capacity == acoustics::Capacity::kComputed) reception.bottom_echo = bottom_echo(kernel, ends);
+  return reception;
+}
+
+Reception StraightPropagation::along_line(SimTime at, const EndPair& ends, acoustics::Capacity capacity) {
+  const auto kernel = kernel_of(at, *ends.from.modem, *ends.to.modem);
+  Reception reception = along_line(*kernel, waters_->at(at), ends, capacity);
+  const std::array query = {EchoQuery{*kernel, ends, reception}};
+  if (capacity == acoustics::Capacity::kComputed) add_bottom_echoes(query);
   return reception;
 }
 
@@ -101,6 +159,15 @@ std::vector<Reception> StraightPropagation::receptions(SimTime at, const std::ve
   std::vector<Reception> receptions(links.size());
   for_each(links.size(), [&](std::size_t i) {
     receptions[i] = along_line(*kernels[i], water, links[i], acoustics::Capacity::kComputed);
+  });
+  if (!seabed_) return receptions;
+  const std::vector<LinksOfPair> pairs = links_of_pairs(links);
+  for_each(pairs.size(), [&](std::size_t i) {
+    const auto query = [&](std::size_t link) {
+      return EchoQuery{*kernels[link], links[link], receptions[link]};
+    };
+    const std::array queries = {query(pairs[i].there), query(pairs[i].back.value_or(pairs[i].there))};
+    add_bottom_echoes({queries.data(), pairs[i].back ? 2u : 1u});
   });
   return receptions;
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -46,10 +47,7 @@ class StraightPropagation : public Propagation {
                                std::size_t max_kernels = kMaxKernels);
 
   // Returns one straight path, never in a shadow and never blocked. Doppler: acoustics/link/ray_doppler.h.
-  Reception along_line(SimTime at, const EndPair& ends, acoustics::Capacity capacity) {
-    const auto& [from, to] = ends;
-    return along_line(*kernel_of(at, *from.modem, *to.modem), waters_->at(at), ends, capacity);
-  }
+  Reception along_line(SimTime at, const EndPair& ends, acoustics::Capacity capacity);
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
     return along_line(at, {from, to}, acoustics::Capacity::kComputed);
   }
@@ -82,7 +80,13 @@ class StraightPropagation : public Propagation {
   static bool are_alike(const acoustics::Modem& a, const acoustics::Modem& b);
   Reception along_line(const acoustics::LinkKernel& kernel, const acoustics::Environment& water,
                        const EndPair& ends, acoustics::Capacity capacity) const;
-  Multipath bottom_echo(const acoustics::LinkKernel& kernel, const EndPair& ends) const;
+  struct EchoQuery {
+    const acoustics::LinkKernel& kernel;
+    const EndPair& ends;
+    Reception& reception;
+  };
+  // Sets the echo off the bottom of links between the same two places, in either direction.
+  void add_bottom_echoes(std::span<const EchoQuery> links_of_one_pair) const;
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
   acoustics::FadingModel fading_;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/links/link_table.h"
 
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/link/bottom_echo.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
@@ -173,6 +177,30 @@ TEST_F(LinkTableTest, RowsHoldTheMultipathOfTheirOwnDirection) {
   const auto tables = link_tables(at_s(1), placed, table_rows(placed), over_bottom, predictor_);
   EXPECT_EQ(tables[0].rows[0].multipath, Multipath::kLikely);
   EXPECT_EQ(tables[1].rows[0].multipath, Multipath::kUnlikely);
+}
+
+// A wall beside the first vehicle, which lies deeper than its crest, hides the bottom beyond it. Read from the
+// wrong end it would stand beside the other vehicle, which looks over it.
+TEST_F(LinkTableTest, BothDirectionsOfAPairReadTheSeabedFromTheirOwnEnd) {
+  const Vec3 deep(0, 0, 95), shallow(900, 0, 5);
+  const auto wall = [](double north_m) { return north_m > 60 && north_m < 140 ? 60.0 : 100.0; };
+  const auto seabed = testing::seabed_around(deep, shallow, wall);
+  StraightPropagation over_wall(std::make_shared<const EnvironmentTimeline>(even_water()), {}, seabed);
+  const acoustics::Modem& modem = quick_modem().modem;
+  const acoustics::LinkKernel kernel(even_water(), modem, modem);
+  const LinkEnd ends[] = {{1, deep, Vec3::Zero(), &modem}, {2, shallow, Vec3::Zero(), &modem}};
+  const std::vector<EndPair> links = {{ends[0], ends[1]}, {ends[1], ends[0]}};
+  const std::vector<Reception> rows = over_wall.receptions(at_s(1), links, one_after_the_other);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const Vec3 &from = links[i].from.position_ned_m, &to = links[i].to.position_ned_m;
+    std::array<double, acoustics::kBottomDepths> z_m{};
+    ASSERT_TRUE(seabed->read_between(from, to, z_m));
+    const bool is_likely = is_echo_likely(kernel, from, to, z_m);
+    EXPECT_EQ(rows[i].bottom_echo, is_likely ? Multipath::kLikely : Multipath::kUnlikely);
+    EXPECT_EQ(over_wall.reception(at_s(1), links[i].from, links[i].to).bottom_echo, rows[i].bottom_echo);
+    std::ranges::reverse(z_m);
+    EXPECT_NE(is_echo_likely(kernel, from, to, z_m), is_likely);
+  }
 }
 
 }  // namespace
