@@ -93,7 +93,7 @@ void SeabedClient::report_presence() {
   const bool is_away = rays_.is_away();
   if (is_away == std::exchange(reported_away_, is_away)) return;
   if (is_away) {
-    bus_.log().warning("bathymetry-away",
+    bus_.log().warning("bathymetry-unavailable",
                        propagation_.uses_bottom() ? "paths=straight multipath=unknown" : "multipath=unknown");
   } else {
     bus_.log().info("bathymetry-back");

@@ -167,7 +167,7 @@ vehicle_fault_t to_fault_message(const Fault& fault, bool from_scenario) {
   vehicle_fault_t m{};
   m.utime = fault.from.to_utime();
   m.fault_kind = static_cast<std::int8_t>(fault.kind);
-  m.fault_mended = fault.fixed ? 1 : 0;
+  m.fault_fixed = fault.fixed ? 1 : 0;
   m.stuck_angle_given = fault.angle_rad ? 1 : 0;
   m.stuck_angle_rad = fault.angle_rad.value_or(0);
   m.leak_rate_kg_s = fault.leak_rate_kg_s;
@@ -180,7 +180,7 @@ vehicle_fault_t to_fault_message(const Fault& fault, bool from_scenario) {
 Fault from_message(const vehicle_fault_t& m) {
   Fault fault{.from = SimTime::from_utime(m.utime),
               .kind = static_cast<FaultKind>(m.fault_kind),
-              .fixed = m.fault_mended != 0,
+              .fixed = m.fault_fixed != 0,
               .angle_rad = {},
               .leak_rate_kg_s = m.leak_rate_kg_s,
               .leak_volume_m3 = m.leak_volume_m3,

@@ -192,7 +192,7 @@ void Node::publish_status(const Now& now, const std::string& text) {
   status.messages_sent = counters.sent;
   status.messages_refused = counters.refused;
   status.messages_unsent = counters.unsent;
-  status.rivals = counters.duplicate_publishers;
+  status.duplicate_publishers = counters.duplicate_publishers;
   status.gaps = counters.gaps;
   status.repaired = counters.repaired;
   status.lost = counters.lost;

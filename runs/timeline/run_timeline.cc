@@ -100,7 +100,7 @@ void RunTimeline::take(const Received& received, const vehicle_fault_t& fault) {
   auto& faults = vehicle(received.name, 0).faults;
   const bool is_there = std::any_of(faults.begin(), faults.end(), [&](const auto& other) {
     return other.at == received.at && other.value.fault_kind == fault.fault_kind &&
-           other.value.dead_sensor == fault.dead_sensor && other.value.fault_mended == fault.fault_mended;
+           other.value.dead_sensor == fault.dead_sensor && other.value.fault_fixed == fault.fault_fixed;
   });
   if (!is_there) faults.push_back({received.at, fault});
 }

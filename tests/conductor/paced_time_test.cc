@@ -49,7 +49,7 @@ TEST_F(PacedTimeTest, ReceivesStatesAndStatuses) {
   status.utime = 50'000'000;
   status.session = status.sequence = 1;
   status.messages_received = status.messages_sent = status.messages_refused = 0;
-  status.messages_unsent = status.rivals = 0;
+  status.messages_unsent = status.duplicate_publishers = 0;
   status.gaps = status.repaired = status.late = 0;
   status.node_name = "vehicle-sim";
   publisher.publish("STATUS.vehicle-sim", status);

@@ -76,7 +76,8 @@ TEST_F(AttackedProcesses, AStrayClockChangesNothing) {
     ASSERT_TRUE(outcomes_come(4));
   }
   for (const char* node : {"vehicle-sim", "channel-server"}) {
-    EXPECT_TRUE(status_shows(node, [](const node_status_t& status) { return status.rivals >= 8; }));
+    EXPECT_TRUE(
+        status_shows(node, [](const node_status_t& status) { return status.duplicate_publishers >= 8; }));
     EXPECT_LT(monitor_.last_status[node].utime, 600'000'000);
   }
   EXPECT_THAT(at("halocline-channel-server").output(), HasSubstr("session is of a second conductor"));
@@ -110,11 +111,12 @@ TEST_F(AttackedProcesses, ASecondConductorEndsAndTheFirstStays) {
 TEST_F(AttackedProcesses, OfTwoVehicleSimulatorsAndTwoChannelServersTheFirstAreAccepted) {
   ASSERT_TRUE(outcomes_come(1));
   for (const char* program : {"halocline-vehicle-sim", "halocline-channel-server"}) {
-    const auto rivals = [](const node_status_t& status) { return status.rivals; };
-    const std::int64_t before = rivals(monitor_.last_status["traffic"]);
+    const auto refused = [](const node_status_t& status) { return status.duplicate_publishers; };
+    const std::int64_t before = refused(monitor_.last_status["traffic"]);
     const auto second = run(program);
-    EXPECT_TRUE(status_shows("traffic", [&](const node_status_t& status) { return rivals(status) > before; }))
-        << program;
+    EXPECT_TRUE(status_shows("traffic", [&](const node_status_t& status) {
+      return refused(status) > before;
+    })) << program;
     EXPECT_TRUE(outcomes_come(2));
     EXPECT_TRUE(monitor_.wait_until(
         [&] { return second->output().find("a duplicate publisher") != std::string::npos; }));

@@ -216,7 +216,7 @@ TEST_F(VehicleSimNodeTest, FaultsOfTheScenarioArePublishedWhenTheyBeginAndEnd) {
     EXPECT_TRUE(faults[i].second.from_scenario);
   }
   EXPECT_EQ(faults[1].second.fault_kind, vehicle_fault_t::LEAK);
-  EXPECT_TRUE(faults[2].second.fault_mended);
+  EXPECT_TRUE(faults[2].second.fault_fixed);
   EXPECT_EQ(node_->counters().refused, 0);
 }
 

@@ -316,7 +316,7 @@ std::vector<vehicle_fault_t> faults_at(const clients::VehicleRecord& vehicle, Si
     if (from > at) continue;
     std::erase_if(active,
                   [&fault = fault](const vehicle_fault_t& other) { return is_of_one_kind(other, fault); });
-    if (fault.fault_mended == 0) active.push_back(fault);
+    if (fault.fault_fixed == 0) active.push_back(fault);
   }
   return active;
 }

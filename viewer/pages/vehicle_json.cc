@@ -183,7 +183,7 @@ json faults_json(const clients::VehicleRecord& vehicle) {
       const bool same = other["kind"] == fault.fault_kind && other["sensor"] == fault.dead_sensor;
       if (same && other["end_s"].is_null()) other["end_s"] = at.seconds();
     }
-    if (fault.fault_mended == 0)
+    if (fault.fault_fixed == 0)
       all.push_back({{"begin_s", at.seconds()},
                      {"end_s", nullptr},
                      {"label", label},

@@ -166,7 +166,7 @@ class DepthStrip {
           R"(<g class="fault"><path d="M{0} {1}V{2}"/><text x="{3}" y="{4}">{5}</text></g>)",
           px(picture_.x_px(at.seconds() / axis_.unit_s)), px(picture_.top_px),
           px(picture_.height_px - picture_.bottom_px), px(picture_.x_px(at.seconds() / axis_.unit_s) + 4),
-          px(picture_.top_px + 12), fault.fault_mended ? "fault fixed" : "fault");
+          px(picture_.top_px + 12), fault.fault_fixed ? "fault fixed" : "fault");
     }
   }
 

@@ -179,8 +179,8 @@ TEST_F(LinkTableTest, RowsHoldTheMultipathOfTheirOwnDirection) {
   EXPECT_EQ(tables[1].rows[0].multipath, Multipath::kUnlikely);
 }
 
-// A wall beside the first vehicle, which lies deeper than its crest, hides the bottom beyond it. Read from the
-// wrong end it would stand beside the other vehicle, which looks over it.
+// A wall beside the first vehicle, which lies deeper than its crest, hides the bottom beyond it. Read from
+// the wrong end it would stand beside the other vehicle, which looks over it.
 TEST_F(LinkTableTest, BothDirectionsOfAPairReadTheSeabedFromTheirOwnEnd) {
   const Vec3 deep(0, 0, 95), shallow(900, 0, 5);
   const auto wall = [](double north_m) { return north_m > 60 && north_m < 140 ? 60.0 : 100.0; };

@@ -49,15 +49,15 @@ TEST_F(AttackedProcesses, OldMessagesOfEveryChannelSentAgainChangeNothing) {
   ASSERT_GE(old.size(), 20u);
   ASSERT_TRUE(time_passes(9));
   const std::size_t before = expect_outcomes_whole();
-  const auto rivals = [&] { return monitor_.last_status["channel-server"].rivals; };
-  const std::int64_t rivals_before = rivals();
+  const auto refused = [&] { return monitor_.last_status["channel-server"].duplicate_publishers; };
+  const std::int64_t refused_before = refused();
   for (int i = 0; i < 5; ++i) {
     for (const auto& [channel, datagram] : old) publish(datagram);
     ASSERT_TRUE(time_passes(2));
     EXPECT_TRUE(vehicles_keep_time()) << last_state_.utime << ' ' << latest_clock_utime_;
   }
   EXPECT_GE(expect_outcomes_whole(), before + 16);
-  EXPECT_EQ(rivals(), rivals_before);
+  EXPECT_EQ(refused(), refused_before);
   expect_all_running();
 }
 
@@ -74,13 +74,13 @@ TEST_F(AttackedProcesses, OldHeartbeatsOfAKilledServerDoNotKeepItsName) {
     publish(status);
     return monitor_.received("RECEIVE.alpha") > 0;
   }));
-  const auto rivals = [&] { return monitor_.last_status["traffic"].rivals; };
+  const auto refused = [&] { return monitor_.last_status["traffic"].duplicate_publishers; };
   EXPECT_TRUE(monitor_.wait_until([&] {
     publish(old);
     publish(status);
-    const std::int64_t before = rivals();
+    const std::int64_t before = refused();
     monitor_.dispatch_for(2);
-    return rivals() == before;  // traffic accepts the new one
+    return refused() == before;  // traffic accepts the new one
   }));
 }
 
