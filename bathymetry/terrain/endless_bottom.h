@@ -3,7 +3,7 @@
 //
 // Model. Posts continue at the same spacing; each is computed when it is needed, by the formula that made the
 // others, and the surface between them is bilinear as in the grid (height_grid.h). So the two join without a
-// step, and a ray is followed cell by cell as in ray_trace.h. Each cell costs four evaluations of the
+// step, and a ray is followed cell by cell as in grid_trace.h. Each cell costs four evaluations of the
 // formula, which suits the few positions and rays that leave the grid.
 #pragma once
 
@@ -11,8 +11,8 @@
 #include <optional>
 #include <utility>
 
+#include "bathymetry/terrain/grid_trace.h"
 #include "bathymetry/terrain/height_grid.h"
-#include "bathymetry/terrain/ray_trace.h"
 
 namespace halocline::bathymetry {
 

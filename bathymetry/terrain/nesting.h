@@ -13,8 +13,8 @@
 
 #include <cstddef>
 
+#include "bathymetry/terrain/grid_trace.h"
 #include "bathymetry/terrain/height_grid.h"
-#include "bathymetry/terrain/ray_trace.h"
 
 namespace halocline::bathymetry {
 

@@ -29,9 +29,9 @@
 #include <vector>
 
 #include "bathymetry/terrain/endless_bottom.h"
+#include "bathymetry/terrain/grid_trace.h"
 #include "bathymetry/terrain/height_grid.h"
 #include "bathymetry/terrain/nearest_depths.h"
-#include "bathymetry/terrain/ray_trace.h"
 #include "bathymetry/terrain/shallowest_pyramid.h"
 #include "bathymetry/terrain/wide_trace.h"
 #include "core/frames.h"

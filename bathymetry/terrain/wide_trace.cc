@@ -34,7 +34,7 @@ struct LevelRows {
   std::size_t row_length;
 };
 
-// N rays side by side; names as in ray_trace.cc.
+// N rays side by side; names as in grid_trace.cc.
 template <int N>
 struct Group {
   using Reals = typename Vectors<N>::Reals;

@@ -2,7 +2,7 @@
 // Ray tracing of many rays over one grid in vectors: the results of `trace_grid` for single rays, bit by bit,
 // but faster.
 //
-// Model. The walk of ray_trace.h with a ray in each lane of vectors of 2, 4 or 8 doubles. A step moves every
+// Model. The walk of grid_trace.h with a ray in each lane of vectors of 2, 4 or 8 doubles. A step moves every
 // lane down into a quarter of its block or on to the next block. Lanes that have reached a single cell wait
 // until enough of them have, then their cells are examined together. A cell that the ray does not certainly
 // clear is decided by `trace_cell`. A lane whose ray has ended takes the next ray. Every lane computes what
@@ -12,8 +12,8 @@
 
 #include <span>
 
+#include "bathymetry/terrain/grid_trace.h"
 #include "bathymetry/terrain/height_grid.h"
-#include "bathymetry/terrain/ray_trace.h"
 #include "bathymetry/terrain/shallowest_pyramid.h"
 
 namespace halocline::bathymetry {

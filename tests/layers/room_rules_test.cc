@@ -89,7 +89,7 @@ TEST(RoomRules, FoldersStandOnThoseBelow) {
   EXPECT_FALSE(allowed("acoustics/sea/noise.h", "bathymetry/terrain/terrain.h"));
   EXPECT_FALSE(allowed("acoustics/sea/noise.h", "bus/config/config.h"));
   EXPECT_FALSE(allowed("bus/bus.h", "acoustics/sea/noise.h"));
-  EXPECT_FALSE(allowed("vehicle_sim/world/vehicle_world.cc", "bathymetry/terrain/ray_trace.h"));
+  EXPECT_FALSE(allowed("vehicle_sim/world/vehicle_world.cc", "bathymetry/terrain/grid_trace.h"));
   EXPECT_FALSE(allowed("channel_server/packets/packet_medium.cc", "bathymetry/terrain/terrain.h"));
   EXPECT_TRUE(allowed("vehicle_sim/world/vehicle_world.cc", "bathymetry/terrain/terrain.h"));
   EXPECT_TRUE(allowed("channel_server/packets/packet_medium.cc", "acoustics/sea/noise.h"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathymetry/terrain/ray_trace.h"
+#include "bathymetry/terrain/grid_trace.h"
 
 #include <algorithm>
 #include <cmath>
