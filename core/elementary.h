@@ -47,7 +47,6 @@ inline double expm1(double x) {
   return power * detail::expm1_of_rest(r, (high - r) - low) + (power - 1);
 }
 
-// Returns 10^x.
 inline double exp10(double x) {
   if (!(std::abs(x) < 307)) return detail::exp10_beyond(x);
   const double rounded = x * detail::kLog2Of10 + detail::kRound, n = rounded - detail::kRound;

@@ -42,7 +42,6 @@ struct DrawAddress {
 // `which`. Two objects have the same number with probability 2^-64.
 std::uint64_t identity_of(std::initializer_list<std::uint64_t> parts);
 
-// Returns 64 random bits.
 std::uint64_t bits_at(const DrawAddress& address);
 // Returns a uniform number in (0, 1), both ends excluded, in steps of 2^-52.
 double uniform_at(const DrawAddress& address);

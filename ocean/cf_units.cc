@@ -18,7 +18,6 @@ constexpr double kKelvin = 273.15;      // temperature of 0 degC, K
 constexpr double kPascalPerDbar = 1e4;  // BIPM
 constexpr double kDegreesPerRadian = 57.29577951308232;
 
-// Exponents of metre, kilogram and second.
 using Powers = std::array<int, 3>;
 constexpr Powers kMetre{1, 0, 0}, kKilogram{0, 1, 0}, kSecond{0, 0, 1}, kMetrePerSecond{1, 0, -1},
     kPascal{-1, 1, -2};

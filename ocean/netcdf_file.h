@@ -42,7 +42,6 @@ class NetcdfFile {
   // the last dimension varying fastest; NaN: missing.
   std::vector<double> values(const std::string& variable, const std::vector<std::size_t>& from,
                              const std::vector<std::size_t>& counts) const;
-  // Returns all values of the variable.
   std::vector<double> values(const std::string& variable) const;
 
   // Throws InvalidArgument: "<path>: <variable>: <what>".

@@ -213,7 +213,6 @@ std::vector<std::size_t> columns_about(const OceanGrid& grid, double latitude_ra
   return columns;
 }
 
-// Returns the values of one column alone.
 OceanValues column_of(const OceanValues& values, std::size_t columns, std::size_t column) {
   OceanValues one;
   for (std::size_t at = column; at < values.salinity_psu.size(); at += columns) {

@@ -12,7 +12,6 @@
 
 namespace halocline::clients {
 
-// Options of an embedded run.
 struct EmbeddedRun {
   SimTime end;           // the run covers 0 to `end`, both included
   std::string log_path;  // an existing file is replaced

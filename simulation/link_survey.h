@@ -31,7 +31,6 @@ struct LinkSurveyEnd {
   channel_server::VehicleModem modem;
 };
 
-// Result of a survey.
 struct LinkSurvey {
   channel_server::Reception reception;
   channel_server::LinkForecast forecast;

@@ -9,7 +9,6 @@
 
 namespace halocline::clients {
 
-// Progress of one run.
 class ProgressLine {
  public:
   ProgressLine(std::FILE* out, SimTime end, bool quiet);

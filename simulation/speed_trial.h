@@ -14,7 +14,6 @@ namespace halocline::clients {
 
 inline constexpr double kTrial_s = 90;
 
-// Result of a trial.
 struct SpeedTrial {
   double speed_mps = 0;      // mean speed through the water in the last tenth of the trial
   double depth_error_m = 0;  // largest depth error during the trial

@@ -46,7 +46,6 @@ class VehicleFaults {
   // Starts or ends a fault. `now`: actual positions of the actuators.
   void take(const Fault& fault, const ActuatorValues& now);
 
-  // Returns the command that the actuators follow when `command` is given.
   ActuatorValues obeyed(ActuatorValues command) const;
 
   Dead dead_sensors() const;

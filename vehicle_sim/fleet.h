@@ -33,7 +33,6 @@
 
 namespace halocline::vehicle_sim {
 
-// Vehicle at the start.
 struct FleetMember {
   std::string name;
   std::shared_ptr<const Model> model;           // null: a fixed vehicle, whose pose never changes
@@ -150,7 +149,6 @@ class Fleet {
   void drop_weights();
   bool water_varies() const;
   bool rides_waves(std::size_t index) const;
-  // Returns the water at a vehicle for the step that starts at time().
   Water water_at(std::size_t index, const Vec3& position_ned_m) const;
   void move_surface(std::size_t index, const Vec3& position_ned_m, Water& water) const;
   // Sets the water of every vehicle for the step that starts at time().

@@ -26,7 +26,6 @@ void visit(bus::ConfigVisitor& v, ModelParameters& parameters);
 // True when `model` names a file rather than a built-in model.
 bool names_a_model_file(const FilePath& model);
 
-// Contents of a model file.
 struct ModelFile {
   ModelParameters parameters;
   std::optional<SensorSettings> sensors;  // empty without [sensors]

@@ -115,7 +115,6 @@ void visit_usbl(ConfigVisitor& v, UsblSettings& usbl) {
 const std::vector<std::string> kFaultKinds{"stuck-rudder", "stuck-stern-planes", "lost-propeller",
                                            "leak",         "dead-sensor",        "empty-battery"};
 
-// Visits the keys of one kind of fault.
 void visit_damage(ConfigVisitor& v, Fault& f) {
   const auto with = [&](std::initializer_list<FaultKind> kinds, const std::function<void()>& body) {
     bus::when_one_of(v, "kind", f.kind, kFaultKinds, kinds, body);

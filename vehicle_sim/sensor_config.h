@@ -36,7 +36,6 @@ struct FaultEntry {
   SimTime until;  // time of the repair; not after fault.from: never repaired
 };
 
-// Visits the list [[fault]].
 void visit_faults(bus::ConfigVisitor& v, std::vector<FaultEntry>& faults);
 
 }  // namespace halocline::vehicle_sim

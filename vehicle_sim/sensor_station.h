@@ -67,7 +67,6 @@ class SensorStation {
 
   // Discards all measurements and starts at `start`, which is included when it is an instant of the grid.
   void begin(SimTime start);
-  // Instant of the next measurement.
   SimTime next() const { return next_; }
 
   // Takes the measurements of next(), which the fleet must have reached, and proceeds to the next instant.

@@ -43,7 +43,6 @@ struct TetherEntry {
   double length_m = 10;
 };
 
-// Sensors of one vehicle of the scenario.
 struct VehicleSensors {
   std::string vehicle;
   bool own = false;  // true with a [vehicle.sensors], or a model whose file has [sensors]

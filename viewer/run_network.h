@@ -14,7 +14,6 @@ class RunNetwork {
   RunNetwork(const RunNetwork&) = delete;
   RunNetwork& operator=(const RunNetwork&) = delete;
 
-  // Returns true when that process has ended.
   bool has_ended() const;
 
  private:

@@ -29,7 +29,6 @@ struct FractalRelief {
   std::uint64_t seed = 1;
 };
 
-// One octave of the sum.
 struct ReliefOctave {
   double wavelength_m = 0;
   double amplitude_m = 0;  // the octave's noise is multiplied by this

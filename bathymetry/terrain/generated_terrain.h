@@ -18,7 +18,6 @@
 
 namespace halocline::bathymetry {
 
-// Flat bottom.
 struct FlatShape {
   double depth_m = 100;
 };

@@ -29,7 +29,6 @@ struct GridTrace {
 // architecture has.
 enum class VectorUnit { kSse2, kAvx2, kAvx512 };
 
-// Returns the widest unit that this processor has.
 VectorUnit widest_vector_unit();
 
 // Sets the result of each trace; none may be null. The processor must have `unit`.

@@ -36,7 +36,6 @@ struct ConfigDocument {
   std::vector<std::pair<const toml::node*, std::string>> idle;
   std::set<const toml::table*> entered;  // tables that a read entered
   std::set<const toml::table*> shared;   // tables whose other keys are read by other programs
-  // Files that a key names.
   struct Files {
     std::vector<FilePath> paths;
     FileNames names = FileNames::kFiles;

@@ -49,7 +49,6 @@ class LockstepConductor {
 
   // Adds a participant of this process. Call before start() or resume(), or to join later.
   void add_local(const lockstep_join_t& introduction, TakeTurn take);
-  // Starts a new run.
   void start();
   // Continues the run of a journal, whose messages are published again. Throws what replay_journal() throws.
   void resume(const std::vector<JournalEntry>& entries);

@@ -17,7 +17,6 @@
 
 namespace halocline::conductor {
 
-// Progress of a run.
 struct RunState {
   std::int64_t id = 0;
   bool ending = false;  // only last turns remain

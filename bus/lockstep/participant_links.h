@@ -30,7 +30,6 @@ struct ParticipantLink {
   bool wants_to_leave = false;
   bool has_left = false;  // this incarnation has taken its last turn
   bool awaited = false;   // it is in the round, and its result has not been received
-  // Turns that were granted and not answered.
   bus::Bytes granted;
   std::int32_t turns_granted = 0;
   bus::SliceCollector answer;

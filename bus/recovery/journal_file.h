@@ -27,7 +27,6 @@ inline constexpr std::size_t kJournalHeaderBytes = 16;
 // The caller closes the descriptor. Throws InvalidArgument when this fails, when another process has the
 // file, when it is not a regular file, and when it has another header.
 int open_journal(const std::string& path, std::string_view header);
-// Returns the contents of an open file.
 std::vector<std::uint8_t> content_of(int file);
 // Writes all pieces at `at`, or nothing. Returns false when the disk refuses them (the file then ends at
 // `at`), and when the file was deleted, or truncated to less than `at`.

@@ -69,7 +69,6 @@ class LockstepRunner {
   ForEach for_each_;
   std::function<bool(SimTime)> before_instant_;
   Listener listener_;
-  // Keyed by channel.
   std::unordered_map<std::string, std::vector<Node*>, ChannelHash, std::equal_to<>> receivers_;
   LockstepSchedule schedule_;
   SimTime now_;  // time stamp of messages: that of the schedule, or the end that was reached

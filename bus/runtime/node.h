@@ -148,7 +148,6 @@ class Node {
   virtual bool on_wants_commit() { return false; }
   // Called after a step whose resulting state is on disk, for output that does not go over the bus.
   virtual void on_committed() {}
-  // Returns one line of text for STATUS.
   virtual std::string status_text() const = 0;
 
   Bus& bus() { return bus_; }

@@ -23,7 +23,6 @@ class Schedule {
   // `before` holds before the first piece.
   explicit Schedule(Value before, std::size_t most = 64) : before_(std::move(before)), most_(most) {}
 
-  // Sets `value` from `from` on.
   void set(SimTime from, const Value& value) {
     pieces_.insert_or_assign(from, value);
     if (pieces_.size() > most_) make_room();

@@ -28,7 +28,6 @@ struct Shard {
 
   bool serves(VehicleId id) const { return of(id) == index; }
   bool is_alone() const { return count == 1; }
-  // Returns the index of the server of a vehicle.
   int of(VehicleId id) const {
     if (!servers) return id % count;
     const auto found = servers->find(id);

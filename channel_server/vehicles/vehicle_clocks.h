@@ -60,7 +60,6 @@ class VehicleClocks {
   VehicleClocks() = default;  // no vehicle has a clock of its own
   VehicleClocks(const std::vector<ClockOf>& clocks, std::uint64_t seed, SimDuration fix_lag);
 
-  // True when GPS sets any of the clocks.
   bool need_fixes() const;
   // Adds a GPS fix of the vehicle, measured at `at`, in any order. No effect on a clock that GPS does not
   // set.

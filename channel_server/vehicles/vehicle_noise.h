@@ -54,7 +54,6 @@ class VehicleNoise {
   VehicleNoise() = default;  // no vehicle radiates noise
   VehicleNoise(std::vector<NoiseSource> sources, SimDuration lag);
 
-  // Noise sources by vehicle id.
   const std::map<VehicleId, NoiseSource>& sources() const { return sources_; }
   // Adds the turn rate of the vehicle's fastest propeller at `at`, turns per second. No effect for a vehicle
   // that radiates no noise.

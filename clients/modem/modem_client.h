@@ -45,7 +45,6 @@ struct ModemAddress {
   std::int64_t session = 0;
 };
 
-// Options of a packet.
 struct SendOptions {
   std::int8_t kind = modem_send_t::DATA;  // DATA, PING (to one vehicle, whose modem answers with a
                                           // PING_REPLY, or to all, for transponders), MINI_PACKET, ...

@@ -52,7 +52,6 @@ class ModemInterface : private ProtocolPort {
   const std::string& vehicle() const { return modem_.address().vehicle; }
   std::int32_t vehicle_id() const { return modem_.address().vehicle_id; }
 
-  // Stores the outcome of a packet at this vehicle.
   void store(const packet_outcome_t& outcome);
   bool wants_outcomes() const { return listens_.has_value(); }
 

@@ -40,7 +40,6 @@ final class Recorder {
     try {
       outcomes.put(new packet_outcome_t(bytes));
     } catch (IOException undecodable) {
-      // As above.
     }
   }
 }

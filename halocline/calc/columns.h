@@ -37,7 +37,6 @@ InputColumn latitude_column();   // default 45
 std::vector<InputColumn> absorbing_water_columns(acoustics::AbsorptionModel model);
 acoustics::AbsorbingWater to_absorbing_water(const std::vector<double>& values, std::size_t first);
 
-// Returns `front` followed by `back`.
 std::vector<InputColumn> joined(std::vector<InputColumn> front, const std::vector<InputColumn>& back);
 
 // Returns a form that needs no preparation.

@@ -36,7 +36,6 @@ struct InputColumn {
 // InvalidArgument.
 using RowFunction = std::function<std::vector<double>(const std::vector<double>&)>;
 
-// Formula of a quantity.
 struct QuantityForm {
   std::string model;
   std::vector<InputColumn> inputs;
@@ -45,7 +44,6 @@ struct QuantityForm {
   std::function<RowFunction(const CalcOptions&)> prepare;
 };
 
-// Quantity with its formulas.
 struct Quantity {
   std::string name;
   std::string summary;

@@ -8,13 +8,11 @@
 
 namespace halocline::clients {
 
-// Program to run.
 struct ProgramRun {
   std::vector<std::string> command;  // command[0] is a path
   std::string output_path;           // receives stdout and stderr; replaced
 };
 
-// End of a program.
 struct ProgramEnd {
   int exit_code = 0;  // 128 + the signal that ended it, or 127 when it could not be started
   bool stopped = false;

@@ -61,7 +61,6 @@ struct Delivered {
   std::int64_t packets = 0, received = 0;
 };
 
-// Results of one run.
 struct RunMetrics {
   std::array<double, kRunNumbers> numbers{};
   double simulated_s = 0;

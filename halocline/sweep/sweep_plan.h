@@ -44,7 +44,6 @@ struct SweepPlan {
   std::size_t runs() const { return points() * seeds.size(); }
 };
 
-// One run of a plan.
 struct SweepRun {
   std::size_t index = 0, point = 0;
   std::vector<std::size_t> at;  // index of the value on each axis

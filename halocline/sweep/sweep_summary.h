@@ -38,7 +38,6 @@ struct PointSummary {
   std::array<MeanEstimate, kRunNumbers> numbers;  // means over runs
 };
 
-// Results of a whole sweep.
 struct SweepResults {
   SweepPlan plan;
   std::vector<std::optional<RunMetrics>> runs;  // indexed by run; empty: failed, or not run yet

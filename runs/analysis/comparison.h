@@ -27,7 +27,6 @@
 
 namespace halocline::clients {
 
-// Outcomes and receipts of a log.
 struct LoggedOutcomes {
   OutcomeSummary summary{60'000'000};
   // Results of receipts, keyed by the vehicle's name, the session and the sequence.
@@ -43,7 +42,6 @@ LoggedOutcomes outcomes_of(LogReader& log, std::int64_t zero_us = 0);
 // Matched outcomes of two logs and the differences between them.
 class Comparison {
  public:
-  // One packet at one receiver.
   struct Row {
     std::optional<packet_outcome_t> before, after;  // at least one is present
     std::string outcome_before, outcome_after;

@@ -21,7 +21,6 @@
 
 namespace halocline::clients {
 
-// Limits of a confidence interval.
 struct ConfidenceInterval {
   double low = 0, high = 0;
 };
@@ -30,7 +29,6 @@ struct ConfidenceInterval {
 // (0, 1), such as 0.95.
 ConfidenceInterval wilson_interval(std::int64_t k, std::int64_t n, double level);
 
-// Sample mean with its confidence interval.
 struct MeanEstimate {
   double mean = 0;              // NaN without a value
   ConfidenceInterval interval;  // NaN with fewer than two values

@@ -15,7 +15,6 @@
 
 namespace halocline::clients {
 
-// Counts of an export.
 struct ExportResult {
   std::map<std::string, std::int64_t> rows_by_file;  // keyed by the path of each file written
   std::int64_t foreign = 0;                          // events on channels that are none of Halocline's

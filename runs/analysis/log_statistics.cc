@@ -38,7 +38,6 @@ void print_named(std::ostream& out, const char* title, const std::array<std::int
 
 }  // namespace
 
-// Counts one valid message.
 template <class Message>
 void LogStatistics::count_message(const LoggedEvent& event, const Message& message) {
   if constexpr (std::is_same_v<Message, modem_receipt_t>) {

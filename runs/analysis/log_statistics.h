@@ -56,10 +56,8 @@ struct LogStatistics {
 // Counts a whole log, including its damaged parts.
 LogStatistics statistics_of(LogReader& log);
 
-// Prints the statistics for a reader.
 void print(std::ostream& out, const LogStatistics& statistics);
 
-// Returns the statistics as one JSON object.
 std::string to_json(const LogStatistics& statistics);
 
 }  // namespace halocline::clients

@@ -33,7 +33,6 @@ class OutcomeSummary : public OutcomeLedger {
 
   void count(const packet_outcome_t& outcome);
 
-  // Returns the outcomes in the order of the log.
   const std::vector<packet_outcome_t>& outcomes() const { return outcomes_; }
   std::int64_t repeated() const { return repeated_; }  // number of repeated outcomes in the log
   // Returns the name of a vehicle id, or the id as text; "several" for 0, the receivers that one outcome sums

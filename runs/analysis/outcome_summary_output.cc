@@ -19,7 +19,6 @@
 namespace halocline::clients {
 namespace {
 
-// Returns the outcomes that occurred.
 std::vector<std::size_t> outcomes_in(const OutcomeSummary& summary) {
   std::vector<std::size_t> outcomes;
   for (std::size_t outcome = 0; outcome < kOutcomes; ++outcome) {

@@ -33,10 +33,8 @@ LoggedTimeline read_timeline(const std::vector<std::string>& logs, TimelineLimit
 bus::ConfigFile recorded_configuration(const std::vector<std::string>& logs,
                                        const std::vector<std::string>& overrides = {});
 
-// Prints a line for each remark.
 void print_remarks(std::ostream& out, const LoggedTimeline& log);
 
-// Prints the rows of run_summary().
 void print_summary(std::ostream& out, const RunTimeline& timeline);
 
 }  // namespace halocline::clients

@@ -8,7 +8,6 @@
 
 namespace halocline::clients {
 
-// Names of the files of a run.
 struct RunFiles {
   std::string log;  // LCM log
   // Effective configuration, beside the log, with a name that ends in .toml; empty: not written.

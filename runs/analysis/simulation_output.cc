@@ -98,7 +98,6 @@ std::int64_t write_simulation_output(LogReader& log, const std::string& path) {
   }
   write();
   recorder.close();
-  // Remove the parts of an earlier log.
   for (const std::string& part : bus::parts_of_log(path)) std::filesystem::remove(part);
   replacement.commit();
   return recorder.events();

@@ -6,7 +6,6 @@
 
 namespace halocline::clients {
 
-// Place on a line.
 struct LinePlace {
   double longitude_deg = 0, latitude_deg = 0, height_m = 0, time_s = 0;  // longitude -180 to 180
 };

@@ -20,7 +20,6 @@ namespace halocline::clients {
 // Returns the CRC-32 of ISO 3309, as in zlib; `crc` is the checksum of the bytes before.
 std::uint32_t crc32(std::string_view bytes, std::uint32_t crc = 0);
 
-// Writer of one file.
 class McapWriter {
  public:
   // Starts a file, which close() moves into place. Throws std::runtime_error when it cannot be written.

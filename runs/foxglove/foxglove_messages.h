@@ -40,7 +40,6 @@ PlaceOnEarth place_of(const bathymetry::LocalFrame& frame, const Vec3& position_
 // Returns a foxglove.LocationFix; null before the first state.
 nlohmann::json foxglove_fix(const VehicleRecord& vehicle, const bathymetry::LocalFrame& frame, SimTime at);
 
-// Return a foxglove.Log.
 nlohmann::json foxglove_log(SimTime at, bool is_loss, const std::string& name, const std::string& message);
 nlohmann::json foxglove_log_of(const RunTimeline& timeline, const packet_outcome_t& outcome);
 

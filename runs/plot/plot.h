@@ -17,7 +17,6 @@
 
 namespace halocline::clients {
 
-// Series of points.
 struct Series {
   enum Style { kStems, kBars, kLines, kPoints };
   std::string title;  // empty: not in the key
@@ -25,7 +24,6 @@ struct Series {
   std::vector<double> x = {}, y = {};  // equal in size, finite
 };
 
-// Chart with two axes.
 struct Chart {
   std::string x = {}, y = {};  // titles of the axes
   std::vector<Series> series = {};
@@ -33,7 +31,6 @@ struct Chart {
   std::string when_empty = "no data";        // shown when no series has a point
 };
 
-// Plot with one chart or more.
 struct Plot {
   std::string title = {};
   std::vector<Chart> charts;  // at least one

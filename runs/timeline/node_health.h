@@ -13,7 +13,6 @@
 
 namespace halocline::clients {
 
-// Record of one program.
 struct NodeRecord {
   node_status_t status{};               // last STATUS; its counters start at 0 with the node
   std::int64_t statuses = 0;            // number of STATUS messages received

@@ -10,7 +10,6 @@
 
 namespace halocline::clients {
 
-// Class of outcomes with its look.
 struct OutcomeClass {
   const char* key;     // name in style sheets and in the page: [a-z_]
   const char* label;   // name for a reader

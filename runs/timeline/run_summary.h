@@ -10,7 +10,6 @@
 
 namespace halocline::clients {
 
-// Row of a summary.
 struct SummaryRow {
   std::string key;   // a vehicle, "packets", "received", "lost", ...; empty: continues the row above
   std::string text;  // without a full stop

@@ -61,7 +61,6 @@ struct RunScenario {
   double duration_s = 0;
 };
 
-// Numbers of messages.
 struct TimelineCounts {
   std::int64_t messages = 0;      // passed to add()
   std::int64_t unknown = 0;       // on a channel that is none of Halocline's

@@ -57,7 +57,6 @@ class TimedSeries {
     const std::span<const Entry> before = between(SimTime::at_once(), at);
     return before.empty() ? nullptr : &before.back();
   }
-  // Returns the entries with from <= time <= to.
   std::span<const Entry> between(SimTime from, SimTime to) const {
     const auto first = index_from(from);
     const auto last = std::upper_bound(entries_.begin(), entries_.end(), to,

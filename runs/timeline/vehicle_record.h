@@ -40,7 +40,6 @@ std::optional<TrackState> state_at(const Track& track, SimTime at);
 std::vector<Timed<TrackPoint>> decimated_track(const Track& track, SimTime from, SimTime to,
                                                std::size_t max_points);
 
-// Record of one vehicle.
 struct VehicleRecord {
   std::size_t index = 0;  // position in the list of vehicles, in the order of their first message
   std::string name;       // the id as text while only that is known

@@ -63,7 +63,6 @@ class LiveSea : public modem_gateway::SoundField {
     double next_arrival_s;  // earliest arrival of the next block
     std::deque<Block> blocks;
   };
-  // Sound that a vehicle emits.
   struct Sound {
     std::string vehicle;
     acoustics::Samples pressure;             // uPa at 1 m

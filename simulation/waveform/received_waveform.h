@@ -29,14 +29,12 @@
 
 namespace halocline::clients {
 
-// Waveform that a vehicle transmits.
 struct SentWaveform {
   std::string vehicle;
   acoustics::Samples sound;  // begin_s: simulation time of its first sample, 0 or later
   Decibels source_level;     // level of a sine of amplitude 1, dB re 1 uPa at 1 m
 };
 
-// Receiver and its recording.
 struct WaveformRules {
   std::string receiver;        // name of a vehicle
   double begin_s = 0;          // simulation time of the first recorded sample

@@ -17,7 +17,6 @@ enum class FinLaw {
   kLocalFlow,   // force by the local flow angle, including the velocity of the fin itself
 };
 
-// One pair of fins.
 struct FinPair {
   double area_m2 = 0;             // area of the pair, 0 or above
   double lift_slope_per_rad = 0;  // 0 or above

@@ -19,7 +19,6 @@ struct Motion {
   Vec3 position, velocity, angular_velocity;
 };
 
-// Returns the velocity of the point of the body that is at `point_ned_m`.
 Vec3 velocity_at(const Motion& cg, const Vec3& point_ned_m);
 
 Motion motion_of_cg(const Model& model, const VehicleState& state);
@@ -41,7 +40,6 @@ struct Impulse {
   Vec3 linear = Vec3::Zero(), moment = Vec3::Zero();
 };
 
-// Returns the impulse of `force_n` at `point_ned_m` over `step_s`.
 Impulse impulse_of(const Vec3& force_n, const Vec3& point_ned_m, double step_s);
 
 // Returns the change of the point's velocity along the unit vector `direction` for a unit impulse along it

@@ -240,7 +240,6 @@ ActuatorValues advanced(const ActuatorValues& a, const ActuatorValues& rate, dou
   return next;
 }
 
-// Returns s + dt rate.
 Numbers advanced(const Numbers& s, const Numbers& rate, double dt) {
   Numbers next{s.position + dt * rate.position, s.orientation, s.velocity + dt * rate.velocity,
                advanced(s.actuators, rate.actuators, dt)};

@@ -32,7 +32,6 @@ struct StateRate {
   ActuatorValues actuators;                               // rad/s, Hz/s
 };
 
-// Flow of the water relative to a vehicle.
 struct RelativeFlow {
   BodyVelocity nu_r;     // velocity relative to the water
   Axes current_rate;     // rate of change of the current in the body frame, m/s^2

@@ -47,7 +47,6 @@ Submergence submergence(const ModelParameters& model, const VehicleState& state,
 // under water, in units of the radius. 0 at -1 or less, 1/2 at 0, 1 at 1 or more.
 double submerged_share_of_circle(double depth_in_radii);
 
-// Wet part of the floats.
 struct WetFloats {
   double volume_m3 = 0;
   Axes moment_m4;           // volume times its centroid

@@ -58,7 +58,6 @@ enum class AddedMassCoriolis {
   kRollOnly,  // coupling through roll rate, and the rotational block (as in `remus100-pvs`)
 };
 
-// Treatment of a current in the equations.
 enum class CurrentTreatment {
   // The current is rotated by yaw only, and the propeller sees the speed over ground (as published with
   // `remus100-pvs`).

@@ -89,7 +89,6 @@ class SensorSuite {
   SensorIdentity identity(SensorKind kind) const { return {seed_, vehicle_id_, kind}; }
   std::int64_t sample(SensorKind kind, SimTime when) const;
   [[nodiscard]] bool fires(SensorKind kind, SimTime when, bool dead);
-  // Returns the error of one axis at `when`.
   double error(SensorKind kind, SimTime when, int axis = 0);
 
   SensorSettings settings_;

@@ -12,7 +12,6 @@
 
 namespace halocline::vehicle_sim {
 
-// Tangent plane of the seabed at a point.
 struct SeabedPlane {
   double z_m = 0;                    // z of the seabed at that point
   Vec3 normal_ned = -Vec3::UnitZ();  // unit, out of the seabed: its z component is negative

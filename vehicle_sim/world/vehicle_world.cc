@@ -21,7 +21,6 @@ constexpr double kMinDistance = 1e-6;    // m: a tether whose ends coincide has 
 
 }  // namespace
 
-// Contact of a vehicle with the seabed.
 struct VehicleWorld::Contact {
   std::size_t vehicle;
   dJointID joint;

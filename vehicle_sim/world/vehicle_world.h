@@ -108,7 +108,6 @@ class VehicleWorld {
   double tether_distance_m(std::size_t tether) const;
   double tether_pull_n(std::size_t tether) const { return tethers_[tether].pull_n; }
 
-  // True when the vehicle touched another one in the last step.
   bool touches_vehicle(std::size_t index) const { return vehicles_[index].touches_vehicle; }
 
   // Sum of the seabed's forces on the vehicle in the last step, N, world frame; zero without contact.

@@ -30,7 +30,6 @@ class QueryDesk {
 
   void ask(link_query_t query, LinkDone done);
   void ask(terrain_query_t query, TileDone done);
-  // Returns true for the channel of a reply to this client.
   bool is_reply(std::string_view channel) const;
   void take(const BusMessage& reply);
   void tick(double steady_s);

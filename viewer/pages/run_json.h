@@ -31,7 +31,6 @@ bool is_same_condition(const nlohmann::json& state, const nlohmann::json& other)
 
 // Returns a fault as text: "rudder stuck at 5 degrees".
 std::string fault_text(const vehicle_fault_t& fault);
-// Returns the faults that are active at one time.
 std::vector<vehicle_fault_t> faults_at(const clients::VehicleRecord& vehicle, SimTime at);
 
 }  // namespace halocline::monitor

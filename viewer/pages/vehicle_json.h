@@ -16,7 +16,6 @@ nlohmann::json vehicle_series_json(const clients::RunTimeline& timeline,
                                    const clients::VehicleRecord& vehicle, const TimeWindow& window,
                                    std::size_t max_points);
 
-// Returns the tracks of all vehicles.
 nlohmann::json tracks_json(const clients::RunTimeline& timeline, const TimeWindow& window,
                            std::size_t max_points);
 

@@ -10,14 +10,12 @@
 
 namespace halocline::clients {
 
-// Axis of a picture.
 struct Axis {
   double low = 0, high = 1;
   std::string title{};
   std::string tics = "autofreq";  // in gnuplot's syntax
 };
 
-// Picture with two axes.
 struct Picture {
   double width_px = 600, height_px = 300;
   double left_px = 64, right_px = 12, top_px = 12, bottom_px = 44;  // margins around the axes

@@ -24,7 +24,6 @@ struct ReportPart {
 std::string report_page(const ReportPart& part);
 std::string report_page(const ReportPart& before, const ReportPart& after, const Comparison& comparison);
 
-// Returns the style sheet of the page.
 std::string page_style();
 
 }  // namespace halocline::clients

@@ -55,12 +55,10 @@ class WebServer {
   // Returns the URL of the page, with the token.
   virtual std::string url() const = 0;
 
-  // Serves for that duration.
   virtual void run_for(std::chrono::milliseconds duration) = 0;
   // Offers refused messages again, and drops clients that have stalled.
   virtual void resume() = 0;
 
-  // Ends a connection.
   virtual void close(ConnectionId id) = 0;
   // Queues one message; ignored for a connection that has ended. Never calls back.
   virtual void send(ConnectionId id, SharedBytes message, bool binary) = 0;

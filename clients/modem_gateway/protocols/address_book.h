@@ -29,7 +29,6 @@ class AddressBook {
   // Gives this address to `vehicle_id` alone, which loses any earlier address.
   void assign(std::int32_t vehicle_id, std::int32_t address);
 
-  // Returns true when the address has been given to a vehicle.
   bool is_given(std::int32_t address) const { return vehicles_.contains(address); }
   // Returns the id of the vehicle at the address; kNobody when no modem has it.
   std::int32_t vehicle_of(std::int32_t address) const;

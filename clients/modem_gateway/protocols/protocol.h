@@ -93,7 +93,6 @@ class ProtocolPort {
   virtual void note(std::string_view event, std::string_view details) = 0;
 };
 
-// Context in which a protocol is made.
 struct ProtocolContext {
   ProtocolPort& port;
   AddressBook& addresses;  // addresses of all modems of this kind

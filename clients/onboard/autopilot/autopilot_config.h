@@ -21,7 +21,6 @@
 
 namespace halocline::clients {
 
-// Actuators by which the vehicle is steered.
 enum class Steering { kFins, kThrusters, kBuoyancy };
 
 // Source of the vehicle's position.

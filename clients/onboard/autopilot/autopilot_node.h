@@ -92,7 +92,6 @@ class AutopilotNode : public bus::Node {
   std::optional<Situation> situation_of(Pilot& pilot, SimTime instant) const;
   void command_all(SimTime instant);
   bool is_fresh(std::int64_t utime, SimTime now) const;
-  // Returns the actuator command for the set points `points`.
   vehicle_command_t command_for(Pilot& pilot, const SetPoints& points, const Situation& situation) const;
   SetPoints steer(Pilot& pilot, const Situation& situation, SimTime instant);
   void report(Pilot& pilot, const std::optional<SetPoints>& points, SimTime instant);

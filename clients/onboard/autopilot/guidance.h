@@ -40,7 +40,6 @@ struct Mission {
   double min_altitude_m = 3;       // minimum height above the seabed, where it is measured; 0 or above
 };
 
-// Progress of a mission.
 struct Progress {
   std::size_t target = 0;  // index of the next waypoint
   Vec3 leg_start_ned_m = Vec3::Zero();

@@ -67,7 +67,6 @@ class SeabedAhead {
   double way_m_ = 0;
 };
 
-// Rules for keeping a height above the seabed.
 struct SeabedRules {
   double min_altitude_m = 3;  // minimum height, 0 or above
   double ahead_m = 4;         // distance ahead at which the seabed is considered, 0 or above

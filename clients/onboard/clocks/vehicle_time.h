@@ -31,7 +31,6 @@ class VehicleTime {
 
   // Returns true when the vehicle's time differs from simulation time.
   bool has_clock(std::int32_t vehicle_id) const { return owners_.contains(vehicle_id); }
-  // Returns the reading of the vehicle's clock at the simulation time `at`.
   SimTime shown(std::int32_t vehicle_id, SimTime at) const;
   // Returns the first simulation time, not before the latest set_now(), at which the clock shows `shown` or
   // more. It is a whole microsecond, and is late by at most what the clock's random walk gains meanwhile.

@@ -33,7 +33,6 @@ void visit_clock_rules(ConfigVisitor& v, EstimatorRules& r) {
            {0, 1e-3, "s/sqrt(s)", "random walk of the clock's offset"});
 }
 
-// Visits the errors that the estimator assumes.
 void visit_errors(ConfigVisitor& v, VehicleLocaliser& l) {
   EstimatorRules& r = l.rules;
   v.number("timing_sigma_s", l.timing_sigma_s, {1e-7, 1, "s", "deviation of a measured travel time"});

@@ -21,7 +21,6 @@
 
 namespace halocline::networks {
 
-// Functions that a MAC calls.
 struct MacPort {
   std::function<void(SimTime at, const MacFrame&)> transmit;  // hands a frame to the modem
   std::function<void(SimTime at, const MacFrame&)> deliver;  // passes on a frame for this vehicle, or for all

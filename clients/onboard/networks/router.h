@@ -17,7 +17,6 @@
 
 namespace halocline::networks {
 
-// Functions that a router calls.
 struct RouterPort {
   std::function<void(SimTime at, MacFrame)> hand_down;  // to the MAC
   std::function<void(SimTime at, const NetworkPacket&)> deliver;
@@ -31,7 +30,6 @@ class Router {
   Router(const Router&) = delete;
   Router& operator=(const Router&) = delete;
 
-  // Sends a packet that this vehicle offers.
   virtual void offer(const NetworkPacket& packet, SimTime now) = 0;
   // Handles a frame that the MAC received for this vehicle, or for all.
   virtual void take(const MacFrame& frame, SimTime at) = 0;

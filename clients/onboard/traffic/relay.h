@@ -36,7 +36,6 @@ struct RelayRules {
   SimDuration longest_wait = SimDuration::from_milliseconds(2000);  // 0 and up
 };
 
-// Counts of one vehicle.
 struct RelayCounters {
   std::int64_t originated = 0;  // own packets, each once
   std::int64_t delivered = 0;   // packets of others to this vehicle or to all, each once

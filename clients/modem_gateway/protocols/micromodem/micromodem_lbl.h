@@ -36,7 +36,6 @@ class MicromodemLbl {
   // Reads the option `lbl`: ADDRESS or ADDRESS:CODE, with / between. Throws InvalidArgument for any other
   // text.
   void name_transponders(const std::string& text);
-  // Returns the vehicles of all transponders.
   std::vector<std::int32_t> transponders() const;
   // Returns false for a command that belongs to another part.
   bool obey(ClientId client, const NmeaSentence& sentence);

@@ -76,7 +76,6 @@ class S2cSender {
   void finish(std::optional<OnItsWay>& place, bool delivered);
   void next_burst();
 
-  // Returns the next message number for that address.
   int next_number(bool is_burst, std::int32_t address);
 
   S2cCore& core_;
