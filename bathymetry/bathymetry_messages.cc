@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "bathymetry/terrain/height_grid.h"
-#include "bathymetry/terrain/terrain.h"
 #include "core/frames.h"
 
 namespace halocline::bathymetry {

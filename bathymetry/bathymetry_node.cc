@@ -5,11 +5,8 @@
 #include <utility>
 
 #include "bathymetry/rasters/terrain_recipe.h"
-#include "bathymetry/ray_service.h"
-#include "bus/bus.h"
 #include "bus/messages/channels.h"
 #include "core/check.h"
-#include "core/sim_time.h"
 
 namespace halocline::bathymetry {
 namespace {

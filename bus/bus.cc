@@ -5,16 +5,10 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <functional>
-#include <map>
-#include <memory>
 #include <unordered_map>
-#include <utility>
 
-#include "bus/messages/channel_pattern.h"
 #include "core/check.h"
 #include "core/hash.h"
-#include "core/names.h"
 
 namespace halocline::bus {
 namespace {

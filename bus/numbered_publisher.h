@@ -14,7 +14,6 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "bus/bus.h"
 #include "core/archive.h"

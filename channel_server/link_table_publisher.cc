@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/link_table_publisher.h"
 
-#include <utility>
-
 #include "acoustics/modem/modem.h"
 #include "bus/messages/channels.h"
 #include "channel_server/link_messages.h"

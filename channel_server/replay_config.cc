@@ -11,7 +11,6 @@
 #include "bus/config/carried_files.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/check.h"
-#include "core/files/file_path.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/water_model.h"
 
-#include <filesystem>
-#include <string>
 #include <utility>
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed.h"
-#include "channel_server/propagation/measured_propagation.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/straight_propagation.h"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"

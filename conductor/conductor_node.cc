@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "conductor/conductor_node.h"
 
-#include <string>
 #include <utility>
 
 #include "bus/transport/subscription.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/archive.h"
 
-#include <utility>
-
 namespace halocline {
 
 void Archive::begin_with_parts(bool all_parts) {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/csv_table.h"
 
-#include <charconv>
 #include <cmath>
 #include <istream>
 #include <set>
-#include <system_error>
 
 namespace halocline {
 namespace {

@@ -2,12 +2,9 @@
 #include "ocean/ocean_field_reader.h"
 
 #include <map>
-#include <memory>
 #include <mutex>
-#include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "core/files/guarded_reading.h"
 #include "core/shared_module.h"

@@ -2,14 +2,9 @@
 #include "simulation/scenario_checks.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <map>
-#include <memory>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "acoustics/modem/modem.h"
 #include "bus/config/scenario.h"
@@ -17,7 +12,6 @@
 #include "channel_server/channel_server_config.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_framing.h"
-#include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "clients/onboard/autopilot/autopilot_config.h"
 #include "clients/onboard/autopilot/formation.h"

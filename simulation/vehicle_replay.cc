@@ -16,7 +16,6 @@
 #include "core/sim_time.h"
 #include "core/units.h"
 #include "runs/analysis/run_files.h"
-#include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/model_config.h"
 

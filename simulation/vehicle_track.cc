@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
-#include <string>
 #include <variant>
 
 #include <lcm/lcm-cpp.hpp>

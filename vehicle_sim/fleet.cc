@@ -2,13 +2,11 @@
 #include "vehicle_sim/fleet.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/check.h"
 #include "vehicle_sim/dynamics/actuator_forces.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 #include "vehicle_sim/dynamics/submergence.h"
-#include "vehicle_sim/dynamics/vehicle_model.h"
 
 namespace halocline::vehicle_sim {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle_sim/model_config.h"
 
-#include <limits>
 #include <string_view>
+#include <vector>
 
 #include "bus/config/carried_files.h"
 #include "core/check.h"
-#include "core/files/file_path.h"
 #include "vehicle_sim/dynamics/actuators.h"
 #include "vehicle_sim/model_library.h"
 #include "vehicle_sim/sensor_config.h"

@@ -11,7 +11,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "bus/config/config.h"
 #include "core/files/file_path.h"

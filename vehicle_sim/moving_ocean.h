@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "bus/config/scenario.h"
 #include "ocean/ocean_field.h"

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <optional>
-#include <string>
 
 #include "core/csv_table.h"
 #include "core/frames.h"

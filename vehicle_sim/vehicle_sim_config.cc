@@ -7,7 +7,6 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string_view>
 
 #include "bus/config/carried_files.h"
@@ -20,7 +19,6 @@
 #include "vehicle_sim/model_config.h"
 #include "vehicle_sim/model_library.h"
 #include "vehicle_sim/moving_ocean.h"
-#include "vehicle_sim/power/battery.h"
 
 namespace halocline::vehicle_sim {
 namespace {

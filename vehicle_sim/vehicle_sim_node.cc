@@ -2,7 +2,6 @@
 #include "vehicle_sim/vehicle_sim_node.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
 #include <variant>
 

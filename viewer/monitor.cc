@@ -7,10 +7,8 @@
 #include <iostream>
 #include <optional>
 #include <ostream>
-#include <string>
 #include <utility>
 
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "bus/runtime/node_process.h"

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "acoustics/link/transmission_loss.h"
-#include "acoustics/math/frequency_band.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {

@@ -8,7 +8,6 @@
 #include "acoustics/link/capacity.h"
 #include "acoustics/link/transmission_loss.h"
 #include "acoustics/math/depth_cells.h"
-#include "acoustics/math/frequency_band.h"
 #include "acoustics/math/gauss_legendre.h"
 #include "acoustics/sea/absorption.h"
 #include "core/elementary.h"

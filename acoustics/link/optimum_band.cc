@@ -2,10 +2,8 @@
 #include "acoustics/link/optimum_band.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "acoustics/link/transmission_loss.h"
-#include "acoustics/math/frequency_band.h"
 #include "core/check.h"
 #include "core/elementary.h"
 

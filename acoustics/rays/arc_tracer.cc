@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <numbers>
 
 #include "acoustics/math/arc_math.h"
-#include "acoustics/sea/ray_water.h"
 #include "core/check.h"
 #include "core/elementary.h"
 

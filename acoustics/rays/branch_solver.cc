@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/rays/branch_solver.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "acoustics/math/fold_field.h"

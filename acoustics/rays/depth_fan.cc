@@ -4,13 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "acoustics/math/hermite_cubic.h"
-#include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/branch_solver.h"
-#include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/profile_rays.h"
 #include "core/elementary.h"
 

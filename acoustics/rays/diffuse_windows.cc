@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/rays/diffuse_windows.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>

@@ -2,7 +2,6 @@
 #include "acoustics/rays/fan_tracer.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "acoustics/sea/boundary_reflection.h"
 #include "core/elementary.h"

@@ -4,7 +4,6 @@
 // Equations: acoustics/rays/layered_rays.h.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/traced_eigenray.h"
 
 namespace halocline::acoustics {

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "acoustics/math/fold_field.h"
 #include "acoustics/math/hermite_cubic.h"
 #include "acoustics/rays/profile_rays.h"
 #include "acoustics/rays/traced_eigenray.h"

@@ -2,9 +2,11 @@
 #include "acoustics/rays/section_tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "acoustics/math/hermite_cubic.h"
 #include "core/elementary.h"

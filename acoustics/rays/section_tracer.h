@@ -22,9 +22,6 @@
 // its plane.
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "acoustics/rays/arcs/arc_steps.h"
 #include "acoustics/rays/ray_trace.h"
 #include "acoustics/sea/bottom_profile.h"

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/rays/traced_eigenray.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <numbers>
 #include <queue>
 #include <utility>
 

@@ -16,7 +16,6 @@
 //   (convolutional_code.h).
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "acoustics/modem/modem.h"

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "acoustics/math/depth_cells.h"
 #include "acoustics/math/gauss_legendre.h"
 #include "core/check.h"
-#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {

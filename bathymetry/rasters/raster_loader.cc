@@ -6,7 +6,6 @@
 #include <limits>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "bathymetry/rasters/raster_source.h"
 #include "core/check.h"

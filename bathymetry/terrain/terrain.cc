@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <utility>
 
 #include "bathymetry/terrain/nesting.h"
 #include "bathymetry/terrain/terrain_version.h"

@@ -9,17 +9,16 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
-#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "bus/config/config.h"
 #include "bus/config/config_document.h"
 #include "core/check.h"
-#include "core/files/file_path.h"
 #include "core/files/input_file.h"
 #include "core/hash.h"
 #include "core/text/base64.h"

@@ -2,10 +2,8 @@
 #include "bus/config/config.h"
 
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
-#include "core/files/file_path.h"
 #include "core/files/input_file.h"
 #include "core/units.h"
 

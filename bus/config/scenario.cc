@@ -5,11 +5,9 @@
 #include <cstddef>
 #include <functional>
 #include <set>
-#include <string>
 
 #include "bus/config/carried_files.h"
 #include "bus/transport/receive_filter.h"
-#include "core/files/file_path.h"
 #include "core/limits.h"
 #include "core/names.h"
 

@@ -2,7 +2,6 @@
 #include "bus/lockstep/membership.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 #include "bus/lockstep/agreement.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/lockstep/sequencer.h"
 
-#include <iterator>
 #include <stdexcept>
 #include <tuple>
 

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <numeric>
 #include <sstream>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 

@@ -2,6 +2,7 @@
 #include "bus/recovery/journal_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <optional>

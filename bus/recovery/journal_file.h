@@ -11,7 +11,6 @@
 // open (POSIX record lock).
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -2,12 +2,10 @@
 #include "bus/recovery/message_journal.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <limits>
-#include <utility>
 
 #include "bus/messages/message_codec.h"
 #include "bus/messages/sequence_number.h"

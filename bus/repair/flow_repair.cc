@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/repair/flow_repair.h"
 
-#include <algorithm>
-
 #include "core/hash.h"
 
 namespace halocline::bus {

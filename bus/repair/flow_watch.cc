@@ -2,7 +2,6 @@
 #include "bus/repair/flow_watch.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace halocline::bus {

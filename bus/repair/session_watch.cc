@@ -2,7 +2,6 @@
 #include "bus/repair/session_watch.h"
 
 #include <algorithm>
-#include <string>
 
 #include "bus/transport/node_identity.h"
 

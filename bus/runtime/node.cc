@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/runtime/node.h"
 
-#include <algorithm>
-#include <string_view>
 #include <tuple>
-#include <utility>
 
 #include "bus/recovery/crash_journal.h"
 #include "bus/repair/flow_history.h"

@@ -4,12 +4,10 @@
 #include <chrono>
 #include <cstdio>
 #include <utility>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <unistd.h>
 
-#include "bus/config/config.h"
 #include "bus/runtime/version_text.h"
 #include "bus/transport/transport.h"
 #include "bus/version.h"

@@ -6,11 +6,9 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdint>
 #include <ctime>
 #include <exception>
 #include <string_view>
-#include <utility>
 
 #include <malloc.h>
 #include <poll.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bus/runtime/time_source.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/check.h"

@@ -2,7 +2,6 @@
 #include "bus/transport/datagram_filter.h"
 
 #include <utility>
-#include <vector>
 
 #include <sys/socket.h>
 

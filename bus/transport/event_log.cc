@@ -3,7 +3,6 @@
 
 #include <array>
 #include <memory>
-#include <utility>
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>

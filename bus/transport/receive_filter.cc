@@ -18,7 +18,6 @@
 
 #include "bus/messages/channel_pattern.h"
 #include "bus/messages/channels.h"
-#include "bus/transport/datagram_filter.h"
 #include "bus/transport/transport.h"
 #include "core/check.h"
 

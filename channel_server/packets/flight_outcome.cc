@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "channel_server/packets/platform_noise.h"
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/vehicles/vehicle_id.h"
-#include "channel_server/vehicles/vehicle_power.h"
 #include "core/elementary.h"
 #include "core/frames.h"
 #include "core/names.h"

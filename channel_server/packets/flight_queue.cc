@@ -2,11 +2,9 @@
 #include "channel_server/packets/flight_queue.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <memory>
 #include <utility>
 
-#include "channel_server/packets/packet.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/packets/modem_watch.h"
 
-#include <algorithm>
-
 #include "acoustics/modem/modem.h"
 #include "channel_server/packets/flight_outcome.h"
-#include "channel_server/packets/platform_noise.h"
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/units.h"

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/propagation/measured_propagation.h"
 
-#include <utility>
-
 #include "acoustics/fading/arrival.h"
 #include "acoustics/fading/measured_fading.h"
 #include "acoustics/link/link_budget.h"
-#include "acoustics/link/link_kernel.h"
 #include "acoustics/math/frequency_band.h"
 
 namespace halocline::channel_server {

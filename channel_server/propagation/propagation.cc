@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/propagation/propagation.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "acoustics/modem/beam_pattern.h"
 #include "core/check.h"
 #include "core/elementary.h"

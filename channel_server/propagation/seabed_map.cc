@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "channel_server/propagation/seabed_profile.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/hash.h"

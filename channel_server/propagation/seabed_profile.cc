@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/propagation/seabed_profile.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>

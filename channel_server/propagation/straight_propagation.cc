@@ -2,7 +2,6 @@
 #include "channel_server/propagation/straight_propagation.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/rays/eigenray.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
 
 #include "acoustics/rays/eigenray.h"
 #include "bus/messages/message_checks.h"

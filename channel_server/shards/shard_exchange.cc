@@ -9,7 +9,6 @@
 #include "acoustics/sea/ray_water.h"
 #include "bus/messages/channels.h"
 #include "channel_server/shards/path_messages.h"
-#include "channel_server/vehicles/vehicle_id.h"
 #include "core/hash.h"
 
 namespace halocline::channel_server {

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <string>
-#include <utility>
 
 #include "bus/messages/message_checks.h"
 #include "core/check.h"

@@ -9,7 +9,6 @@
 #include <arpa/inet.h>
 
 #include "clients/modem/modem_client.h"
-#include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/fields.h"
 #include "clients/modem_gateway/protocols/interface_options.h"
 #include "clients/modem_gateway/protocols/protocol.h"

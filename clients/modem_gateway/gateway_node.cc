@@ -8,7 +8,6 @@
 
 #include "bus/messages/channels.h"
 #include "bus/transport/subscription.h"
-#include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "core/check.h"
 

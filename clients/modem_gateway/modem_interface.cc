@@ -9,7 +9,6 @@
 #include "bus/transport/subscription.h"
 #include "clients/modem_gateway/protocols/interface_options.h"
 #include "clients/modem_gateway/protocols/protocols.h"
-#include "clients/modem_gateway/protocols/sound_field.h"
 #include "core/check.h"
 
 namespace halocline::modem_gateway {

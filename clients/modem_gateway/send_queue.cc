@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/modem_gateway/send_queue.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace halocline::modem_gateway {

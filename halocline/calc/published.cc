@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "halocline/calc/published.h"
 
-#include <optional>
-#include <string_view>
-
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/sound_speed.h"

@@ -12,7 +12,6 @@
 
 #include "bus/logs/channel_types.h"
 #include "runs/analysis/log_statistics.h"
-#include "runs/timeline/outcome_ledger.h"
 
 namespace halocline::clients {
 namespace {

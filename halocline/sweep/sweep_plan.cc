@@ -2,7 +2,6 @@
 #include "halocline/sweep/sweep_plan.h"
 
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <string_view>
 

@@ -21,7 +21,6 @@
 #include "core/files/input_file.h"
 #include "runs/analysis/run_files.h"
 #include "runs/timeline/run_summary.h"
-#include "runs/timeline/run_time_base.h"
 
 namespace halocline::clients {
 namespace {

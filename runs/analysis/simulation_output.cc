@@ -2,7 +2,6 @@
 #include "runs/analysis/simulation_output.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string_view>

@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <ctime>
 #include <optional>
-#include <stdexcept>
-#include <string_view>
 #include <utility>
 #include <vector>
 

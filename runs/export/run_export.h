@@ -5,7 +5,6 @@
 // Instants are simulation time, written as if the run had begun on 1970-01-01 at 0:00 UTC.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "runs/timeline/run_timeline.h"

@@ -7,10 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/frames.h"
-#include "runs/timeline/packet_book.h"
 #include "runs/timeline/packet_reasons.h"
-#include "runs/timeline/vehicle_record.h"
 
 namespace halocline::clients {
 namespace {

@@ -12,7 +12,6 @@
 #include <deque>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <vector>
 
 #include "bus/messages/messages.h"

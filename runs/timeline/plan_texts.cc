@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/timeline/plan_texts.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include <fmt/format.h>
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 #include <type_traits>
-#include <utility>
 
 #include "bus/logs/channel_types.h"
 #include "bus/logs/foreign_message.h"

@@ -25,7 +25,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "bus/messages/messages.h"
 #include "core/sim_time.h"

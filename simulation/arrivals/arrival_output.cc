@@ -9,7 +9,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "acoustics/link/received_field.h"
 #include "core/check.h"
 #include "core/csv_table.h"
 #include "core/elementary.h"

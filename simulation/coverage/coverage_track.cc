@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,7 +13,6 @@
 #include "core/files/input_file.h"
 #include "core/frames.h"
 #include "runs/plot/plot.h"
-#include "simulation/coverage/coverage_links.h"
 #include "simulation/link_surveyor.h"
 #include "simulation/vehicle_track.h"
 

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <memory>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include "acoustics/modem/modem.h"

@@ -19,7 +19,6 @@
 #include <set>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "acoustics/waveform/analytic_signal.h"

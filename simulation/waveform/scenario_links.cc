@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/waveform/scenario_links.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

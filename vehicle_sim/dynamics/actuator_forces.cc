@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle_sim/dynamics/actuator_forces.h"
 
-#include <algorithm>
-
 namespace halocline::vehicle_sim {
 namespace {
 

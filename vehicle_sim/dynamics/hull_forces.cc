@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle_sim/dynamics/hull_forces.h"
 
-#include <cmath>
 #include <numbers>
-
-#include "core/elementary.h"
 
 namespace halocline::vehicle_sim {
 

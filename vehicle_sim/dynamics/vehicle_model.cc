@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle_sim/dynamics/vehicle_model.h"
 
-#include <limits>
 #include <numbers>
 #include <utility>
 

@@ -14,7 +14,6 @@
 // Threads: a Model never changes, so any number of threads may read it.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 

@@ -17,7 +17,6 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
-#include <vector>
 
 #include "core/sim_time.h"
 

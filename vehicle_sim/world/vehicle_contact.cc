@@ -2,7 +2,6 @@
 #include "vehicle_sim/world/vehicle_contact.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace halocline::vehicle_sim {

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <iterator>
 #include <numbers>
-#include <utility>
 
 #include "bus/messages/channels.h"
 #include "bus/messages/message_checks.h"
 #include "core/check.h"
 #include "core/names.h"
-#include "runs/timeline/packet_book.h"
 #include "runs/timeline/vehicle_record.h"
 #include "viewer/pages/packet_json.h"
 #include "viewer/pages/request_fields.h"

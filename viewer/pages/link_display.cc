@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "runs/timeline/link_history.h"
-#include "runs/timeline/packet_book.h"
 
 namespace halocline::monitor {
 namespace {

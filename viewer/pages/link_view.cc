@@ -11,7 +11,6 @@
 #include "core/frames.h"
 #include "runs/timeline/link_history.h"
 #include "runs/timeline/packet_book.h"
-#include "runs/timeline/vehicle_record.h"
 
 namespace halocline::monitor {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "core/csv_table.h"
 #include "core/frames.h"
-#include "runs/timeline/packet_book.h"
 #include "runs/timeline/packet_reasons.h"
 #include "runs/timeline/vehicle_record.h"
 

@@ -2,7 +2,6 @@
 #include "viewer/pages/page_session.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/check.h"
 #include "runs/timeline/packet_book.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/pages/query_desk.h"
 
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "bus/messages/channels.h"

@@ -2,7 +2,6 @@
 #include "viewer/pages/request_fields.h"
 
 #include "core/check.h"
-#include "runs/timeline/vehicle_record.h"
 
 namespace halocline::monitor {
 namespace {

@@ -6,13 +6,11 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "bus/version.h"
 #include "runs/timeline/outcome_classes.h"
-#include "runs/timeline/vehicle_record.h"
 #include "viewer/pages/link_display.h"
 #include "viewer/pages/plan_json.h"
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,7 +12,6 @@
 
 #include "core/elementary.h"
 #include "runs/timeline/timed_series.h"
-#include "runs/timeline/vehicle_record.h"
 #include "viewer/pages/plan_json.h"
 #include "viewer/pages/run_json.h"
 

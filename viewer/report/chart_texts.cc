@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "core/sim_time.h"
 #include "runs/timeline/plan_texts.h"
 
 namespace halocline::clients {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/report/packet_links.h"
 
-#include <cstdint>
-
 #include "core/sim_time.h"
 
 namespace halocline::clients {

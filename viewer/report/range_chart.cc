@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/report/range_chart.h"
 
-#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>

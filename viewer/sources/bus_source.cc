@@ -7,9 +7,7 @@
 #include "bus/messages/channels.h"
 #include "bus/runtime/node_process.h"
 #include "bus/transport/transport.h"
-#include "runs/timeline/node_health.h"
 #include "runs/timeline/vehicle_record.h"
-#include "viewer/sources/handover.h"
 #include "viewer/sources/modems.h"
 
 namespace halocline::monitor {

@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <exception>
-#include <functional>
-#include <optional>
 #include <string_view>
 #include <utility>
 

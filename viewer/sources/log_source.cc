@@ -3,15 +3,12 @@
 
 #include <algorithm>
 #include <iostream>
-#include <utility>
 
 #include "bus/config/config.h"
 #include "bus/messages/channels.h"
 #include "core/check.h"
 #include "runs/analysis/run_files.h"
-#include "runs/timeline/node_health.h"
 #include "runs/timeline/vehicle_record.h"
-#include "viewer/sources/handover.h"
 #include "viewer/sources/water_changes.h"
 
 namespace halocline::monitor {

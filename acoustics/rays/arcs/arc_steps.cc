@@ -2,8 +2,6 @@
 #include "acoustics/rays/arcs/arc_steps.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/elementary.h"

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "acoustics/math/arc_math.h"
-#include "acoustics/sea/ray_water.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {

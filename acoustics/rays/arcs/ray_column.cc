@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/rays/arcs/ray_column.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace halocline::acoustics {

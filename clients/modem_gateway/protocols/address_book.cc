@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <set>
-#include <string>
 
 #include "clients/modem_gateway/protocols/fields.h"
 #include "core/check.h"

@@ -7,7 +7,6 @@
 #include "bus/transport/subscription.h"
 #include "clients/onboard/autopilot/autopilot_messages.h"
 #include "clients/onboard/autopilot/formation.h"
-#include "clients/onboard/autopilot/guidance.h"
 #include "clients/onboard/autopilot/seabed_ahead.h"
 #include "core/check.h"
 #include "core/csv_table.h"

@@ -2,7 +2,6 @@
 #include "clients/onboard/autopilot/place_finder.h"
 
 #include <utility>
-#include <vector>
 
 #include "bus/messages/channels.h"
 #include "bus/transport/subscription.h"

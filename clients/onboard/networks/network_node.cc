@@ -2,7 +2,6 @@
 #include "clients/onboard/networks/network_node.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "bus/config/scenario.h"
 #include "core/check.h"

@@ -2,7 +2,6 @@
 #include "clients/onboard/traffic/relay.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/names.h"
 #include "core/random.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/onboard/traffic/traffic_config.h"
 
-#include <algorithm>
 #include <array>
 #include <functional>
 #include <string_view>

@@ -2,6 +2,7 @@
 #include "runs/timeline/run_timeline.h"
 
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,6 @@
 
 #include "clients/modem_gateway/protocols/fields.h"
 #include "core/names.h"
-#include "core/sim_time.h"
 #include "core/text/base64.h"
 
 namespace halocline::modem_gateway {

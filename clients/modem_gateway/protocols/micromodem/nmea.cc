@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clients/modem_gateway/protocols/micromodem/nmea.h"
 
-#include <array>
-
 namespace halocline::modem_gateway {
 
 std::string NmeaSentence::all_fields() const {

@@ -10,7 +10,6 @@
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "core/elementary.h"
 #include "core/frames.h"
-#include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 namespace {
