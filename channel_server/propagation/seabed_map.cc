@@ -71,8 +71,8 @@ class SeabedMap::Reader {
   void add_slopes(const Line& line, SlopeSums& slopes) const {
     for (std::size_t i = 0; i + 1 < kReach; ++i) {
       for (std::size_t j = 0; j + 1 < kReach; ++j) {
-        const double slope = ((cell_[i + 1][j] - cell_[i][j]) * line.along_north +
-                              (cell_[i][j + 1] - cell_[i][j]) * line.along_east) /
+        const double slope = ((cell_[j][i + 1] - cell_[j][i]) * line.along_north +
+                              (cell_[j + 1][i] - cell_[j][i]) * line.along_east) /
                              map_.rule_.spacing_m;
         if (std::isnan(slope)) continue;
         ++slopes.count;
@@ -109,7 +109,7 @@ class SeabedMap::Reader {
     const std::int64_t origin = (n - kSide * index_.north) * kSide + e - kSide * index_.east;
     for (int i = first_i; i < end_i; ++i) {
       for (int j = first_j; j < end_j; ++j)
-        cell_[i][j] = known ? tile->z_m[static_cast<std::size_t>(origin + i * kSide + j)] : kUnknown;
+        cell_[j][i] = known ? tile->z_m[static_cast<std::size_t>(origin + i * kSide + j)] : kUnknown;
     }
     if (known && tile->held != 0) note_held(*tile, origin, first_i, end_i, first_j, end_j);
   }
@@ -125,14 +125,14 @@ class SeabedMap::Reader {
     const auto wn = spline_weights(u), we = spline_weights(v);
     const double z0 = cell_[kHere][kHere];
     // Weights are applied to differences, so a level seabed stays level to the last bit.
-    double z = z0;
-    for (int i = 0; i < kReach; ++i) {
-      double row = 0;
-      for (int j = 0; j < kReach; ++j) row += we[j] * (cell_[i][j] - z0);
-      z += wn[i] * row;
+    std::array<double, kReach> rows{};
+    for (int j = 0; j < kReach; ++j) {
+      for (int i = 0; i < kReach; ++i) rows[i] += we[j] * (cell_[j][i] - z0);
     }
+    double z = z0;
+    for (int i = 0; i < kReach; ++i) z += wn[i] * rows[i];
     if (!std::isnan(z)) return z;
-    return mean_of_known({z0, cell_[kNext][kHere], cell_[kHere][kNext], cell_[kNext][kNext]},
+    return mean_of_known({z0, cell_[kHere][kNext], cell_[kNext][kHere], cell_[kNext][kNext]},
                          {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v});
   }
 
@@ -142,7 +142,7 @@ class SeabedMap::Reader {
   const Tile* tile_ = nullptr;
   bool read_ = false, cell_held_ = false;
   std::int64_t cell_north_ = 0, cell_east_ = 0;
-  std::array<std::array<double, kReach>, kReach> cell_{};
+  std::array<std::array<double, kReach>, kReach> cell_{};  // by columns, whose sums the compiler takes at once
 };
 
 SeabedMap::SeabedMap(const SeabedRule& rule) : rule_(rule) {
