@@ -43,20 +43,19 @@ void TileSurvey::take(std::span<const RayAnswer> answers) {
   }
 }
 
-// Reader of the lattice along a line; it keeps the last tile because the next point is most often in it.
+// Reader of the lattice along a line; it keeps four neighbouring tiles, in which the next points most often
+// lie.
 class SeabedMap::Reader {
  public:
   explicit Reader(const SeabedMap& map) : map_(map) {}
 
-  // Returns the tile of a point; null when it was not answered. A tile whose query failed is returned.
-  const Tile* tile_at(std::int64_t north, std::int64_t east) {
-    const TileIndex index{tile_of(north), tile_of(east)};
-    if (known_ && index == index_) return tile_;
+  // Returns a tile; null when it was not answered. A tile whose query failed is returned.
+  const Tile* find_tile(const TileIndex& index) {
+    Lookup& last = last_[static_cast<std::size_t>((index.north & 1) * 2 + (index.east & 1))];
+    if (last.known && index == last.index) return last.tile;
     const auto found = map_.tiles_.find(index);
-    known_ = true;
-    index_ = index;
-    tile_ = found == map_.tiles_.end() ? nullptr : &found->second;
-    return tile_;
+    last = {true, index, found == map_.tiles_.end() ? nullptr : &found->second};
+    return last.tile;
   }
   double seabed(const Line& line, int sample) {
     const double way = sample * line.spacing_m;
@@ -104,9 +103,10 @@ class SeabedMap::Reader {
   // point is (n, e).
   void read_part(std::int64_t n, std::int64_t e, int first_i, int end_i, int first_j, int end_j) {
     if (first_i == end_i || first_j == end_j) return;
-    const Tile* tile = tile_at(n + first_i, e + first_j);
+    const TileIndex index{tile_of(n + first_i), tile_of(e + first_j)};
+    const Tile* tile = find_tile(index);
     const bool known = tile != nullptr && tile->answered;
-    const std::int64_t origin = (n - kSide * index_.north) * kSide + e - kSide * index_.east;
+    const std::int64_t origin = (n - kSide * index.north) * kSide + e - kSide * index.east;
     for (int i = first_i; i < end_i; ++i) {
       for (int j = first_j; j < end_j; ++j)
         cell_[j][i] = known ? tile->z_m[static_cast<std::size_t>(origin + i * kSide + j)] : kUnknown;
@@ -136,13 +136,18 @@ class SeabedMap::Reader {
                          {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v});
   }
 
+  struct Lookup {
+    bool known = false;
+    TileIndex index;
+    const Tile* tile = nullptr;
+  };
+
   const SeabedMap& map_;
-  bool known_ = false;
-  TileIndex index_;
-  const Tile* tile_ = nullptr;
+  std::array<Lookup, 4> last_{};
   bool read_ = false, cell_held_ = false;
   std::int64_t cell_north_ = 0, cell_east_ = 0;
-  std::array<std::array<double, kReach>, kReach> cell_{};  // by columns, whose sums the compiler takes at once
+  std::array<std::array<double, kReach>, kReach>
+      cell_{};  // by columns, whose sums the compiler takes at once
 };
 
 SeabedMap::SeabedMap(const SeabedRule& rule) : rule_(rule) {
