@@ -154,13 +154,47 @@ std::array<StratifiedAverage::Levels, kPowers> levels_of(const PacketLevels& pac
   return levels;
 }
 
-void add_powers(const PacketLevels& packet, const ReceptionStatistics& sound, StratifiedAverage& mean) {
+// Averages of the link as it is and, if there are shifts, with each of them.
+class ShiftedAverages {
+ public:
+  ShiftedAverages(double deviation, const ReceptionCurves& curves, const ReceptionStatistics& sound,
+                  double noise, const MarginShifts& shifts)
+      : now_(deviation, curves, sound, noise) {
+    if (!shifts.any()) return;
+    for (const double shift_db : {shifts.low_db, shifts.high_db})
+      shifted_.emplace_back(deviation, curves, sound, noise * fast_power(-shift_db));
+  }
+  const StratifiedAverage& now() const { return now_; }
+  bool finds(const Level& preamble) const {
+    return now_.finds(preamble) && std::all_of(shifted_.begin(), shifted_.end(),
+                                               [&](const auto& one) { return one.finds(preamble); });
+  }
+  void add(const Level& preamble, const StratifiedAverage::Levels& bits, std::size_t state, double share) {
+    now_.add(preamble, bits, state, share);
+    for (StratifiedAverage& one : shifted_) one.add(preamble, one.levels_from(now_, bits), state, share);
+  }
+  LinkPrediction prediction(double sinr) const {
+    const double delivery = now_.delivery_probability();
+    LinkPrediction all{sinr, now_.acquisition_probability(), delivery, delivery, delivery};
+    if (shifted_.empty()) return all;
+    all.delivery_low = shifted_.front().delivery_probability();
+    all.delivery_high = shifted_.back().delivery_probability();
+    return all;
+  }
+
+ private:
+  StratifiedAverage now_;
+  std::vector<StratifiedAverage> shifted_;
+};
+
+void add_powers(const PacketLevels& packet, const ReceptionStatistics& sound, ShiftedAverages& mean) {
   GammaPower block_fading = sound.block_fading;
   const bool alike = block_fading.variance < squared(kAlike * (block_fading.mean + sound.fast));
   if (alike) block_fading = {block_fading.mean};
   std::array<double, kPowers> powers = block_fading.at(block_fading_states().powers);
   for (double& power : powers) power = std::max(power, 0.0);
-  const auto levels = levels_of(packet, mean, powers, std::max(block_fading.at(0), 0.0), sound.fast);
+  const auto levels =
+      levels_of(packet, mean.now(), powers, std::max(block_fading.at(0), 0.0), sound.fast);
   Level preamble;
   for (std::size_t i = 0; i < kPowers; ++i) {
     if (i == 0 || (!alike && !mean.finds(preamble))) {
@@ -258,9 +292,9 @@ std::array<StratifiedAverage::Levels, kPatterns> levels_of(
   return levels;
 }
 
-void add_patterns(const PacketLevels& packet, const ReceptionStatistics& sound, StratifiedAverage& mean) {
+void add_patterns(const PacketLevels& packet, const ReceptionStatistics& sound, ShiftedAverages& mean) {
   const auto patterns = patterns_of(sound);
-  const auto levels = levels_of(packet, mean, patterns);
+  const auto levels = levels_of(packet, mean.now(), patterns);
   Level preamble;
   for (std::size_t i = 0; i < kPatterns; ++i) {
     if (i == 0 || !mean.finds(preamble)) preamble = packet.preamble(patterns[i].block_power);
@@ -295,6 +329,7 @@ LinkPrediction predict_still(const std::vector<Arrival>& paths, const Synchronis
   prediction.sinr = signal / (noise + bits_echoes);
   prediction.acquisition_probability = curves.acquisition(signal / (noise + preamble_echoes));
   prediction.delivery_probability = prediction.acquisition_probability * elementary::exp(log_success);
+  prediction.delivery_low = prediction.delivery_high = prediction.delivery_probability;
   return prediction;
 }
 
@@ -309,7 +344,7 @@ double rms_delay_spread_s(const std::vector<Arrival>& paths) {
 
 LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Synchronisation& sync, const Band& band, double noise,
-                            const ReceptionCurves& curves) {
+                            const ReceptionCurves& curves, const MarginShifts& shifts) {
   if (paths.empty()) return {};
   if (!model.enabled) return predict_still(paths, sync, noise, curves);
   const ReceptionStatistics sound = reception_statistics(paths, sync, band, curves.timing());
@@ -317,26 +352,28 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>
   // Platform jitter is constant through a packet, so its variance adds to that of large-scale fading.
   const double deviation = elementary::hypot(std::numbers::ln10 / 10 * model.large_scale_db,
                                              std::sqrt(elementary::log1p(sound.jitter_variance)));
-  StratifiedAverage mean(deviation, curves, sound, noise);
+  ShiftedAverages mean(deviation, curves, sound, noise, shifts);
   if (packet.collects_band()) {
     add_powers(packet, sound, mean);
   } else {
     add_patterns(packet, sound, mean);
   }
-  return {sinr_of(sound, noise), mean.acquisition_probability(), mean.delivery_probability()};
+  return mean.prediction(sinr_of(sound, noise));
 }
 
 LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Modem& receiver, const std::vector<LikelyWindow>& windows, const Band& band,
-                            double noise, const ReceptionCurves& curves) {
+                            double noise, const ReceptionCurves& curves, const MarginShifts& shifts) {
   LinkPrediction mean;
   for (const LikelyWindow& likely : windows) {
     const Synchronisation sync{&receiver, likely.window};
-    const LinkPrediction one = predict_link(model, paths, sync, band, noise, curves);
+    const LinkPrediction one = predict_link(model, paths, sync, band, noise, curves, shifts);
     if (!model.enabled) return one;
     mean.sinr += likely.probability * one.sinr;
     mean.acquisition_probability += likely.probability * one.acquisition_probability;
     mean.delivery_probability += likely.probability * one.delivery_probability;
+    mean.delivery_low += likely.probability * one.delivery_low;
+    mean.delivery_high += likely.probability * one.delivery_high;
   }
   return mean;
 }
