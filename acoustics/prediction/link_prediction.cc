@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 #include <span>
+#include <vector>
 
 #include "acoustics/math/delay_profile.h"
 #include "acoustics/math/fast_functions.h"
@@ -161,6 +162,7 @@ class ShiftedAverages {
                   double noise, const MarginShifts& shifts)
       : now_(deviation, curves, sound, noise) {
     if (!shifts.any()) return;
+    shifted_.reserve(2);
     for (const double shift_db : {shifts.low_db, shifts.high_db})
       shifted_.emplace_back(deviation, curves, sound, noise * fast_power(-shift_db));
   }
