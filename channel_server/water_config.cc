@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
+#include "acoustics/fading/slow_fading.h"
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
@@ -102,7 +103,10 @@ void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
   });
   acoustics::NoiseVariation& n = e.noise_variation;
   v.number("noise_spread_db", n.spread_db,
-           {0, 30, "dB", "standard deviation of the ambient noise over ten minutes; 0: none"});
+           {0, 30, "dB", "standard deviation of the ambient noise over time; 0: none"});
+  v.when(n.spread_db > 0, "noise_spread_db above 0", [&] {
+    v.number("noise_spread_s", n.spread_time_s, {0.1, 1e6, "s", "correlation time of the ambient noise"});
+  });
   v.number("impulse_exponent", n.burst_exponent,
            {0, 2, "", "exponent of impulsive, alpha-stable noise, 0.5 to 2; 0: no impulses"});
   v.when(n.burst_exponent > 0, "impulse_exponent above 0", [&] {
@@ -163,6 +167,18 @@ void visit_way_of_adding(bus::ConfigVisitor& v, PropagationConfig& p) {
   p.rays.coherent = adding == Adding::kPhasors;
 }
 
+void visit_slow_fading(bus::ConfigVisitor& v, acoustics::SlowFading& f) {
+  v.number("slow_fading_db", f.deviation_db,
+           {0, 20, "dB", "standard deviation of a link's level over hours; 0: none"});
+  v.when(f.deviation_db > 0, "slow_fading_db above 0", [&] {
+    v.number("slow_fading_s", f.time_s, {0.1, 1e6, "s", "correlation time of a link's level over hours"});
+  });
+  v.number("tidal_fading_db", f.tidal_db,
+           {0, 20, "dB", "amplitude of a link's level over the lunar tide of 12.42 h; 0: none"});
+  v.number("daily_fading_db", f.daily_db,
+           {0, 20, "dB", "amplitude of a link's level over the day; 0: none"});
+}
+
 void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
   acoustics::FadingModel& f = p.fading;
   visit_way_of_adding(v, p);
@@ -173,6 +189,7 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
       v.number("large_scale_fading_s", f.large_scale_time_s,
                {0.1, 1e6, "s", "correlation time of a link's level"});
     });
+    visit_slow_fading(v, f.slow);
     with_rays(v, p, [&] {
       v.number("bottom_roughness_m", f.bottom_roughness_m, {0, 1, "m", "rms height of the rough bottom"});
       bus::choice(v, "scattering_loss", f.scattering_loss, kScattering,
