@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -92,18 +93,53 @@ std::array<BlockFading, kPatterns> patterns_of(const ReceptionStatistics& sound)
   return patterns;
 }
 
+// Phase-shift keying: signals at the least, the median and the greatest block-fading power, each made when it
+// is first asked for. They do not depend on the noise, so averages over several noises share them.
+class PowerSignals {
+ public:
+  enum Power { kQuiet, kMedian, kLoud };
+  PowerSignals(const PacketLevels& packet, GammaPower block_fading, double fast) : packet_(packet), fast_(fast) {
+    alike_ = block_fading.variance < squared(kAlike * (block_fading.mean + fast));
+    if (alike_) block_fading = {block_fading.mean};
+    powers_ = block_fading.at(block_fading_states().powers);
+    for (double& power : powers_) power = std::max(power, 0.0);
+    median_ = std::max(block_fading.at(0), 0.0);
+  }
+  // True when the powers hardly differ.
+  bool alike() const { return alike_; }
+  const std::array<double, kPowers>& powers() const { return powers_; }
+  double median() const { return median_; }
+  double fast() const { return fast_; }
+  const FadingSignal& at(Power power) {
+    std::optional<FadingSignal>& signal = signals_[power];
+    if (!signal)
+      signal.emplace(packet_.fading_signal(power == kQuiet    ? powers_.front()
+                                           : power == kMedian ? median_
+                                                              : powers_.back()));
+    return *signal;
+  }
+
+ private:
+  const PacketLevels& packet_;
+  std::array<double, kPowers> powers_;
+  double median_ = 0, fast_;
+  bool alike_ = false;
+  std::array<std::optional<FadingSignal>, 3> signals_;
+};
+
 // Phase-shift keying: levels for each block-fading power, in ascending order. They are computed at the least,
 // the median and the greatest power; between them the ratio to the mean power lies on the parabola through
 // those three. If the strongest state is lost, or the weakest decoded, so are all.
 std::array<StratifiedAverage::Levels, kPowers> levels_of(const PacketLevels& packet,
                                                          const StratifiedAverage& mean,
-                                                         const std::array<double, kPowers>& powers,
-                                                         double median, double fast) {
+                                                         PowerSignals& signals) {
+  const std::array<double, kPowers>& powers = signals.powers();
+  const double median = signals.median(), fast = signals.fast();
   // Parts of a packet: the guess is the result for the previous power, or else for the previous level.
   std::array<double, StratifiedAverage::kLevels> parts{};
   double last = 0;
-  const auto levels_at = [&](double power) {
-    const FadingSignal fading = packet.fading_signal(power);
+  const auto levels_at = [&](PowerSignals::Power power) {
+    const FadingSignal& fading = signals.at(power);
     return mean.levels([&](std::size_t k) {
       if (!(parts[k] > 0)) parts[k] = last;
       const Level bits = packet.bits(fading, mean.noise(k), parts[k]);
@@ -128,20 +164,20 @@ std::array<StratifiedAverage::Levels, kPowers> levels_of(const PacketLevels& pac
   const bool likely_lost = packet.is_likely_lost(median, mean.noise(StratifiedAverage::kLevels / 2));
   StratifiedAverage::Levels loud;
   if (likely_lost) {
-    levels.fill(loud = levels_at(powers.back()));
+    levels.fill(loud = levels_at(PowerSignals::kLoud));
     if (are_lost(loud)) return levels;
   }
-  const StratifiedAverage::Levels quiet = levels_at(powers.front());
+  const StratifiedAverage::Levels quiet = levels_at(PowerSignals::kQuiet);
   levels.fill(quiet);
   if (!(powers.back() > powers.front()) || mean.decodes(quiet.front())) return levels;
   if (!likely_lost) {
-    loud = levels_at(powers.back());
+    loud = levels_at(PowerSignals::kLoud);
     if (are_lost(loud)) {
       levels.fill(loud);
       return levels;
     }
   }
-  const StratifiedAverage::Levels middle = levels_at(median);
+  const StratifiedAverage::Levels middle = levels_at(PowerSignals::kMedian);
   const auto& scores = block_fading_states().powers;
   const double quiet_db = in_db(powers.front()), middle_db = in_db(median), loud_db = in_db(powers.back());
   for (std::size_t i = 1; i < kPowers; ++i) {
@@ -155,52 +191,12 @@ std::array<StratifiedAverage::Levels, kPowers> levels_of(const PacketLevels& pac
   return levels;
 }
 
-// Averages of the link as it is and, if there are shifts, with each of them.
-class ShiftedAverages {
- public:
-  ShiftedAverages(double deviation, const ReceptionCurves& curves, const ReceptionStatistics& sound,
-                  double noise, const MarginShifts& shifts)
-      : now_(deviation, curves, sound, noise) {
-    if (!shifts.any()) return;
-    shifted_.reserve(2);
-    for (const double shift_db : {shifts.low_db, shifts.high_db})
-      shifted_.emplace_back(deviation, curves, sound, noise * fast_power(-shift_db));
-  }
-  const StratifiedAverage& now() const { return now_; }
-  bool finds(const Level& preamble) const {
-    return now_.finds(preamble) && std::all_of(shifted_.begin(), shifted_.end(),
-                                               [&](const auto& one) { return one.finds(preamble); });
-  }
-  void add(const Level& preamble, const StratifiedAverage::Levels& bits, std::size_t state, double share) {
-    now_.add(preamble, bits, state, share);
-    for (StratifiedAverage& one : shifted_) one.add(preamble, one.levels_from(now_, bits), state, share);
-  }
-  LinkPrediction prediction(double sinr) const {
-    const double delivery = now_.delivery_probability();
-    LinkPrediction all{sinr, now_.acquisition_probability(), delivery, delivery, delivery};
-    if (shifted_.empty()) return all;
-    all.delivery_low = shifted_.front().delivery_probability();
-    all.delivery_high = shifted_.back().delivery_probability();
-    return all;
-  }
-
- private:
-  StratifiedAverage now_;
-  std::vector<StratifiedAverage> shifted_;
-};
-
-void add_powers(const PacketLevels& packet, const ReceptionStatistics& sound, ShiftedAverages& mean) {
-  GammaPower block_fading = sound.block_fading;
-  const bool alike = block_fading.variance < squared(kAlike * (block_fading.mean + sound.fast));
-  if (alike) block_fading = {block_fading.mean};
-  std::array<double, kPowers> powers = block_fading.at(block_fading_states().powers);
-  for (double& power : powers) power = std::max(power, 0.0);
-  const auto levels =
-      levels_of(packet, mean.now(), powers, std::max(block_fading.at(0), 0.0), sound.fast);
+void add_powers(const PacketLevels& packet, PowerSignals& signals, StratifiedAverage& mean) {
+  const auto levels = levels_of(packet, mean, signals);
   Level preamble;
   for (std::size_t i = 0; i < kPowers; ++i) {
-    if (i == 0 || (!alike && !mean.finds(preamble))) {
-      preamble = packet.preamble(powers[i]);
+    if (i == 0 || (!signals.alike() && !mean.finds(preamble))) {
+      preamble = packet.preamble(signals.powers()[i]);
     }
     mean.add(preamble, levels[i], i, 1.0 / kPowers);
   }
@@ -294,14 +290,55 @@ std::array<StratifiedAverage::Levels, kPatterns> levels_of(
   return levels;
 }
 
-void add_patterns(const PacketLevels& packet, const ReceptionStatistics& sound, ShiftedAverages& mean) {
-  const auto patterns = patterns_of(sound);
-  const auto levels = levels_of(packet, mean.now(), patterns);
+void add_patterns(const PacketLevels& packet, const std::array<BlockFading, kPatterns>& patterns,
+                  StratifiedAverage& mean) {
+  const auto levels = levels_of(packet, mean, patterns);
   Level preamble;
   for (std::size_t i = 0; i < kPatterns; ++i) {
     if (i == 0 || !mean.finds(preamble)) preamble = packet.preamble(patterns[i].block_power);
     mean.add(preamble, levels[i], i, 1.0 / kPatterns);
   }
+}
+
+// Likewise from four of the states, each in the place of a quarter of them: for the quantiles over hours.
+void add_few_patterns(const PacketLevels& packet, const std::array<BlockFading, kPatterns>& patterns,
+                      StratifiedAverage& mean) {
+  constexpr std::array<std::size_t, 4> kFew{2, 5, 10, 13};
+  Level preamble;
+  for (const std::size_t i : kFew) {
+    const auto levels =
+        mean.levels([&](std::size_t at) { return packet.bits(patterns[i], mean.noise(at)); });
+    if (i == kFew.front() || !mean.finds(preamble)) preamble = packet.preamble(patterns[i].block_power);
+    mean.add(preamble, levels, i, 1.0 / kFew.size());
+  }
+}
+
+// States of block fading of a link, which do not depend on the noise.
+struct BlockStates {
+  std::optional<PowerSignals> powers;                             // phase-shift keying
+  std::optional<std::array<BlockFading, kPatterns>> patterns;  // frequency-shift keying
+
+  BlockStates(const PacketLevels& packet, const ReceptionStatistics& sound) {
+    if (packet.collects_band()) {
+      powers.emplace(packet, sound.block_fading, sound.fast);
+    } else {
+      patterns = patterns_of(sound);
+    }
+  }
+};
+
+// Delivery where the margin is shifted; `now` is that without a shift, which is the answer where nothing is
+// left to be lost or gained. `shifted` holds no states yet.
+double shifted_delivery(const PacketLevels& packet, BlockStates& states, double shift_db, double now,
+                        StratifiedAverage shifted) {
+  constexpr double kSettled = 0.002;
+  if (shift_db < 0 ? now < kSettled : now > 1 - kSettled) return now;
+  if (states.powers) {
+    add_powers(packet, *states.powers, shifted);
+  } else {
+    add_few_patterns(packet, *states.patterns, shifted);
+  }
+  return shifted.delivery_probability();
 }
 
 double sinr_of(const ReceptionStatistics& sound, double noise) {
@@ -354,29 +391,44 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>
   // Platform jitter is constant through a packet, so its variance adds to that of large-scale fading.
   const double deviation = elementary::hypot(std::numbers::ln10 / 10 * model.large_scale_db,
                                              std::sqrt(elementary::log1p(sound.jitter_variance)));
-  ShiftedAverages mean(deviation, curves, sound, noise, shifts);
-  if (packet.collects_band()) {
-    add_powers(packet, sound, mean);
+  BlockStates states(packet, sound);
+  StratifiedAverage mean(deviation, curves, sound, noise);
+  if (states.powers) {
+    add_powers(packet, *states.powers, mean);
   } else {
-    add_patterns(packet, sound, mean);
+    add_patterns(packet, *states.patterns, mean);
   }
-  return mean.prediction(sinr_of(sound, noise));
+  const double now = mean.delivery_probability();
+  LinkPrediction prediction{sinr_of(sound, noise), mean.acquisition_probability(), now, now, now};
+  if (!shifts.any()) return prediction;
+  const auto at = [&](double shift_db) {
+    return shifted_delivery(packet, states, shift_db, now,
+                            {deviation, curves, sound, noise * fast_power(-shift_db)});
+  };
+  prediction.delivery_low = at(shifts.low_db);
+  prediction.delivery_high = at(shifts.high_db);
+  return prediction;
 }
 
 LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Modem& receiver, const std::vector<LikelyWindow>& windows, const Band& band,
                             double noise, const ReceptionCurves& curves, const MarginShifts& shifts) {
-  LinkPrediction mean;
+  LinkPrediction mean, best;
   for (const LikelyWindow& likely : windows) {
     const Synchronisation sync{&receiver, likely.window};
-    const LinkPrediction one = predict_link(model, paths, sync, band, noise, curves, shifts);
+    const bool is_best = &likely == &windows.front();
+    const LinkPrediction one =
+        predict_link(model, paths, sync, band, noise, curves, is_best ? shifts : MarginShifts());
     if (!model.enabled) return one;
+    if (is_best) best = one;
     mean.sinr += likely.probability * one.sinr;
     mean.acquisition_probability += likely.probability * one.acquisition_probability;
     mean.delivery_probability += likely.probability * one.delivery_probability;
-    mean.delivery_low += likely.probability * one.delivery_low;
-    mean.delivery_high += likely.probability * one.delivery_high;
   }
+  mean.delivery_low = mean.delivery_high = mean.delivery_probability;
+  if (!shifts.any()) return mean;
+  mean.delivery_low = best.delivery_low;
+  mean.delivery_high = best.delivery_high;
   return mean;
 }
 

@@ -192,27 +192,6 @@ StratifiedAverage::Levels& StratifiedAverage::fill_quartic(Levels& bits) const {
   return bits;
 }
 
-StratifiedAverage::Levels StratifiedAverage::levels_from(const StratifiedAverage& other,
-                                                         const Levels& theirs) const {
-  constexpr double kNoStepDb = 1e-9;
-  const auto& levels_db = other.disturbance_db_;  // from the greatest to the least
-  Levels levels;
-  for (std::size_t k = 0; k < kLevels; ++k) {
-    std::size_t high = 1;
-    while (high + 1 < kLevels && levels_db[high] > disturbance_db_[k]) ++high;
-    const std::size_t low = high - 1;
-    const double step_db = levels_db[low] - levels_db[high];
-    const double part =
-        step_db > kNoStepDb ? std::clamp((levels_db[low] - disturbance_db_[k]) / step_db, 0.0, 1.0) : 0;
-    const double from_db = theirs[low].median_db + levels_db[low],
-                 to_db = theirs[high].median_db + levels_db[high];
-    levels[k] = theirs[low];
-    levels[k].median_db = from_db + part * (to_db - from_db) - disturbance_db_[k];
-    levels[k].deviation_db += part * (theirs[high].deviation_db - theirs[low].deviation_db);
-  }
-  return levels;
-}
-
 void StratifiedAverage::ratios_of_block(const Levels& bits, std::size_t state, std::size_t block,
                                         Strata& ratios_db) const {
   const Strata& normals = scores().blocks[state % Scores::kOrders][block % 2];

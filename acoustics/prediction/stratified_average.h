@@ -94,10 +94,6 @@ class StratifiedAverage {
   bool lie_on_parabola(const Levels& bits) const;
   Levels& fill_parabola(Levels& bits) const;
   Levels& fill_quartic(Levels& bits) const;
-  // Levels of a state in this average, from those of the same state in one over another noise: the signal that
-  // each of them is worth, in dB, depends on the disturbance, between whose levels it is linear and beyond
-  // which it is constant.
-  Levels levels_from(const StratifiedAverage& other, const Levels& theirs) const;
   // Adds the outcome of packets in a state of block fading of the probability `share`. In phase-shift keying
   // the mean is over the even strata for even states and the odd strata for odd ones. The normal scores of
   // fast fading are paired with the strata in a different order for each state.
