@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <initializer_list>
@@ -13,6 +14,7 @@
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/profile_reader.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
@@ -122,6 +124,8 @@ void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
          "formula of sound speed");
   v.text("absorption_model", e.absorption_model, bus::names_of(acoustics::kAbsorptionModels),
          "formula of absorption");
+  v.number("profile_spread_mps", e.profile_spread_mps,
+           {0, 10, "m/s", "standard deviation of the upper profile's sound speed over hours; 0: none"});
   visit_noise(v, e);
   v.number("spreading_exponent", e.spreading_exponent,
            {1, 2, "", "spreading along a straight path: 1 cylindrical, 1.5 practical, 2 spherical"});
@@ -299,6 +303,20 @@ void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
       [&](bus::ConfigVisitor& item, std::size_t i) { visit_change(item, config.changes[i]); });
 }
 
+namespace {
+
+// Returns the depth to which the profile drifts: of the water, where the terrain is a shape, or else of the
+// profile's last row, if that is less than ProfileDrift::kDeepestM.
+double drifting_depth_m(const acoustics::SoundSpeedProfile& profile, const bus::Scenario& scenario) {
+  constexpr double kDeepest = acoustics::ProfileDrift::kDeepestM;
+  const std::vector<double> rows = profile.row_depths_m();
+  const double last_m = rows.size() > 1 ? rows.back() : kDeepest;
+  const double depth_m = scenario.water_depth_m > 0 ? scenario.water_depth_m : last_m;
+  return std::clamp(depth_m, 1.0, kDeepest);
+}
+
+}  // namespace
+
 acoustics::Environment make_environment(const EnvironmentConfig& config, const bus::Scenario& scenario) {
   const auto absorption = acoustics::absorption_model_from_name(config.absorption_model);
   require(absorption.has_value(), "no absorption model is called " + config.absorption_model);
@@ -311,6 +329,12 @@ acoustics::Environment make_environment(const EnvironmentConfig& config, const b
   environment.latitude_rad = to_radians(scenario.origin_latitude_deg);
   environment.sea_surface_z_m = scenario.sea_surface_z_m;
   set_field(scenario, environment);
+  environment.drift = {.spread_mps = config.profile_spread_mps,
+                       .depth_m = drifting_depth_m(environment.profile, scenario),
+                       .seed = scenario.seed};
+  require(!environment.drift.any() || !environment.field,
+          "environment.profile_spread_mps is above 0, but an ocean field carries sound: its water has changes of "
+          "its own");
   validate(environment);
   return environment;
 }
