@@ -44,11 +44,41 @@ DrawAddress address_of(const SlowPair& pair, std::string_view purpose) {
   return {.seed = identity_of({pair.seed, both}), .purpose = purpose_of(purpose)};
 }
 
-double cosine_level(double amplitude_db, double period_s, SimTime at, const DrawAddress& address) {
+constexpr std::int64_t kStepMs = 1 << 16;  // a power of two, which the halvings of the process meet
+
+std::int64_t step_of(SimTime at) {
+  return std::max<std::int64_t>(at.nanoseconds() / 1'000'000 / kStepMs, 0);
+}
+
+SlowLevels::Draws draws_of(const SlowFading& model, const SlowPair& pair, std::int64_t step) {
+  SlowLevels::Draws draws{.step = step};
+  if (model.deviation_db > 0) {
+    const GaussMarkovProcess process(model.deviation_db, model.time_s, address_of(pair, "slow-fading"));
+    GaussMarkovProcess::Cursor cursor;
+    const auto at = [&](std::int64_t k) {
+      return process.at(SimTime() + SimDuration::from_milliseconds(k * kStepMs), cursor);
+    };
+    draws.from_db = at(step);
+    draws.to_db = at(step + 1);
+  }
+  draws.tide = uniform_at(address_of(pair, "slow-fading-tide"));
+  draws.day = uniform_at(address_of(pair, "slow-fading-day"));
+  return draws;
+}
+
+double cosine_level(double amplitude_db, double period_s, double time_s, double phase) {
   if (amplitude_db == 0) return 0;
-  const double cycles = at.seconds() / period_s + uniform_at(address);
+  const double cycles = time_s / period_s + phase;
   return amplitude_db * elementary::cos(2 * pi * (cycles - std::floor(cycles))) +
          mean_of_cosine(amplitude_db);
+}
+
+Decibels level_of(const SlowFading& model, const SlowLevels::Draws& draws, SimTime at) {
+  const double time_s = std::max(at.seconds(), 0.0);
+  const double share = time_s / (kStepMs / 1000.0) - static_cast<double>(draws.step);
+  return {draws.from_db + share * (draws.to_db - draws.from_db) + mean_of_normal(model.deviation_db) +
+          cosine_level(model.tidal_db, kLunarTideS, time_s, draws.tide) +
+          cosine_level(model.daily_db, kDayS, time_s, draws.day)};
 }
 
 }  // namespace
@@ -65,14 +95,15 @@ void validate(const SlowFading& model) {
 }
 
 Decibels slow_level(const SlowFading& model, const SlowPair& pair, SimTime at) {
-  double level_db = 0;
-  if (model.deviation_db > 0) {
-    const GaussMarkovProcess process(model.deviation_db, model.time_s, address_of(pair, "slow-fading"));
-    level_db = process.at(at) + mean_of_normal(model.deviation_db);
-  }
-  level_db += cosine_level(model.tidal_db, kLunarTideS, at, address_of(pair, "slow-fading-tide"));
-  level_db += cosine_level(model.daily_db, kDayS, at, address_of(pair, "slow-fading-day"));
-  return {level_db};
+  return model.any() ? level_of(model, draws_of(model, pair, step_of(at)), at) : Decibels{0};
+}
+
+Decibels SlowLevels::at(const SlowPair& pair, SimTime at) {
+  if (!model_.any()) return {0};
+  if (kept_.size() >= kMaxPairs) kept_.clear();
+  Draws& draws = kept_[{pair.seed, pair.lower_id, pair.higher_id}];
+  if (draws.step != step_of(at)) draws = draws_of(model_, pair, step_of(at));
+  return level_of(model_, draws, at);
 }
 
 // The normal parts add to one normal variable; the cosines are averaged over equidistant phases. Bisection of

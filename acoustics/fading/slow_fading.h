@@ -4,7 +4,8 @@
 //
 // Model, dB, of an unordered pair of vehicles:
 //   Y(t) = G(t) + A_t cos(2 pi (t / 44714.16 s + u_t)) + A_d cos(2 pi (t / 86400 s + u_d)) - m
-// G is a Gauss-Markov process (core/gauss_markov.h) of standard deviation sigma and correlation time T; A_t
+// G is a Gauss-Markov process (core/gauss_markov.h) of standard deviation sigma and correlation time T, exact
+// at multiples of 65.536 s and linear between them (off by 0.07 dB rms at 3 dB and 6 h); A_t
 // and A_d are the amplitudes of the semidiurnal lunar tide (M2) and of the day, u_t and u_d phases drawn for
 // the pair. The mean -m preserves the mean power: sigma^2 ln(10) / 20 for G, 10 log10 I0(A ln(10) / 10) for a
 // cosine. All draws are addressed by seed and pair: a value depends on neither the order nor the number of
@@ -12,7 +13,10 @@
 // variance over bins of two hours, correlated by 0.2 to 0.65 from one bin to the next.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <tuple>
 
 #include "core/sim_time.h"
 #include "core/units.h"
@@ -43,6 +47,27 @@ struct SlowPair {
 
 // Y of a pair at `at`; 0 without slow fading.
 Decibels slow_level(const SlowFading& model, const SlowPair& pair, SimTime at);
+
+// The same for many pairs over time: keeps the draws about the latest instant of each of kMaxPairs pairs, so that
+// an instant near it costs two cosines. Results do not depend on it. Not thread-safe.
+class SlowLevels {
+ public:
+  static constexpr std::size_t kMaxPairs = 100'000;
+
+  explicit SlowLevels(const SlowFading& model) : model_(model) {}
+  Decibels at(const SlowPair& pair, SimTime at);
+
+  // Draws of one pair: the number of the multiple at or before an instant, G there and at the next, and the
+  // phases in turns.
+  struct Draws {
+    std::int64_t step = -1;
+    double from_db = 0, to_db = 0, tide = 0, day = 0;
+  };
+
+ private:
+  SlowFading model_;
+  std::map<std::tuple<std::uint64_t, std::uint32_t, std::uint32_t>, Draws> kept_;
+};
 
 // Margin of a link over its noise, Y - Z, below which it lies for one hour in ten and for nine in ten, dB
 // relative to that of the mean powers; Z is the change of the noise (acoustics/noise/noise_variation.h).

@@ -56,20 +56,24 @@ bool is_impossible(const Modem& receiver, const Reception& reception, const Arri
 
 }  // namespace
 
-LinkPredictor::LinkPredictor(Rule rule) : rule_(std::move(rule)) {
+LinkPredictor::LinkPredictor(Rule rule) : rule_(std::move(rule)), levels_(rule_.fading.slow) {
   if (rule_.fading.enabled)
     hours_ = acoustics::margin_quantiles(rule_.fading.slow, rule_.noise.spread_db);
 }
 
-SlowState LinkPredictor::slow_state(VehicleId from, VehicleId to, SimTime at) const {
+SlowState LinkPredictor::slow_state(VehicleId from, VehicleId to, SimTime at) {
   SlowState state;
   const bool are_vehicles = from != 0 && to != 0;
   if (rule_.fading.enabled && are_vehicles && rule_.fading.slow.any()) {
     const acoustics::SlowPair pair{rule_.seed, static_cast<std::uint32_t>(std::min(from, to)),
                                    static_cast<std::uint32_t>(std::max(from, to))};
-    state.level_db = slow_level(rule_.fading.slow, pair, at).value;
+    state.level_db = levels_.at(pair, at).value;
   }
-  state.margin_db = state.level_db - noise_offset(rule_.noise, rule_.seed, at).value;
+  if (noise_at_ != at) {
+    noise_at_ = at;
+    noise_db_ = noise_offset(rule_.noise, rule_.seed, at).value;
+  }
+  state.margin_db = state.level_db - noise_db_;
   return state;
 }
 

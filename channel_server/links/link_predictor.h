@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <list>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -78,9 +79,9 @@ class LinkPredictor {
   // Returns the mean signal-to-noise ratio, dB, below which no rate of this transmitter delivers one packet
   // in a thousand, however the link fades (acoustics/fading/fading_bounds.h). Not thread-safe.
   double least_sinr_db(const acoustics::Modem& transmitter);
-  // Returns the slow state of the link between two vehicles (0: a position) for sound that leaves at `at`.
-  // Thread-safe.
-  SlowState slow_state(VehicleId from, VehicleId to, SimTime at) const;
+  // Returns the slow state of the link between two vehicles (0: a position) for sound that leaves at `at`. Not
+  // thread-safe.
+  SlowState slow_state(VehicleId from, VehicleId to, SimTime at);
   // Returns the forecast of a link whose transmitter has these rates. Thread-safe.
   LinkForecast forecast(const Rates& rates, const acoustics::Modem& transmitter,
                         const acoustics::Modem& receiver, const Reception& reception,
@@ -98,6 +99,9 @@ class LinkPredictor {
   double least_sinr_db(const Rates& rates) const;
 
   Rule rule_;
+  acoustics::SlowLevels levels_;
+  std::optional<SimTime> noise_at_;  // when the noise last asked for is noise_db_
+  double noise_db_ = 0;
   acoustics::MarginQuantiles hours_;  // of the margin, both 0 without slow fading
   std::list<Entry> kept_;  // the most recently used first
 };
