@@ -86,7 +86,7 @@ void visit_depth_of_shape(ConfigVisitor& terrain, const std::string& kind, Scena
   double z_m = kind == "ridge" ? 200 : kind == "seamount" ? 2000 : 100;
   terrain.section(kind, "", [&](ConfigVisitor& shape) {
     shape.shared_with_others();
-    shape.number("depth_m", z_m, {-12'000, 12'000, "m", ""});
+    shape.number("depth_m", z_m, {-1e9, 1e9, "m", ""});  // the bathymetry service checks its range
   });
   s.water_depth_m = std::max(z_m - s.sea_surface_z_m, 0.0);
 }
