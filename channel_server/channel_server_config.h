@@ -69,6 +69,7 @@ struct EnvironmentConfig {
   acoustics::NoiseSources noise{.wind_mps = 5};
   FilePath noise_file;  // a table of noise spectra that replaces `noise`
   acoustics::NoiseVariation noise_variation;
+  double profile_spread_mps = 0;  // of ProfileDrift
   double spreading_exponent = 1.5;
   double ph = 8.0;
 };

@@ -133,6 +133,8 @@ link_t to_message(const LinkRow& row) {
   message.sinr_db = row.forecast.sinr_db;
   message.acquisition_probability = row.forecast.acquisition_probability;
   message.delivery_probability = row.forecast.delivery_probability;
+  message.delivery_low = row.forecast.delivery_low;
+  message.delivery_high = row.forecast.delivery_high;
   message.coherence_time_s = row.forecast.coherence_time_s;
   message.doppler_spread_hz = row.forecast.doppler_spread_hz;
   message.rms_delay_spread_s = row.forecast.rms_delay_spread_s;

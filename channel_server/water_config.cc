@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <initializer_list>
@@ -9,9 +10,11 @@
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
+#include "acoustics/fading/slow_fading.h"
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/profile_reader.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
@@ -102,7 +105,10 @@ void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
   });
   acoustics::NoiseVariation& n = e.noise_variation;
   v.number("noise_spread_db", n.spread_db,
-           {0, 30, "dB", "standard deviation of the ambient noise over ten minutes; 0: none"});
+           {0, 30, "dB", "standard deviation of the ambient noise over time; 0: none"});
+  v.when(n.spread_db > 0, "noise_spread_db above 0", [&] {
+    v.number("noise_spread_s", n.spread_time_s, {0.1, 1e6, "s", "correlation time of the ambient noise"});
+  });
   v.number("impulse_exponent", n.burst_exponent,
            {0, 2, "", "exponent of impulsive, alpha-stable noise, 0.5 to 2; 0: no impulses"});
   v.when(n.burst_exponent > 0, "impulse_exponent above 0", [&] {
@@ -118,6 +124,8 @@ void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
          "formula of sound speed");
   v.text("absorption_model", e.absorption_model, bus::names_of(acoustics::kAbsorptionModels),
          "formula of absorption");
+  v.number("profile_spread_mps", e.profile_spread_mps,
+           {0, 10, "m/s", "standard deviation of the upper profile's sound speed over hours; 0: none"});
   visit_noise(v, e);
   v.number("spreading_exponent", e.spreading_exponent,
            {1, 2, "", "spreading along a straight path: 1 cylindrical, 1.5 practical, 2 spherical"});
@@ -163,6 +171,18 @@ void visit_way_of_adding(bus::ConfigVisitor& v, PropagationConfig& p) {
   p.rays.coherent = adding == Adding::kPhasors;
 }
 
+void visit_slow_fading(bus::ConfigVisitor& v, acoustics::SlowFading& f) {
+  v.number("slow_fading_db", f.deviation_db,
+           {0, 20, "dB", "standard deviation of a link's level over hours; 0: none"});
+  v.when(f.deviation_db > 0, "slow_fading_db above 0", [&] {
+    v.number("slow_fading_s", f.time_s, {0.1, 1e6, "s", "correlation time of a link's level over hours"});
+  });
+  v.number("tidal_fading_db", f.tidal_db,
+           {0, 20, "dB", "amplitude of a link's level over the lunar tide of 12.42 h; 0: none"});
+  v.number("daily_fading_db", f.daily_db,
+           {0, 20, "dB", "amplitude of a link's level over the day; 0: none"});
+}
+
 void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
   acoustics::FadingModel& f = p.fading;
   visit_way_of_adding(v, p);
@@ -173,6 +193,7 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
       v.number("large_scale_fading_s", f.large_scale_time_s,
                {0.1, 1e6, "s", "correlation time of a link's level"});
     });
+    visit_slow_fading(v, f.slow);
     with_rays(v, p, [&] {
       v.number("bottom_roughness_m", f.bottom_roughness_m, {0, 1, "m", "rms height of the rough bottom"});
       bus::choice(v, "scattering_loss", f.scattering_loss, kScattering,
@@ -282,6 +303,20 @@ void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
       [&](bus::ConfigVisitor& item, std::size_t i) { visit_change(item, config.changes[i]); });
 }
 
+namespace {
+
+// Returns the depth to which the profile drifts: of the water, where the terrain is a shape, or else of the
+// profile's last row, if that is less than ProfileDrift::kDeepestM.
+double drifting_depth_m(const acoustics::SoundSpeedProfile& profile, const bus::Scenario& scenario) {
+  constexpr double kDeepest = acoustics::ProfileDrift::kDeepestM;
+  const std::vector<double> rows = profile.row_depths_m();
+  const double last_m = rows.size() > 1 ? rows.back() : kDeepest;
+  const double depth_m = scenario.water_depth_m > 0 ? scenario.water_depth_m : last_m;
+  return std::clamp(depth_m, 1.0, kDeepest);
+}
+
+}  // namespace
+
 acoustics::Environment make_environment(const EnvironmentConfig& config, const bus::Scenario& scenario) {
   const auto absorption = acoustics::absorption_model_from_name(config.absorption_model);
   require(absorption.has_value(), "no absorption model is called " + config.absorption_model);
@@ -294,6 +329,12 @@ acoustics::Environment make_environment(const EnvironmentConfig& config, const b
   environment.latitude_rad = to_radians(scenario.origin_latitude_deg);
   environment.sea_surface_z_m = scenario.sea_surface_z_m;
   set_field(scenario, environment);
+  environment.drift = {.spread_mps = config.profile_spread_mps,
+                       .depth_m = drifting_depth_m(environment.profile, scenario),
+                       .seed = scenario.seed};
+  require(!environment.drift.any() || !environment.field,
+          "environment.profile_spread_mps is above 0, but an ocean field carries sound: its water has changes of "
+          "its own");
   validate(environment);
   return environment;
 }

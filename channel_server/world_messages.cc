@@ -150,10 +150,13 @@ environment_t to_message(const acoustics::Environment& environment, const WaterD
                          SimTime from, const std::string& terrain_version) {
   environment_t message{};
   message.utime = from.to_utime();
-  for (const double depth_m : depths_to_publish(environment.profile)) {
-    const acoustics::WaterSample water = environment.profile.water(depth_m);
+  // Published is the mean over the drift of hours, which nobody aboard knows.
+  const acoustics::SoundSpeedProfile profile =
+      environment.drift.any() ? environment.profile.without_change() : environment.profile;
+  for (const double depth_m : depths_to_publish(profile)) {
+    const acoustics::WaterSample water = profile.water(depth_m);
     message.layer_depth_m.push_back(depth_m);
-    message.layer_sound_speed_mps.push_back(environment.profile.sound_speed_mps(depth_m));
+    message.layer_sound_speed_mps.push_back(profile.sound_speed_mps(depth_m));
     message.layer_temperature_degc.push_back(water.temperature_degc);
     message.layer_salinity_psu.push_back(water.salinity_psu);
   }

@@ -72,7 +72,7 @@ int map(const CoverageOptions& options, const ScenarioConfig& config, const Link
   const CoverageArea area = area_of(options, from);
   const auto quantities = quantities_of(options.quantities);
   constexpr double kBytesACell =
-      6 * sizeof(double);  // delivery, level, delay, SNR, and two values while writing
+      8 * sizeof(double);  // six quantities, and two values while writing
   require_memory(static_cast<double>(area.side * area.side * area.depths_m.size()) * kBytesACell +
                      estimated_memory_bytes(config),
                  "the map", "take larger cells, a shorter range or fewer depths");
@@ -171,7 +171,7 @@ void add_coverage_command(CLI::App& app, int& exit_code) {
                    "how far the map reaches to each side, m; default 100 cells, so 200 x 200")
       ->check(CLI::PositiveNumber);
   command->add_option("--quantity", options->quantities,
-                      "what is written: delivery, snr, level, delay, with commas between");
+                      "what is written: delivery, snr, level, delay, delivery_low, delivery_high, with commas between");
   command
       ->add_option(
           "--share-rays", options->sharing,

@@ -75,6 +75,8 @@ void print_table(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkS
   line("SINR", f.sinr_db, 3, "dB");
   line("acquisition", f.acquisition_probability, 4, "of preambles");
   line("delivery", f.delivery_probability, 4, "of packets");
+  line("delivery, low", f.delivery_low, 4, "of packets, in one hour of ten");
+  line("delivery, high", f.delivery_high, 4, "of packets, in nine hours of ten");
   line("best rate", f.best_rate_bps, 0, "bit/s");
 }
 

@@ -72,6 +72,8 @@ std::string to_json(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const Li
   json["sinr_db"] = f.sinr_db;
   json["acquisition_probability"] = f.acquisition_probability;
   json["delivery_probability"] = f.delivery_probability;
+  json["delivery_low"] = f.delivery_low;
+  json["delivery_high"] = f.delivery_high;
   json["coherence_time_s"] = f.coherence_time_s;
   json["doppler_spread_hz"] = f.doppler_spread_hz;
   json["rms_delay_spread_s"] = f.rms_delay_spread_s;

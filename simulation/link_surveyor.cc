@@ -80,8 +80,7 @@ LinkSurveyor::Answer LinkSurveyor::survey(const LinkEnd& from, const LinkEnd& to
 }
 
 Decibels LinkSurveyor::noise_level(const acoustics::Modem& transmitter) {
-  const acoustics::Band band = transmitter.band();
-  return noise_level_over_band(band.low_hz, band.high_hz, propagation().environment(SimTime()).noise);
+  return sounds_.noise_level(0, transmitter.band(), SimTime(), SimTime());
 }
 
 LinkSurveyor::Answer LinkSurveyor::forecast(const LinkEnd& from, const LinkEnd& to,
@@ -89,7 +88,8 @@ LinkSurveyor::Answer LinkSurveyor::forecast(const LinkEnd& from, const LinkEnd& 
   Answer answer;
   answer.reception = std::move(reception);
   answer.forecast =
-      predictor_.forecast(*predictor_.rates_of(*from.modem), *from.modem, *to.modem, answer.reception);
+      predictor_.forecast(*predictor_.rates_of(*from.modem), *from.modem, *to.modem, answer.reception,
+                          predictor_.slow_state(from.id, to.id, SimTime()));
   return answer;
 }
 

@@ -53,7 +53,7 @@ class LinkSurveyor {
   // null: the link has a search of its own.
   Answer survey(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to, const Seabed& seabed,
                 channel_server::SharedLine* line);
-  // Returns the ambient noise level over the transmitter's band, dB re 1 uPa.
+  // Returns the ambient noise level over the transmitter's band at time 0, with its slow change, dB re 1 uPa.
   Decibels noise_level(const acoustics::Modem& transmitter);
   channel_server::Propagation& propagation() { return *water_.propagation; }
 

@@ -3,8 +3,9 @@
 // deliver nothing are recognised by them before anything else of the link is computed.
 //
 // Among all sums of paths, the power has the widest distribution when it is a single path that is wholly
-// scattered: the exponential distribution. Large-scale fading multiplies it by 10^(X/10) with X normal. Both
-// distributions are divided into intervals, each evaluated at its upper end.
+// scattered: the exponential distribution. Large-scale fading multiplies it by 10^(X/10) with X normal; slow
+// fading counts as a part of X, so that the bounds hold on average over days. Both distributions are divided
+// into intervals, each evaluated at its upper end.
 #pragma once
 
 #include <numbers>
@@ -32,10 +33,12 @@ double most_over_rayleigh_fading(double mean_sinr, Chance chance) {
 template <typename Chance>
 double most_over_fading(const FadingModel& model, double mean_sinr, Chance chance) {
   if (!model.enabled) return chance(mean_sinr);
-  if (!(model.large_scale_db > 0)) return most_over_rayleigh_fading(mean_sinr, chance);
+  const double deviation_db =
+      model.slow.any() ? elementary::hypot(model.large_scale_db, model.slow.rms_db()) : model.large_scale_db;
+  if (!(deviation_db > 0)) return most_over_rayleigh_fading(mean_sinr, chance);
   // Step and limit in standard deviations; `chance` counts as 1 beyond them (probability 3e-7).
   constexpr double kStep = 0.25, kMax = 5;
-  const double deviation = std::numbers::ln10 / 10 * model.large_scale_db;
+  const double deviation = std::numbers::ln10 / 10 * deviation_db;
   double most = 1 - normal_probability(kMax), below = 0;
   for (double z = -kMax + kStep; z <= kMax; z += kStep) {
     const double louder = elementary::exp(deviation * z - deviation * deviation / 2);

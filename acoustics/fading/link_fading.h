@@ -6,6 +6,7 @@
 // alike.
 //   X    large-scale fading, dB: a Gauss-Markov process of the pair (core/gauss_markov.h) with the
 //        mean -sigma^2 ln(10) / 20, which preserves the mean power
+//   Y    slow fading of the pair, dB (acoustics/fading/slow_fading.h)
 //   g_s  scattered: complex noise of each path (acoustics/fading/complex_noise.h)
 //   g_m  medium: one random field of the pair over time, delay and the angles at both ends
 // Paths that are close in delay and angles cross the same water and fade together. The correlation of their
@@ -43,7 +44,7 @@ class LinkFading : public PathResponses {
   // Throws InvalidArgument as validate(FadingModel).
   LinkFading(const FadingModel& model, const FadingLink& link);
 
-  // Factor of large-scale fading at `time`, 10^(X/20); 1 when nothing fades.
+  // Factor of large-scale and slow fading at `time`, 10^((X + Y)/20); 1 when nothing fades.
   double large_scale(SimTime time) const;
 
   std::vector<std::complex<double>> responses(const std::vector<Arrival>& paths, const Band& band,

@@ -3,7 +3,7 @@
 // rough boundaries.
 //
 // Model, for a path of mean power P:
-//   h(t) = sqrt(P) 10^(X(t)/20) [sqrt(c) e^(j phi) + sqrt(m) g_m(t) + sqrt(s) g_s(t)],  c + m + s = 1
+//   h(t) = sqrt(P) 10^((X(t) + Y(t))/20) [sqrt(c) e^(j phi) + sqrt(m) g_m(t) + sqrt(s) g_s(t)],  c + m + s = 1
 // - Surface: the Rayleigh parameter of bounce i is Gamma_i = 2 k sigma_h sin(theta_i), with k the wave number
 //   at the centre frequency and sigma_h the rms wave height of Pierson and Moskowitz. The bottom is treated
 //   in the same way with its own rms roughness. After all bounces the share E = exp(-sum Gamma_i^2) of the
@@ -21,6 +21,8 @@
 // Neglected: shadowing by wave crests, swell, motion of the ends over a rough bottom.
 #pragma once
 
+#include "acoustics/fading/slow_fading.h"
+
 namespace halocline::acoustics {
 
 // Parameters of the model; defaults are our choices unless a source is named.
@@ -33,6 +35,7 @@ struct FadingModel {
   double large_scale_time_s = 120;   // correlation time of X, s, 0.1..1e6
   double bottom_roughness_m = 0.02;  // rms height of the bottom, m, 0..1
   bool scattering_loss = false;      // true: with the loss of acoustics/fading/scattering_loss.h
+  SlowFading slow = {};              // changes of the level over hours
   bool operator==(const FadingModel&) const = default;
 };
 

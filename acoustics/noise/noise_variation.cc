@@ -22,7 +22,9 @@ void validate(const NoiseVariation& v) {
 Decibels noise_offset(const NoiseVariation& variation, std::uint64_t seed, SimTime at) {
   if (variation.spread_db == 0) return {0};
   const DrawAddress address{.seed = seed, .purpose = purpose_of("noise-spread")};
-  return {GaussMarkovProcess(variation.spread_db, variation.spread_time_s, address).at(at)};
+  const double sigma = variation.spread_db;
+  return {GaussMarkovProcess(sigma, variation.spread_time_s, address).at(at) -
+          sigma * sigma * std::numbers::ln10 / 20};
 }
 
 double burst_power(double exponent, std::uint64_t seed, std::uint32_t receiver, std::int64_t burst) {

@@ -2,7 +2,8 @@
 // Variation of the ambient noise about its spectrum: slow changes and bursts.
 //
 // Slow changes: a Gauss-Markov process in dB (core/gauss_markov.h) is added to the level of the spectrum; it
-// is the same for all frequencies and places of a run.
+// is the same for all frequencies and places of a run. Its mean -sigma^2 ln(10) / 20 preserves the mean
+// power.
 //
 // Bursts (snapping shrimp, cracking ice): symmetric alpha-stable noise of exponent alpha, as a sub-Gaussian
 // process. Over each burst the noise is normal with the power g A, where g is `burst_level` over the noise of

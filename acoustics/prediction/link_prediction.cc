@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "acoustics/math/delay_profile.h"
 #include "acoustics/math/fast_functions.h"
@@ -91,18 +93,53 @@ std::array<BlockFading, kPatterns> patterns_of(const ReceptionStatistics& sound)
   return patterns;
 }
 
+// Phase-shift keying: signals at the least, the median and the greatest block-fading power, each made when it
+// is first asked for. They do not depend on the noise, so averages over several noises share them.
+class PowerSignals {
+ public:
+  enum Power { kQuiet, kMedian, kLoud };
+  PowerSignals(const PacketLevels& packet, GammaPower block_fading, double fast) : packet_(packet), fast_(fast) {
+    alike_ = block_fading.variance < squared(kAlike * (block_fading.mean + fast));
+    if (alike_) block_fading = {block_fading.mean};
+    powers_ = block_fading.at(block_fading_states().powers);
+    for (double& power : powers_) power = std::max(power, 0.0);
+    median_ = std::max(block_fading.at(0), 0.0);
+  }
+  // True when the powers hardly differ.
+  bool alike() const { return alike_; }
+  const std::array<double, kPowers>& powers() const { return powers_; }
+  double median() const { return median_; }
+  double fast() const { return fast_; }
+  const FadingSignal& at(Power power) {
+    std::optional<FadingSignal>& signal = signals_[power];
+    if (!signal)
+      signal.emplace(packet_.fading_signal(power == kQuiet    ? powers_.front()
+                                           : power == kMedian ? median_
+                                                              : powers_.back()));
+    return *signal;
+  }
+
+ private:
+  const PacketLevels& packet_;
+  std::array<double, kPowers> powers_;
+  double median_ = 0, fast_;
+  bool alike_ = false;
+  std::array<std::optional<FadingSignal>, 3> signals_;
+};
+
 // Phase-shift keying: levels for each block-fading power, in ascending order. They are computed at the least,
 // the median and the greatest power; between them the ratio to the mean power lies on the parabola through
 // those three. If the strongest state is lost, or the weakest decoded, so are all.
 std::array<StratifiedAverage::Levels, kPowers> levels_of(const PacketLevels& packet,
                                                          const StratifiedAverage& mean,
-                                                         const std::array<double, kPowers>& powers,
-                                                         double median, double fast) {
+                                                         PowerSignals& signals) {
+  const std::array<double, kPowers>& powers = signals.powers();
+  const double median = signals.median(), fast = signals.fast();
   // Parts of a packet: the guess is the result for the previous power, or else for the previous level.
   std::array<double, StratifiedAverage::kLevels> parts{};
   double last = 0;
-  const auto levels_at = [&](double power) {
-    const FadingSignal fading = packet.fading_signal(power);
+  const auto levels_at = [&](PowerSignals::Power power) {
+    const FadingSignal& fading = signals.at(power);
     return mean.levels([&](std::size_t k) {
       if (!(parts[k] > 0)) parts[k] = last;
       const Level bits = packet.bits(fading, mean.noise(k), parts[k]);
@@ -127,20 +164,20 @@ std::array<StratifiedAverage::Levels, kPowers> levels_of(const PacketLevels& pac
   const bool likely_lost = packet.is_likely_lost(median, mean.noise(StratifiedAverage::kLevels / 2));
   StratifiedAverage::Levels loud;
   if (likely_lost) {
-    levels.fill(loud = levels_at(powers.back()));
+    levels.fill(loud = levels_at(PowerSignals::kLoud));
     if (are_lost(loud)) return levels;
   }
-  const StratifiedAverage::Levels quiet = levels_at(powers.front());
+  const StratifiedAverage::Levels quiet = levels_at(PowerSignals::kQuiet);
   levels.fill(quiet);
   if (!(powers.back() > powers.front()) || mean.decodes(quiet.front())) return levels;
   if (!likely_lost) {
-    loud = levels_at(powers.back());
+    loud = levels_at(PowerSignals::kLoud);
     if (are_lost(loud)) {
       levels.fill(loud);
       return levels;
     }
   }
-  const StratifiedAverage::Levels middle = levels_at(median);
+  const StratifiedAverage::Levels middle = levels_at(PowerSignals::kMedian);
   const auto& scores = block_fading_states().powers;
   const double quiet_db = in_db(powers.front()), middle_db = in_db(median), loud_db = in_db(powers.back());
   for (std::size_t i = 1; i < kPowers; ++i) {
@@ -154,17 +191,12 @@ std::array<StratifiedAverage::Levels, kPowers> levels_of(const PacketLevels& pac
   return levels;
 }
 
-void add_powers(const PacketLevels& packet, const ReceptionStatistics& sound, StratifiedAverage& mean) {
-  GammaPower block_fading = sound.block_fading;
-  const bool alike = block_fading.variance < squared(kAlike * (block_fading.mean + sound.fast));
-  if (alike) block_fading = {block_fading.mean};
-  std::array<double, kPowers> powers = block_fading.at(block_fading_states().powers);
-  for (double& power : powers) power = std::max(power, 0.0);
-  const auto levels = levels_of(packet, mean, powers, std::max(block_fading.at(0), 0.0), sound.fast);
+void add_powers(const PacketLevels& packet, PowerSignals& signals, StratifiedAverage& mean) {
+  const auto levels = levels_of(packet, mean, signals);
   Level preamble;
   for (std::size_t i = 0; i < kPowers; ++i) {
-    if (i == 0 || (!alike && !mean.finds(preamble))) {
-      preamble = packet.preamble(powers[i]);
+    if (i == 0 || (!signals.alike() && !mean.finds(preamble))) {
+      preamble = packet.preamble(signals.powers()[i]);
     }
     mean.add(preamble, levels[i], i, 1.0 / kPowers);
   }
@@ -258,14 +290,55 @@ std::array<StratifiedAverage::Levels, kPatterns> levels_of(
   return levels;
 }
 
-void add_patterns(const PacketLevels& packet, const ReceptionStatistics& sound, StratifiedAverage& mean) {
-  const auto patterns = patterns_of(sound);
+void add_patterns(const PacketLevels& packet, const std::array<BlockFading, kPatterns>& patterns,
+                  StratifiedAverage& mean) {
   const auto levels = levels_of(packet, mean, patterns);
   Level preamble;
   for (std::size_t i = 0; i < kPatterns; ++i) {
     if (i == 0 || !mean.finds(preamble)) preamble = packet.preamble(patterns[i].block_power);
     mean.add(preamble, levels[i], i, 1.0 / kPatterns);
   }
+}
+
+// Likewise from four of the states, each in the place of a quarter of them: for the quantiles over hours.
+void add_few_patterns(const PacketLevels& packet, const std::array<BlockFading, kPatterns>& patterns,
+                      StratifiedAverage& mean) {
+  constexpr std::array<std::size_t, 4> kFew{2, 5, 10, 13};
+  Level preamble;
+  for (const std::size_t i : kFew) {
+    const auto levels =
+        mean.levels([&](std::size_t at) { return packet.bits(patterns[i], mean.noise(at)); });
+    if (i == kFew.front() || !mean.finds(preamble)) preamble = packet.preamble(patterns[i].block_power);
+    mean.add(preamble, levels, i, 1.0 / kFew.size());
+  }
+}
+
+// States of block fading of a link, which do not depend on the noise.
+struct BlockStates {
+  std::optional<PowerSignals> powers;                             // phase-shift keying
+  std::optional<std::array<BlockFading, kPatterns>> patterns;  // frequency-shift keying
+
+  BlockStates(const PacketLevels& packet, const ReceptionStatistics& sound) {
+    if (packet.collects_band()) {
+      powers.emplace(packet, sound.block_fading, sound.fast);
+    } else {
+      patterns = patterns_of(sound);
+    }
+  }
+};
+
+// Delivery where the margin is shifted; `now` is that without a shift, which is the answer where nothing is
+// left to be lost or gained. `shifted` holds no states yet.
+double shifted_delivery(const PacketLevels& packet, BlockStates& states, double shift_db, double now,
+                        StratifiedAverage shifted) {
+  constexpr double kSettled = 0.002;
+  if (shift_db < 0 ? now < kSettled : now > 1 - kSettled) return now;
+  if (states.powers) {
+    add_powers(packet, *states.powers, shifted);
+  } else {
+    add_few_patterns(packet, *states.patterns, shifted);
+  }
+  return shifted.delivery_probability();
 }
 
 double sinr_of(const ReceptionStatistics& sound, double noise) {
@@ -295,6 +368,7 @@ LinkPrediction predict_still(const std::vector<Arrival>& paths, const Synchronis
   prediction.sinr = signal / (noise + bits_echoes);
   prediction.acquisition_probability = curves.acquisition(signal / (noise + preamble_echoes));
   prediction.delivery_probability = prediction.acquisition_probability * elementary::exp(log_success);
+  prediction.delivery_low = prediction.delivery_high = prediction.delivery_probability;
   return prediction;
 }
 
@@ -309,7 +383,7 @@ double rms_delay_spread_s(const std::vector<Arrival>& paths) {
 
 LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Synchronisation& sync, const Band& band, double noise,
-                            const ReceptionCurves& curves) {
+                            const ReceptionCurves& curves, const MarginShifts& shifts) {
   if (paths.empty()) return {};
   if (!model.enabled) return predict_still(paths, sync, noise, curves);
   const ReceptionStatistics sound = reception_statistics(paths, sync, band, curves.timing());
@@ -317,27 +391,44 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>
   // Platform jitter is constant through a packet, so its variance adds to that of large-scale fading.
   const double deviation = elementary::hypot(std::numbers::ln10 / 10 * model.large_scale_db,
                                              std::sqrt(elementary::log1p(sound.jitter_variance)));
+  BlockStates states(packet, sound);
   StratifiedAverage mean(deviation, curves, sound, noise);
-  if (packet.collects_band()) {
-    add_powers(packet, sound, mean);
+  if (states.powers) {
+    add_powers(packet, *states.powers, mean);
   } else {
-    add_patterns(packet, sound, mean);
+    add_patterns(packet, *states.patterns, mean);
   }
-  return {sinr_of(sound, noise), mean.acquisition_probability(), mean.delivery_probability()};
+  const double now = mean.delivery_probability();
+  LinkPrediction prediction{sinr_of(sound, noise), mean.acquisition_probability(), now, now, now};
+  if (!shifts.any()) return prediction;
+  const auto at = [&](double shift_db) {
+    return shifted_delivery(packet, states, shift_db, now,
+                            {deviation, curves, sound, noise * fast_power(-shift_db)});
+  };
+  prediction.delivery_low = at(shifts.low_db);
+  prediction.delivery_high = at(shifts.high_db);
+  return prediction;
 }
 
 LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Modem& receiver, const std::vector<LikelyWindow>& windows, const Band& band,
-                            double noise, const ReceptionCurves& curves) {
-  LinkPrediction mean;
+                            double noise, const ReceptionCurves& curves, const MarginShifts& shifts) {
+  LinkPrediction mean, best;
   for (const LikelyWindow& likely : windows) {
     const Synchronisation sync{&receiver, likely.window};
-    const LinkPrediction one = predict_link(model, paths, sync, band, noise, curves);
+    const bool is_best = &likely == &windows.front();
+    const LinkPrediction one =
+        predict_link(model, paths, sync, band, noise, curves, is_best ? shifts : MarginShifts());
     if (!model.enabled) return one;
+    if (is_best) best = one;
     mean.sinr += likely.probability * one.sinr;
     mean.acquisition_probability += likely.probability * one.acquisition_probability;
     mean.delivery_probability += likely.probability * one.delivery_probability;
   }
+  mean.delivery_low = mean.delivery_high = mean.delivery_probability;
+  if (!shifts.any()) return mean;
+  mean.delivery_low = best.delivery_low;
+  mean.delivery_high = best.delivery_high;
   return mean;
 }
 

@@ -51,6 +51,17 @@ struct LinkPrediction {
   double sinr = 0;                     // ratio of the mean signal to noise plus mean own interference
   double acquisition_probability = 0;  // probability of detecting the preamble
   double delivery_probability = 0;     // probability of detecting the preamble and decoding all bits
+  // The same with the margin shifted by MarginShifts; equal to it without shifts and without fading.
+  double delivery_low = 0, delivery_high = 0;
+};
+
+// Changes of a link's margin, dB, at which delivery is predicted beside that of the link as it is: slow fading
+// at its quantiles (acoustics/fading/slow_fading.h). Both 0: none are. The ratios that decide are those of the
+// link as it is, carried to the other noise (StratifiedAverage::levels_from), so that both together cost about
+// a third of a prediction; they are within 0.03 of a prediction of their own in most places.
+struct MarginShifts {
+  double low_db = 0, high_db = 0;
+  bool any() const { return low_db != 0 || high_db != 0; }
 };
 
 // Prediction for one window. `noise` is the power over the band, uPa^2, less the receiver's directivity
@@ -58,13 +69,13 @@ struct LinkPrediction {
 // paths all results are 0.
 LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Synchronisation& sync, const Band& band, double noise,
-                            const ReceptionCurves& curves);
+                            const ReceptionCurves& curves, const MarginShifts& shifts = {});
 
 // Mean of the predictions over the windows that the receiver may choose; without fading the prediction for
 // the best window.
 LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Modem& receiver, const std::vector<LikelyWindow>& windows, const Band& band,
-                            double noise, const ReceptionCurves& curves);
+                            double noise, const ReceptionCurves& curves, const MarginShifts& shifts = {});
 
 // The `sinr` of that prediction alone, which is faster to compute.
 double predicted_sinr(const FadingModel& model, const std::vector<Arrival>& paths, const Modem& receiver,

@@ -57,9 +57,10 @@ std::optional<acoustics::LinkPrediction> OnePathForecast::at(const std::vector<a
     return b + t / 2 * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
   };
   // SINR = 1 / (noise / signal + own_share)
+  const double delivery = std::clamp(between(&Chances::delivery), 0.0, 1.0);
   return acoustics::LinkPrediction{1 / (1 / ratio + between(&Chances::own_share)),
-                                   std::clamp(between(&Chances::acquisition), 0.0, 1.0),
-                                   std::clamp(between(&Chances::delivery), 0.0, 1.0)};
+                                   std::clamp(between(&Chances::acquisition), 0.0, 1.0), delivery, delivery,
+                                   delivery};
 }
 
 }  // namespace halocline::channel_server

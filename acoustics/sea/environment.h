@@ -9,6 +9,7 @@
 
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/noise.h"
+#include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/frames.h"
 #include "ocean/ocean_field.h"
@@ -38,6 +39,9 @@ struct Environment {
   // Water that varies with position, if there is a field. The profile is then that of the world's origin, and
   // only its formula of sound speed is used elsewhere.
   WaterField field = {};
+  // Changes of the profile over hours; none where there is a field. The profile here is that without them, or
+  // that of one block in what EnvironmentTimeline (channel_server/propagation) returns.
+  ProfileDrift drift = {};
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.

@@ -84,10 +84,6 @@ std::vector<SpeedRow> table_knots(const SoundSpeedProfile& profile) {
   return knots;
 }
 
-bool is_table_of_speeds(const SoundSpeedProfile& profile) {
-  return !profile.knows_water() && !profile.row_depths_m().empty();
-}
-
 }  // namespace
 
 RayWater::RayWater(std::vector<SpeedRow> knots, const AbsorptionAtDepth& absorption_db_per_km) {
@@ -145,7 +141,7 @@ std::vector<SpeedRow> rounded_channels(const std::vector<SpeedRow>& knots, doubl
 
 std::vector<SpeedRow> knots_of(const SoundSpeedProfile& profile, double speed_tolerance_mps) {
   require_in_range(speed_tolerance_mps, 1e-6, 10, "speed tolerance of a profile for rays", "m/s");
-  return is_table_of_speeds(profile) ? table_knots(profile) : sampled_knots(profile, speed_tolerance_mps);
+  return profile.is_table_of_speeds() ? table_knots(profile) : sampled_knots(profile, speed_tolerance_mps);
 }
 
 std::vector<SpeedRow> thinned(const std::vector<SpeedRow>& knots, double tolerance_mps) {

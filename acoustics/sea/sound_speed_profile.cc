@@ -123,10 +123,22 @@ SoundSpeedProfile SoundSpeedProfile::isovelocity(double sound_speed_mps, WaterSa
   return from_speeds({{0, sound_speed_mps}}, assumed);
 }
 
+SoundSpeedProfile SoundSpeedProfile::with_change(std::vector<SpeedRow> change) const {
+  if (!change.empty()) require_rising_depths(change);
+  SoundSpeedProfile changed = *this;
+  changed.change_rows_ = std::move(change);
+  changed.build_cells();
+  return changed;
+}
+
 std::vector<double> SoundSpeedProfile::row_depths_m() const {
   std::vector<double> depths;
   for (const WaterRow& row : water_rows_) depths.push_back(row.depth_m);
   for (const SpeedRow& row : speed_rows_) depths.push_back(row.depth_m);
+  if (change_rows_.empty()) return depths;
+  for (const SpeedRow& row : change_rows_) depths.push_back(row.depth_m);
+  std::sort(depths.begin(), depths.end());
+  depths.erase(std::unique(depths.begin(), depths.end()), depths.end());
   return depths;
 }
 
@@ -148,7 +160,12 @@ void SoundSpeedProfile::build_cells() {
 }
 
 double SoundSpeedProfile::sound_speed_mps(double depth_m) const {
-  const double z = std::max(depth_m, 0.0);
+  const double z = std::max(depth_m, 0.0), speed = unchanged_speed_mps(z);
+  if (change_rows_.empty() || z >= change_rows_.back().depth_m) return speed;
+  return speed + interpolate(change_rows_, place_of(change_rows_, z), &SpeedRow::sound_speed_mps);
+}
+
+double SoundSpeedProfile::unchanged_speed_mps(double z) const {
   if (kind_ == Kind::kMunk) return munk_sound_speed_mps(z);
   if (kind_ == Kind::kSpeeds) {
     return interpolate(speed_rows_, place_of(speed_rows_, z), &SpeedRow::sound_speed_mps);

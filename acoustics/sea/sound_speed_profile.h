@@ -67,6 +67,12 @@ class SoundSpeedProfile {
   static SoundSpeedProfile munk(WaterSample assumed);
   static SoundSpeedProfile isovelocity(double sound_speed_mps, WaterSample assumed);
 
+  // Return this profile with `change` added to its speeds, and without. `change` holds changes of sound speed,
+  // m/s, by depth, rising, linear between its rows, constant above the first and 0 below the last; it replaces
+  // an earlier change. Throws InvalidArgument when the depths do not rise.
+  SoundSpeedProfile with_change(std::vector<SpeedRow> change) const;
+  SoundSpeedProfile without_change() const { return with_change({}); }
+
   double sound_speed_mps(double depth_m) const;
   WaterSample water(double depth_m) const;
 
@@ -79,9 +85,11 @@ class SoundSpeedProfile {
   // needs 5 nodes a cell for 1e-12. Rows are included; within the table cells are at most 100 m tall and span
   // at most 5 degC.
   const std::vector<double>& cell_boundaries_m() const { return boundaries_m_; }
-  // The depths of the table's rows, m; empty for Munk's formula.
+  // The depths of the rows of the table and of a change, m; empty for Munk's formula without one.
   std::vector<double> row_depths_m() const;
   SoundSpeedModel model() const { return model_; }
+  // True for a table of speeds, which is linear between its rows.
+  bool is_table_of_speeds() const { return kind_ == Kind::kSpeeds; }
   // False: temperature and salinity are assumed values.
   bool knows_water() const { return kind_ == Kind::kWater; }
 
@@ -89,6 +97,7 @@ class SoundSpeedProfile {
   enum class Kind { kWater, kSpeeds, kMunk };
   SoundSpeedProfile() = default;
   void build_cells();
+  double unchanged_speed_mps(double depth_m) const;  // at 0 m or below
   double slowness_integral(double from_depth_m, double to_depth_m) const;
 
   Kind kind_ = Kind::kWater;
@@ -96,6 +105,7 @@ class SoundSpeedProfile {
   double latitude_rad_ = 0;
   std::vector<WaterRow> water_rows_;
   std::vector<SpeedRow> speed_rows_;
+  std::vector<SpeedRow> change_rows_;  // empty: no change
   WaterSample assumed_{};
   std::vector<double> boundaries_m_;
   std::vector<double> slowness_to_boundary_;  // integral of dz / c from 0 to each boundary, s

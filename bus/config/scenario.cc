@@ -79,9 +79,19 @@ void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {
   });
 }
 
+// Reads the depth of a shape, whose defaults are those of bathymetry/terrain/generated_terrain.h.
+void visit_depth_of_shape(ConfigVisitor& terrain, const std::string& kind, Scenario& s) {
+  double z_m = kind == "ridge" ? 200 : kind == "seamount" ? 2000 : 100;
+  terrain.section(kind, "", [&](ConfigVisitor& shape) {
+    shape.shared_with_others();
+    shape.number("depth_m", z_m, {-1e9, 1e9, "m", ""});  // the bathymetry service checks its range
+  });
+  s.water_depth_m = std::max(z_m - s.sea_surface_z_m, 0.0);
+}
+
 // The keys belong to the bathymetry service. They are visited here so that a program that records the
-// configuration knows the files that they name.
-void visit_rasters(ConfigVisitor& v) {
+// configuration knows the files that they name, and one that knows no terrain the depth of a shape.
+void visit_terrain_of(ConfigVisitor& v, Scenario& s) {
   FilePath path;
   const auto visit_raster = [&](ConfigVisitor& raster) {
     raster.shared_with_others();
@@ -89,8 +99,10 @@ void visit_rasters(ConfigVisitor& v) {
   };
   const auto visit_terrain = [&](ConfigVisitor& terrain) {
     terrain.shared_with_others();
-    std::string kind;
+    std::string kind = "flat";
     terrain.text("kind", kind, {}, "");
+    if (kind == "flat" || kind == "slope" || kind == "ridge" || kind == "seamount")
+      visit_depth_of_shape(terrain, kind, s);
     terrain.when(kind == "raster", "kind = \"raster\"", [&] { terrain.section("raster", "", visit_raster); });
     terrain.list(
         "nested", "", 0, [](std::size_t) {},
@@ -174,7 +186,7 @@ void visit(ConfigVisitor& v, Scenario& s) {
   v.section("ocean", "Ocean model: currents, temperature and salinity by place and time",
             [&](ConfigVisitor& section) { visit_ocean(section, s.ocean); });
   if (!v.writing()) {
-    visit_rasters(v);
+    visit_terrain_of(v, s);
     // The key belongs to the channel server.
     v.section("channel_server", "", [&](ConfigVisitor& section) {
       section.shared_with_others();

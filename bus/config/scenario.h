@@ -67,6 +67,8 @@ struct Scenario {
   double origin_longitude_deg = 0;  // -180 to 360
   bool origin_given = true;         // false: the file has no origin, and the values above are 0
   double sea_surface_z_m = 0;  // z of the surface in the world frame, m: negative if it lies above the datum
+  // Depth of the water of a terrain that is a shape, at its origin or far from its height, m; 0: a raster's.
+  double water_depth_m = 0;
   double rate = 1;  // simulated seconds per wall second, for processes that keep pace with the wall clock
   SimDuration clock_period = SimDuration::from_milliseconds(100);  // between CLOCK messages, simulation time
   std::string accept;  // hosts whose datagrams are received (receive_filter.h)

@@ -39,6 +39,15 @@ Modem of_packets(const Modem& modem) {
   return packets;
 }
 
+// Returns the delivery of one path at a shift of its margin. Below the table nothing is delivered, above it
+// what is delivered there.
+double shifted_delivery(const OnePathForecast& table, const std::vector<Arrival>& paths,
+                        double noise, double shift_db, const acoustics::LinkPrediction& unshifted) {
+  const auto found = table.at(paths, noise * elementary::exp10(-shift_db / 10));
+  if (found) return found->delivery_probability;
+  return shift_db < 0 ? 0 : unshifted.delivery_probability;
+}
+
 // True when channel_server/packets rejects the packet before its preamble.
 bool is_impossible(const Modem& receiver, const Reception& reception, const Arrival& strongest, bool fades) {
   return !reception.budget.receivable ||
@@ -46,6 +55,27 @@ bool is_impossible(const Modem& receiver, const Reception& reception, const Arri
 }
 
 }  // namespace
+
+LinkPredictor::LinkPredictor(Rule rule) : rule_(std::move(rule)), levels_(rule_.fading.slow) {
+  if (rule_.fading.enabled)
+    hours_ = acoustics::margin_quantiles(rule_.fading.slow, rule_.noise.spread_db);
+}
+
+SlowState LinkPredictor::slow_state(VehicleId from, VehicleId to, SimTime at) {
+  SlowState state;
+  const bool are_vehicles = from != 0 && to != 0;
+  if (rule_.fading.enabled && are_vehicles && rule_.fading.slow.any()) {
+    const acoustics::SlowPair pair{rule_.seed, static_cast<std::uint32_t>(std::min(from, to)),
+                                   static_cast<std::uint32_t>(std::max(from, to))};
+    state.level_db = levels_.at(pair, at).value;
+  }
+  if (noise_at_ != at) {
+    noise_at_ = at;
+    noise_db_ = noise_offset(rule_.noise, rule_.seed, at).value;
+  }
+  state.margin_db = state.level_db - noise_db_;
+  return state;
+}
 
 LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
   Rates rates;
@@ -108,7 +138,7 @@ std::shared_ptr<const LinkPredictor::Rates> LinkPredictor::rates_of(const Modem&
 double LinkPredictor::least_sinr_db(const Modem& transmitter) { return entry_of(transmitter).least_sinr_db; }
 
 LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitter, const Modem& receiver,
-                                     const Reception& reception) const {
+                                     const Reception& reception, const SlowState& slow) const {
   if (reception.paths.empty()) return {};
   std::vector<Arrival> heard;
   const std::vector<Arrival>& paths = without_faint(reception.paths, heard);
@@ -123,13 +153,17 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
   forecast.doppler_spread_hz = acoustics::doppler_spread_of(coherence_s);
   forecast.rms_delay_spread_s = rms_delay_spread_s(reception.paths);
   const bool impossible = is_impossible(receiver, reception, paths[window.strongest], rule_.fading.enabled);
-  const double noise_power = to_power_ratio(noise).value;
+  // Slow fading changes signal and own echoes alike, so the noise stands for it.
+  const double noise_power = to_power_ratio(noise - Decibels{slow.level_db}).value;
   if (impossible) {
     forecast.sinr_db = level_of(predicted_sinr(rule_.fading, paths, receiver, windows, transmitter.band(),
                                                noise_power, rates.front().curves))
                            .value;
     return forecast;
   }
+  acoustics::MarginShifts shifts;
+  if (hours_.low_db != 0 || hours_.high_db != 0)
+    shifts = {hours_.low_db - slow.margin_db, hours_.high_db - slow.margin_db};
   double best = 0;
   for (const auto& [curves, one_path] : rates) {
     const double rate_bps = curves.modem().bit_rate_bps;
@@ -140,12 +174,19 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
     const acoustics::LinkPrediction predicted =
         from_table ? *from_table
         : own
-            ? predict_link(rule_.fading, paths, receiver, windows, transmitter.band(), noise_power, curves)
+            ? predict_link(rule_.fading, paths, receiver, windows, transmitter.band(), noise_power, curves,
+                           shifts)
             : predict_link(rule_.fading, paths, {&receiver, window}, transmitter.band(), noise_power, curves);
     if (own) {
       forecast.sinr_db = level_of(predicted.sinr).value;
       forecast.acquisition_probability = predicted.acquisition_probability;
       forecast.delivery_probability = predicted.delivery_probability;
+      forecast.delivery_low = predicted.delivery_low;
+      forecast.delivery_high = predicted.delivery_high;
+      if (from_table && shifts.any()) {
+        forecast.delivery_low = shifted_delivery(one_path, paths, noise_power, shifts.low_db, predicted);
+        forecast.delivery_high = shifted_delivery(one_path, paths, noise_power, shifts.high_db, predicted);
+      }
     }
     if (predicted.delivery_probability < kMinDelivery || rate_bps * predicted.delivery_probability <= best)
       continue;

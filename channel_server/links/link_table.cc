@@ -73,11 +73,14 @@ std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehi
     const auto own = predictor.rates_of(vehicles[transmitter.vehicle].modem->modem);
     rates.insert(rates.end(), transmitter.receivers.size(), own);
   }
+  std::vector<SlowState> slow;
+  for (const EndPair& link : links)
+    slow.push_back(predictor.slow_state(link.from.id, link.to.id, instant));
   const std::vector<Reception> receptions = propagation.receptions(instant, links, for_each);
   std::vector<LinkForecast> forecasts(links.size());
   for_each(links.size(), [&](std::size_t i) {
     const auto& [from, to] = links[i];
-    forecasts[i] = predictor.forecast(*rates[i], *from.modem, *to.modem, receptions[i]);
+    forecasts[i] = predictor.forecast(*rates[i], *from.modem, *to.modem, receptions[i], slow[i]);
   });
   std::vector<LinkTable> tables;
   std::size_t link = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "acoustics/sea/profile_drift.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
@@ -24,6 +25,18 @@ acoustics::Environment changed(acoustics::Environment environment, const Environ
 }
 
 constexpr EnvironmentTimeline::WaterId kIdsOfAStep = 1LL << 32;  // more than the ids of all other changes
+
+bool drifts(const acoustics::Environment& environment) {
+  return environment.drift.any() && !environment.field;
+}
+
+bool changes_by_itself(const acoustics::Environment& environment) {
+  return drifts(environment) || (environment.field && !environment.field.ocean->is_steady());
+}
+
+double period_of(const acoustics::Environment& environment) {
+  return environment.field ? environment.field.period_s : acoustics::ProfileDrift::kBlockS;
+}
 
 constexpr SimTime kAlways = SimTime::from_nanoseconds(std::numeric_limits<std::int64_t>::min());
 
@@ -72,8 +85,8 @@ const EnvironmentTimeline::Span& EnvironmentTimeline::span_at(SimTime instant) c
 }
 
 std::int64_t EnvironmentTimeline::step_of(const acoustics::Environment& environment, SimTime instant) {
-  if (!environment.field || environment.field.ocean->is_steady()) return 0;
-  return static_cast<std::int64_t>(std::floor(instant.seconds() / environment.field.period_s));
+  if (!changes_by_itself(environment)) return 0;
+  return static_cast<std::int64_t>(std::floor(instant.seconds() / period_of(environment)));
 }
 
 EnvironmentTimeline::WaterId EnvironmentTimeline::water_at(SimTime instant) const {
@@ -83,14 +96,15 @@ EnvironmentTimeline::WaterId EnvironmentTimeline::water_at(SimTime instant) cons
 
 const acoustics::Environment& EnvironmentTimeline::at(SimTime instant) const {
   const Span& span = span_at(instant);
-  const acoustics::WaterField& field = span.environment.field;
-  if (!field || field.ocean->is_steady()) return span.environment;
+  if (!changes_by_itself(span.environment)) return span.environment;
   const std::int64_t step = step_of(span.environment, instant);
   const auto [known, is_new] = field_waters_.try_emplace(span.id + step * kIdsOfAStep, span.environment);
   acoustics::Environment& there = known->second;
   if (!is_new) return there;
-  there.field.time_s = (static_cast<double>(step) + 0.5) * field.period_s;
-  there.profile = environment_at(there, 0, 0).profile;
+  there.field.time_s = (static_cast<double>(step) + 0.5) * period_of(there);
+  there.profile =
+      drifts(there) ? there.profile.with_change(drift_rows(there.drift, drift_amplitudes(there.drift, step)))
+                    : environment_at(there, 0, 0).profile;
   return there;
 }
 
@@ -102,8 +116,7 @@ SimTime EnvironmentTimeline::next_change_after(SimTime instant) const {
 
 void EnvironmentTimeline::forget_before(SimTime time) {
   std::erase_if(field_waters_, [time](const auto& water) {
-    const acoustics::WaterField& field = water.second.field;
-    return field.time_s + field.period_s < time.seconds();
+    return water.second.field.time_s + period_of(water.second) < time.seconds();
   });
   constexpr std::size_t kForgottenTogether = kAnnouncedKept / 10;  // each removal moves all other spans
   if (changes_kept() < kAnnouncedKept + kForgottenTogether) return;

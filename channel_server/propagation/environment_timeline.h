@@ -13,6 +13,9 @@
 // share their searches, and delays jump at the end of a span by what the field changes in it. Spans begin at
 // multiples of the period. A sound-speed profile that is announced replaces the field.
 //
+// A profile that drifts (acoustics/sea/profile_drift.h) is likewise that of the block that contains the instant.
+// An announced profile drifts, too.
+//
 // A value in memory. Not thread-safe, not even its const functions: they cache the environments that a field
 // yields.
 // makes.
@@ -69,7 +72,7 @@ class EnvironmentTimeline {
   // change is added.
   const acoustics::Environment& at(SimTime instant) const;
   WaterId water_at(SimTime instant) const;
-  // Returns the instant of the first change after `instant`, except those of a field; never() when none is
+  // Returns the instant of the first change after `instant`, except those of a field or a drift; never() when none is
   // known.
   SimTime next_change_after(SimTime instant) const;
 
@@ -94,14 +97,14 @@ class EnvironmentTimeline {
     WaterId id = 0;
   };
   const Span& span_at(SimTime instant) const;
-  // Number of the field's span that contains the instant, counted from time 0; 0 where the field does not
-  // change.
+  // Number of the span of a field or block of a drift that contains the instant, counted from time 0; 0 where
+  // neither changes.
   static std::int64_t step_of(const acoustics::Environment& environment, SimTime instant);
   void insert(const Order& order, const EnvironmentChange& change);
 
   std::vector<Span> spans_;  // ordered; the first is the initial environment
   WaterId last_id_ = 0;
-  // Environments with the field of other spans.
+  // Environments with the field of other spans, or the profile of a block.
   mutable std::map<WaterId, acoustics::Environment> field_waters_;
 };
 

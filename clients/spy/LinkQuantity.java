@@ -46,7 +46,7 @@ final class LinkQuantity {
   }
 
   boolean isProbability() {
-    return name().endsWith("_probability");
+    return name().endsWith("_probability") || name().startsWith("delivery_");
   }
 
   /** A Double, or the words of a code or of yes and no. */

@@ -69,7 +69,8 @@ class Arrivals:
 class Link:
     """One link of a scenario.
 
-    budget    numbers by their names with units: range_m, delay_s, transmission_loss_db, snr_db, delivery_probability, ...
+    budget    numbers by their names with units: range_m, delay_s, transmission_loss_db, snr_db, delivery_probability, ...; delivery_low and delivery_high
+              are its 10 and 90 % over the hours of a slow sea
     arrivals  the paths, as the modems at both ends receive them
     notes     formulas that were taken beyond the range they were published for
     """

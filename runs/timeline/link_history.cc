@@ -35,6 +35,8 @@ constexpr std::array kColumns = std::to_array<LinkColumn>({
     {"sinr_db", "SINR", "dB", value_of<&link_t::sinr_db>},
     {"acquisition_probability", "probability of detection", "", value_of<&link_t::acquisition_probability>},
     {"delivery_probability", "probability of delivery", "", value_of<&link_t::delivery_probability>},
+    {"delivery_low", "delivery in one hour of ten", "", value_of<&link_t::delivery_low>},
+    {"delivery_high", "delivery in nine hours of ten", "", value_of<&link_t::delivery_high>},
     {"coherence_time_s", "coherence time", "s", value_of<&link_t::coherence_time_s>},
     {"doppler_spread_hz", "Doppler spread", "Hz", value_of<&link_t::doppler_spread_hz>},
     {"rms_delay_spread_s", "rms delay spread", "s", value_of<&link_t::rms_delay_spread_s>},

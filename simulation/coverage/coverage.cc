@@ -33,7 +33,9 @@ Sample tolerances(const std::vector<CoverageQuantity>& wanted) {
   const bool level = asks(CoverageQuantity::kLevel) || asks(CoverageQuantity::kSnr);
   return {kDeliveryTolerance, level ? kLevelToleranceDb : kNotLooked,
           asks(CoverageQuantity::kDelay) ? kDelayToleranceS : kNotLooked,
-          asks(CoverageQuantity::kSnr) ? kLevelToleranceDb : kNotLooked};
+          asks(CoverageQuantity::kSnr) ? kLevelToleranceDb : kNotLooked,
+          asks(CoverageQuantity::kDeliveryLow) ? kDeliveryTolerance : kNotLooked,
+          asks(CoverageQuantity::kDeliveryHigh) ? kDeliveryTolerance : kNotLooked};
 }
 
 class Mapping {
@@ -51,7 +53,8 @@ class Mapping {
         threads_(threads),
         sharing_(sharing) {
     const std::size_t cells = area.side * area.side;
-    for (auto* values : {&map_.delivery, &map_.level_db, &map_.delay_s, &map_.snr_db})
+    for (auto* values : {&map_.delivery, &map_.level_db, &map_.delay_s, &map_.snr_db, &map_.delivery_low,
+                         &map_.delivery_high})
       values->assign(area.depths_m.size(), std::vector<double>(cells, kNothing));
     map_.area = area;
   }
@@ -85,6 +88,8 @@ class Mapping {
     map_.level_db[depth][cell] = sample[1];
     map_.delay_s[depth][cell] = sample[2];
     map_.snr_db[depth][cell] = sample[3];
+    map_.delivery_low[depth][cell] = sample[4];
+    map_.delivery_high[depth][cell] = sample[5];
   }
 
   void by_range(double bottom_z_m) {
@@ -251,6 +256,10 @@ std::vector<double> Coverage::values(CoverageQuantity quantity, std::size_t dept
       return delay_s.at(depth);
     case CoverageQuantity::kLevel:
       return level_db.at(depth);
+    case CoverageQuantity::kDeliveryLow:
+      return delivery_low.at(depth);
+    case CoverageQuantity::kDeliveryHigh:
+      return delivery_high.at(depth);
     case CoverageQuantity::kSnr:
       break;
   }

@@ -33,8 +33,9 @@
 
 namespace halocline::clients {
 
-// Quantities of a map: delivery probability, SNR in dB, level in dB re 1 uPa, delay in s.
-enum class CoverageQuantity { kDelivery, kSnr, kLevel, kDelay };
+// Quantities of a map: delivery probability, SNR in dB, level in dB re 1 uPa, delay in s, delivery in one hour
+// of ten and in nine (channel_server::LinkForecast).
+enum class CoverageQuantity { kDelivery, kSnr, kLevel, kDelay, kDeliveryLow, kDeliveryHigh };
 
 // Description of a quantity for files and pictures.
 struct QuantityMeaning {
@@ -72,6 +73,7 @@ struct Coverage {
   // Values for each depth, row by row from the south and within a row from the west. NaN where the seabed is
   // unknown or the depth is below it.
   std::vector<std::vector<double>> delivery, level_db, delay_s;
+  std::vector<std::vector<double>> delivery_low, delivery_high;  // likewise
   std::vector<std::vector<double>> snr_db;  // likewise; empty: noise_level_db holds in all cells
   double noise_level_db = 0;                // of the ambient noise, over the band of the modem
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -107,7 +108,7 @@ void write_geotiff(const Coverage& coverage, const CoverageFile& file, const std
 // Returns the values of contour lines: round numbers between the minimum and the maximum, ignoring cells
 // without sound.
 std::vector<double> contour_levels(CoverageQuantity quantity, const std::vector<double>& values) {
-  if (quantity == CoverageQuantity::kDelivery) return {0.1, 0.25, 0.5, 0.75, 0.9};
+  if (meaning_of(quantity).unit == std::string_view("1")) return {0.1, 0.25, 0.5, 0.75, 0.9};
   double least = INFINITY, greatest = -INFINITY;
   for (const double value : values) {
     if (std::isnan(value) || value <= channel_server::kSilence.value / 2) continue;

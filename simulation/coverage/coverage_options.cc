@@ -14,11 +14,13 @@
 namespace halocline::clients {
 namespace {
 
-constexpr std::array<QuantityMeaning, 4> kMeanings{{
+constexpr std::array<QuantityMeaning, 6> kMeanings{{
     {CoverageQuantity::kDelivery, "delivery", "1", "delivery probability of a packet"},
     {CoverageQuantity::kSnr, "snr", "dB", "signal-to-noise ratio in the band"},
     {CoverageQuantity::kLevel, "level", "dB", "received level, re 1 uPa"},
     {CoverageQuantity::kDelay, "delay", "s", "travel time of sound"},
+    {CoverageQuantity::kDeliveryLow, "delivery_low", "1", "delivery probability in one hour of ten"},
+    {CoverageQuantity::kDeliveryHigh, "delivery_high", "1", "delivery probability in nine hours of ten"},
 }};
 
 constexpr std::size_t kMaxDepths = 1000;
@@ -38,7 +40,8 @@ const QuantityMeaning& meaning_of(CoverageQuantity quantity) {
 }
 
 std::vector<CoverageQuantity> quantities_of(const std::string& names) {
-  const std::string allowed = "; allowed are delivery, snr, level and delay, each once, with commas between";
+  const std::string allowed = "; allowed are delivery, snr, level, delay, delivery_low and "
+                              "delivery_high, each once, with commas between";
   std::vector<CoverageQuantity> quantities;
   for (const std::string& name : parts_of(names, ',')) {
     const auto known = std::find_if(kMeanings.begin(), kMeanings.end(),

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -43,7 +44,7 @@ std::string image_data(const Coverage& coverage, CoverageQuantity quantity, std:
 std::string map_of(const Coverage& coverage, CoverageQuantity quantity, std::size_t depth) {
   const QuantityMeaning& meaning = meaning_of(quantity);
   const std::string unit = std::string(meaning.unit) == "1" ? "" : std::string(", ") + meaning.unit;
-  const std::string range = quantity == CoverageQuantity::kDelivery ? "[0:1]" : "[*:*]";
+  const std::string range = meaning.unit == std::string_view("1") ? "[0:1]" : "[*:*]";
   return image_data(coverage, quantity, depth) + "set title " +
          gnuplot_text(fmt::format("{}{} at {:g} m", meaning.meaning, unit, coverage.area.depths_m[depth])) +
          "\nset xlabel 'east, km'\nset ylabel 'north, km'\nset size ratio -1\nset xrange [*:*] noextend\nset "

@@ -193,6 +193,24 @@ TEST(ChannelServerConfig, FadingIsTaken) {
                                             .scattering_loss = true}));
 }
 
+TEST(ChannelServerConfig, ASlowSeaIsTaken) {
+  const ChannelServerConfig config = read(
+      "[environment]\nnoise_spread_db = 2\nnoise_spread_s = 1200\nprofile_spread_mps = 0.4\n"
+      "[propagation]\nslow_fading_db = 2.5\nslow_fading_s = 9000\ntidal_fading_db = 0.5\ndaily_fading_db = 0.7");
+  EXPECT_EQ(config.propagation.fading.slow, (acoustics::SlowFading{2.5, 9000, 0.5, 0.7}));
+  EXPECT_EQ(config.environment.noise_variation,
+            (acoustics::NoiseVariation{.spread_db = 2, .spread_time_s = 1200}));
+  bus::Scenario scenario;
+  scenario.seed = 6;
+  scenario.water_depth_m = 15;
+  const acoustics::ProfileDrift drift = make_environment(config.environment, scenario).drift;
+  EXPECT_EQ(drift.spread_mps, 0.4);
+  EXPECT_EQ(drift.depth_m, 15);
+  EXPECT_EQ(drift.seed, 6u);
+  scenario.water_depth_m = 3000;
+  EXPECT_EQ(make_environment(config.environment, scenario).drift.depth_m, 200);
+}
+
 TEST(ChannelServerConfig, PathsFadeOrTheirPowersAddOrTheirPhasorsAdd) {
   for (const auto& [way, fades, coherent] :
        {std::tuple("sea", true, false), {"none", false, false}, {"coherent", false, true}}) {

@@ -20,16 +20,19 @@ using halocline::testing::tolerance;
 TEST(NoiseSpread, HasTheStatedDeviationAndCorrelationTime) {
   const NoiseVariation variation{.spread_db = 3, .spread_time_s = 600};
   constexpr int kSeeds = 2000;
-  double variance = 0, joint = 0;
+  double variance = 0, joint = 0, power = 0;
+  const double mean = -9 * std::log(10) / 20;  // preserves the mean power
   for (int seed = 0; seed < kSeeds; ++seed) {
     const auto s = static_cast<std::uint64_t>(seed);
-    const double now = noise_offset(variation, s, SimTime::from_seconds(1000)).value;
-    const double later = noise_offset(variation, s, SimTime::from_seconds(1600)).value;
+    const double now = noise_offset(variation, s, SimTime::from_seconds(1000)).value - mean;
+    const double later = noise_offset(variation, s, SimTime::from_seconds(1600)).value - mean;
+    power += std::pow(10, (now + mean) / 10) / kSeeds;
     variance += now * now / kSeeds;
     joint += now * later / kSeeds;
   }
   EXPECT_NEAR(variance / 9, 1, 4 * std::sqrt(2.0 / kSeeds));
   EXPECT_NEAR(joint / 9, std::exp(-1), 4 / std::sqrt(kSeeds));
+  EXPECT_NEAR(power, 1, 4 * 0.85 / std::sqrt(kSeeds));  // the relative deviation of a power is 0.85
 }
 
 TEST(NoiseSpread, OfNoneIsNone) { EXPECT_EQ(noise_offset({}, 1, SimTime::from_seconds(5)).value, 0); }

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/fading/arrival.h"
+#include "acoustics/fading/slow_fading.h"
+#include "acoustics/noise/noise_variation.h"
 #include "acoustics/prediction/link_prediction.h"
 #include "acoustics/reception/signal_history.h"
 #include "core/sim_time.h"
@@ -120,6 +122,70 @@ TEST(LinkPredictor, BestRateFallsWithTheNoiseDownToNone) {
     EXPECT_EQ(best(from, 150), 0);
   }
   EXPECT_EQ(best(modem_of("c", 70), 60), 70);
+}
+
+LinkPredictor::Rule slow_sea() {
+  LinkPredictor::Rule rule{.payload_bytes = 20, .fading = kSea, .profiles = {}};
+  rule.fading.slow = {.deviation_db = 3, .tidal_db = 1, .daily_db = 1};
+  rule.noise = {.spread_db = 3, .spread_time_s = 3600};
+  rule.seed = 5;
+  return rule;
+}
+
+TEST(LinkPredictor, WithoutASlowSeaAllHoursAreAlike) {
+  LinkPredictor predictor({.payload_bytes = 20, .fading = kSea, .profiles = {}});
+  const Modem modem = modem_of("a", 100);
+  const LinkForecast forecast = forecast_of(predictor, modem, modem, reception_of(105));
+  EXPECT_EQ(forecast.delivery_low, forecast.delivery_probability);
+  EXPECT_EQ(forecast.delivery_high, forecast.delivery_probability);
+  const SlowState slow = predictor.slow_state(1, 2, SimTime::from_seconds(100));
+  EXPECT_EQ(slow.level_db, 0);
+  EXPECT_EQ(slow.margin_db, 0);
+}
+
+TEST(LinkPredictor, TheSlowStateIsThatOfPairAndNoise) {
+  LinkPredictor predictor(slow_sea());
+  const LinkPredictor::Rule rule = slow_sea();
+  const SimTime at = SimTime::from_seconds(4000);
+  const SlowState slow = predictor.slow_state(7, 2, at);
+  const double level = slow_level(rule.fading.slow, {5, 2, 7}, at).value;
+  EXPECT_EQ(slow.level_db, level);
+  EXPECT_EQ(slow.margin_db, level - noise_offset(rule.noise, 5, at).value);
+  EXPECT_EQ(predictor.slow_state(2, 7, at).level_db, level);
+  EXPECT_EQ(predictor.slow_state(2, 0, at).level_db, 0);  // a position
+}
+
+// A pair that is louder by 4 dB receives as one in 4 dB less noise.
+TEST(LinkPredictor, SlowFadingCountsAsLessNoise) {
+  LinkPredictor predictor(slow_sea());
+  const Modem modem = modem_of("a", 100);
+  const auto rates = predictor.rates_of(modem);
+  const LinkForecast louder = predictor.forecast(*rates, modem, modem, reception_of(105), {4, 4}),
+                     quieter = predictor.forecast(*rates, modem, modem, reception_of(101));
+  EXPECT_NEAR(louder.delivery_probability, quieter.delivery_probability, 1e-9);
+  EXPECT_NEAR(louder.sinr_db, quieter.sinr_db, 1e-9);
+}
+
+// The quantiles over hours do not depend on the hour of the forecast: on neither the pair's level nor the
+// noise, which the reception has. They are computed from four states of the medium of sixteen.
+TEST(LinkPredictor, DeliveryOfOneHourInTenIsThatAtTheQuantileOfTheMargin) {
+  LinkPredictor predictor(slow_sea());
+  LinkPredictor still({.payload_bytes = 20, .fading = kSea, .profiles = {}});
+  const Modem modem = modem_of("a", 100);
+  const auto hours = acoustics::margin_quantiles(slow_sea().fading.slow, 3);
+  const double noise_db = 98;
+  const auto rates = predictor.rates_of(modem);
+  const double low = forecast_of(still, modem, modem, reception_of(noise_db - hours.low_db)).delivery_probability,
+               high = forecast_of(still, modem, modem, reception_of(noise_db - hours.high_db)).delivery_probability;
+  EXPECT_GT(high - low, 0.3);
+  for (const double level_db : {-5.0, 0.0, 3.0}) {
+    for (const double sea_db : {-2.0, 0.0, 4.0}) {
+      const LinkForecast now = predictor.forecast(*rates, modem, modem, reception_of(noise_db + sea_db),
+                                                  {level_db, level_db - sea_db});
+      EXPECT_NEAR(now.delivery_low, low, 0.04);
+      EXPECT_NEAR(now.delivery_high, high, 0.04);
+    }
+  }
 }
 
 TEST(LinkPredictor, WithoutFadingCoherenceIsTheLongestStatedAndTheToleranceOfDopplerCounts) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/sea/environment.h"
+#include "acoustics/sea/profile_drift.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 
@@ -125,6 +128,49 @@ TEST(EnvironmentTimeline, AnyNumberOfChangesIsTakenWhenTheOldAreForgotten) {
   EXPECT_EQ(wind_at(timeline, 30'001), 19);
   timeline.clear();
   EXPECT_EQ(wind_at(timeline, 6), 3);
+}
+
+acoustics::Environment drifting_water() {
+  acoustics::Environment water = even_water();
+  water.drift = {.spread_mps = 0.3, .depth_m = 100, .seed = 4};
+  return water;
+}
+
+double speed_at(const EnvironmentTimeline& timeline, double time_s) {
+  return timeline.at(at_s(time_s)).profile.sound_speed_mps(0);
+}
+
+// dc at the surface is the sum of both amplitudes.
+TEST(EnvironmentTimeline, AProfileDriftsInBlocksOf600Seconds) {
+  const EnvironmentTimeline timeline(drifting_water());
+  const double even = even_water().profile.sound_speed_mps(0);
+  for (const int block : {0, 1, 7, 100}) {
+    const auto [first, second] = drift_amplitudes(drifting_water().drift, block);
+    const double begin_s = 600.0 * block;
+    EXPECT_NEAR(speed_at(timeline, begin_s), even + first + second, 1e-9);
+    EXPECT_EQ(speed_at(timeline, begin_s + 599.9), speed_at(timeline, begin_s));
+    EXPECT_NE(speed_at(timeline, begin_s + 600), speed_at(timeline, begin_s));
+    EXPECT_EQ(timeline.water_at(at_s(begin_s + 599.9)), timeline.water_at(at_s(begin_s)));
+    EXPECT_NE(timeline.water_at(at_s(begin_s + 600)), timeline.water_at(at_s(begin_s)));
+  }
+}
+
+TEST(EnvironmentTimeline, EveryProcessHasTheSameDriftWhateverItIsAskedFor) {
+  const EnvironmentTimeline one(drifting_water());
+  EnvironmentTimeline other(drifting_water());
+  speed_at(other, 1e6);
+  EXPECT_EQ(other.announce(at_s(7000), at_s(0), {kSession, 0}, wind(7)), "");
+  other.forget_before(at_s(6500));
+  for (const double time_s : {6600.0, 1e5}) EXPECT_EQ(speed_at(other, time_s), speed_at(one, time_s));
+}
+
+TEST(EnvironmentTimeline, AnAnnouncedProfileDriftsToo) {
+  EnvironmentTimeline timeline(drifting_water());
+  EnvironmentChange change;
+  change.profile = acoustics::SoundSpeedProfile::isovelocity(1480, {5, 33});
+  const double drift = speed_at(timeline, 1300) - even_water().profile.sound_speed_mps(0);
+  EXPECT_EQ(timeline.announce(at_s(100), at_s(0), {kSession, 0}, change), "");
+  EXPECT_NEAR(speed_at(timeline, 1300), 1480 + drift, 1e-9);
 }
 
 TEST(EnvironmentTimeline, ForgettingKeepsTheWaterOfLaterInstants) {
