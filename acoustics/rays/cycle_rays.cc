@@ -100,7 +100,9 @@ RangeEnd CycleRays::at(double theta) {
   const double height = height_at(side, xi, along, end.sine);
   end.depth_m = source_m_ + (below ? height : -height);
   end.sine *= below ? away : -away;
-  const auto count = [](const Side& of, double touches) { return of.bounces ? static_cast<int>(touches) : 0; };
+  const auto count = [](const Side& of, double touches) {
+    return of.bounces ? static_cast<int>(touches) : 0;
+  };
   end.surface_bounces = first_down ? count(second, on_second) : count(first, on_first);
   end.bottom_bounces = first_down ? count(first, on_first) : count(second, on_second);
   end.arrived = true;

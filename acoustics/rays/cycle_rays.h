@@ -2,9 +2,9 @@
 // Depths at which the rays of a flat sea arrive at one range, ray after ray, for a tenth of the cost of
 // tracing them.
 //
-// Model: that of acoustics/rays/arcs/layered_legs.h in plain ray theory. A ray of Snell's invariant xi repeats
-// one cycle, up from the source to a turn or the surface and down to a turn or the bottom. Its range to each
-// knot of the profile on the way is summed once for a cycle; whole cycles are left out of the range.
+// Model: that of acoustics/rays/arcs/layered_legs.h in plain ray theory. A ray of Snell's invariant xi
+// repeats one cycle, up from the source to a turn or the surface and down to a turn or the bottom. Its range
+// to each knot of the profile on the way is summed once for a cycle; whole cycles are left out of the range.
 //
 // Accuracy: exact for the given knots, to 1e-7 m after 10 km.
 //

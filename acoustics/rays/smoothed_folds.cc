@@ -23,17 +23,20 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kReach = 4;         // sigma_z beyond which a ray does not count
-constexpr double kStep = 0.6;        // sigma_z between neighbouring rays of an integral
-constexpr double kLongestStep = 1.5;  // sigma_z beyond which a step is halved
-constexpr int kMaxHalvings = 5;      // of a step towards the edge of a family
-constexpr int kMaxRays = 48;         // on one side of a family
+constexpr double kReach = 3.5;        // sigma_z beyond which a ray does not count
+constexpr double kStep = 1.2;         // sigma_z between neighbouring rays of an integral
+constexpr double kLongestStep = 2.4;  // sigma_z beyond which a step is halved
+constexpr int kMaxHalvings = 6;       // of steps on one side of a family
+constexpr int kMaxEdgeHalvings = 2;   // of those towards its edge
+constexpr std::size_t kSigmas = 7;
+constexpr double kBendReach = 2.5;    // sigma_z within which rays tell how zeta is bent
+constexpr int kMaxRays = 48;          // on one side of a family
 constexpr double kWidestStep = 0.02;  // rad
-constexpr double kSteepest = 1.4;    // rad: families end there
+constexpr double kSteepest = 1.4;     // rad: families end there
 // sigma_z over the Airy length of a fold between which its field gives way.
 constexpr double kFoldStays = 1, kFoldGone = 1.5;
 constexpr double kNegligible = 1e-4;  // of the strongest path's power: windows below are left out
-constexpr int kFirstWindow = 8192;   // of identities: those of a rough bottom are fewer
+constexpr int kFirstWindow = 8192;    // of identities: those of a rough bottom are fewer
 
 // 0 below `low`, 1 above `high`, linear in between.
 double ramp(double x, double low, double high) { return std::clamp((x - low) / (high - low), 0.0, 1.0); }
@@ -177,7 +180,7 @@ class FoldSmoother {
     return std::min(sigma / tube, kWidestStep);
   }
 
-  bool may_fold(const Eigenray& path) const {
+  bool may_fold(const Eigenray& path) {
     if (path.diffuse || !(path.amplitude > 0)) return false;
     if (path.surface_bounces > 0 && path.bottom_bounces > 0) return false;
     if (path.launch_slowness_spm * link_.core_mps > 1 && path.bounce_loss_db() == 0) return false;
@@ -185,44 +188,59 @@ class FoldSmoother {
     return steep < 0 || steep < kReach * step_of(path, sigma_of(path.launch_angle_rad));
   }
 
-  // sigma_z changes slowly with the angle; neighbouring families share its value.
-  double sigma_of(double theta) const { return link_.sigma_m(theta); }
-
-  // e of a path: the greater of the two sides; nullopt where no neighbour is of its kind.
-  std::optional<double> bend_at(const Eigenray& path, double sigma) {
-    const Bounces bounces{path.surface_bounces, path.bottom_bounces};
-    const auto self = rays_.at(path.launch_angle_rad);
-    if (!self || self->second != bounces) return std::nullopt;
-    double bend = 0, step = 2 * step_of(path, sigma);
-    bool any = false;
-    std::array<double, 2> off{}, at{};
-    for (int side = 0; side < 2; ++side) {
-      double h = (side == 0 ? -1 : 1) * step;
-      for (int i = 0; i < 4 && at[side] == 0; ++i, h *= 0.5) {
-        const auto ray = rays_.at(path.launch_angle_rad + h);
-        if (!ray || ray->second != bounces) continue;
-        at[side] = h;
-        off[side] = ray->first.off_m - self->first.off_m;
-      }
+  // sigma_z changes slowly with the angle: it is interpolated between kSigmas angles.
+  double sigma_of(double theta) {
+    const double place = std::min(std::abs(theta) / steepest_, 1.0) * (kSigmas - 1);
+    const auto below = std::min(static_cast<std::size_t>(place), kSigmas - 2);
+    for (const std::size_t i : {below, below + 1}) {
+      if (sigmas_[i] == 0)
+        sigmas_[i] = link_.sigma_m(steepest_ * static_cast<double>(i) / static_cast<double>(kSigmas - 1));
     }
-    if (at[0] == 0 || at[1] == 0) return std::nullopt;
-    any = true;
-    // zeta = b h + c h^2 / 2 through three rays; at the step that covers 2 sigma_z, e = c step^2 / (4 sigma).
-    const double d0 = off[0] / at[0], d1 = off[1] / at[1];
-    const double c = 2 * (d1 - d0) / (at[1] - at[0]), b = d0 - 0.5 * c * at[0];
-    const double slope = std::max(std::abs(b), 1e-3 * std::abs(c * step));
-    const double cover = 2 * sigma / slope;
-    bend = std::abs(c) * cover * cover / (4 * sigma);
-    return any ? std::optional(bend) : std::nullopt;
+    return sigmas_[below] + (place - static_cast<double>(below)) * (sigmas_[below + 1] - sigmas_[below]);
+  }
+
+  // True when the rays `step` to both sides of a path end `off_m` above and below the receiver, as the width
+  // of its ray tube has it.
+  bool is_straight(const Eigenray& path, double step, double off_m) {
+    if (step >= 2 * kWidestStep) return false;
+    const Bounces bounces{path.surface_bounces, path.bottom_bounces};
+    std::array<double, 2> off{};
+    for (const int side : {0, 1}) {
+      const auto ray = rays_.at(path.launch_angle_rad + (side == 0 ? -step : step));
+      if (!ray || ray->second != bounces) return false;
+      off[side] = ray->first.off_m;
+    }
+    return off[0] * off[1] < 0 && std::abs(std::abs(off[0]) - off_m) < 0.5 * kStraight * off_m &&
+           std::abs(std::abs(off[1]) - off_m) < 0.5 * kStraight * off_m;
+  }
+
+  // e of a path among the rays of its family: how far they are from the straight line through the two beside
+  // it, within 2 sigma_z.
+  static double bend_of(const Family& family, double theta) {
+    const std::vector<FamilyRay>& rays = family.rays;
+    std::size_t next = 1;
+    while (next + 1 < rays.size() && rays[next].theta <= theta) ++next;
+    const FamilyRay &a = rays[next - 1], &b = rays[next];
+    const double slope = (b.off_m - a.off_m) / (b.theta - a.theta), middle = 0.5 * (a.theta + b.theta);
+    const double most = kBendReach * family.sigma_m;
+    double bend = 0;
+    for (const FamilyRay& ray : rays) {
+      const double straight = slope * (ray.theta - middle);
+      if (std::abs(straight) > most || &ray == &a || &ray == &b) continue;
+      const double away = std::abs(ray.off_m - 0.5 * (a.off_m + b.off_m) - straight);
+      bend = std::max(bend, away * 2 * family.sigma_m / std::max(straight * straight, 1e-12));
+    }
+    return bend;
   }
 
   void smooth_beside(std::size_t index) {
     const Eigenray& path = paths_[index];
     const double sigma = sigma_of(path.launch_angle_rad);
-    const std::optional<double> bend = bend_at(path, sigma);
-    if (!bend || *bend <= kStraight) return;
+    const double step = step_of(path, sigma);
+    if (is_straight(path, 2 * step, 2 * sigma)) return;
     const auto self = rays_.at(path.launch_angle_rad);
-    const Family family = family_of(self->first, self->second, sigma, 0.5 * step_of(path, sigma));
+    if (!self || self->second != Bounces{path.surface_bounces, path.bottom_bounces}) return;
+    const Family family = family_of(self->first, self->second, sigma, 0.5 * step);
     if (family.rays.size() < 3) return;
     const double gives_way = ramp(sigma / airy_length_m(family), kFoldStays, kFoldGone);
     if (gives_way <= 0) return;
@@ -247,8 +265,7 @@ class FoldSmoother {
                             : family.sums.back();
       Eigenray& one = paths_[members[k]];
       smoothed_[members[k]] = true;
-      const std::optional<double> own = members[k] == index ? bend : bend_at(one, sigma);
-      const double weight = gives_way * ramp(own.value_or(0), kStraight, kBent);
+      const double weight = gives_way * ramp(bend_of(family, one.launch_angle_rad), kStraight, kBent);
       const double integral = (to - from) * strength_of(one), power = one.amplitude * one.amplitude;
       from = to;
       const double share = std::min(integral / power, 1.0), kept = power * share * share;
@@ -309,7 +326,7 @@ class FoldSmoother {
                 std::vector<FamilyRay>& rays) {
     FamilyRay last = seed;
     double slope_before = 0;
-    int halvings = 0;
+    int halvings = 0, parted = 0;
     for (int i = 0; i < kMaxRays; ++i) {
       const double theta = last.theta + step;
       if (std::abs(theta) > kSteepest) return;
@@ -317,7 +334,7 @@ class FoldSmoother {
       const bool same = ray && ray->second == bounces;
       const double change = same ? ray->first.off_m - last.off_m : 0;
       if (!same || std::abs(change) > kLongestStep * sigma) {
-        if (++halvings > kMaxHalvings) return;
+        if (++halvings > kMaxHalvings || (!same && ++parted > kMaxEdgeHalvings)) return;
         step *= 0.5;
         continue;
       }
@@ -354,10 +371,11 @@ class FoldSmoother {
 
   // Families that turn before they reach the receiver, within reach of sigma_z.
   void seek_shadows() {
-    std::array<std::optional<std::pair<FamilyRay, Bounces>>, kShadowRays> fan;
-    for (int i = 0; i < kShadowRays; ++i)
-      fan[i] = rays_.at(steepest_ * (2.0 * (i + 0.5) / kShadowRays - 1));
-    for (int i = 1; i + 1 < kShadowRays; ++i) {
+    const double wanted = 12 + 0.6 * link_.range_m / link_.bottom_m;
+    const int count = static_cast<int>(std::clamp<double>(wanted, kMinShadowRays, kMaxShadowRays));
+    std::array<std::optional<std::pair<FamilyRay, Bounces>>, kMaxShadowRays> fan;
+    for (int i = 0; i < count; ++i) fan[i] = rays_.at(steepest_ * (2.0 * (i + 0.5) / count - 1));
+    for (int i = 1; i + 1 < count; ++i) {
       const auto &a = fan[i - 1], &b = fan[i], &c = fan[i + 1];
       if (!a || !b || !c || a->second != b->second || b->second != c->second) continue;
       if (b->second.surface > 0 && b->second.bottom > 0) continue;
@@ -365,7 +383,8 @@ class FoldSmoother {
     }
   }
   void seek_shadow(const FamilyRay& a, const FamilyRay& b, const FamilyRay& c, const Bounces& bounces) {
-    const bool greatest = b.off_m >= a.off_m && b.off_m > c.off_m, least = b.off_m <= a.off_m && b.off_m < c.off_m;
+    const bool greatest = b.off_m >= a.off_m && b.off_m > c.off_m,
+               least = b.off_m <= a.off_m && b.off_m < c.off_m;
     if (!greatest && !least) return;
     const double h = b.theta - a.theta, bend = a.off_m - 2 * b.off_m + c.off_m;
     const double turn = b.theta + 0.5 * h * (a.off_m - c.off_m) / bend;
@@ -391,7 +410,8 @@ class FoldSmoother {
     for (std::size_t i = 0; i < smoothed_.size(); ++i) {
       const Eigenray& one = paths_[i];
       if (one.surface_bounces == bounces.surface && one.bottom_bounces == bounces.bottom && !one.diffuse &&
-          one.launch_angle_rad >= family.rays.front().theta && one.launch_angle_rad <= family.rays.back().theta)
+          one.launch_angle_rad >= family.rays.front().theta &&
+          one.launch_angle_rad <= family.rays.back().theta)
         window -= one.amplitude * one.amplitude;
     }
     visited_.push_back({bounces, family.rays.front().theta, family.rays.back().theta});
@@ -429,6 +449,7 @@ class FoldSmoother {
   SmoothedLink link_;
   std::vector<Eigenray>& paths_;
   double steepest_;
+  std::array<double, kSigmas> sigmas_{};  // sigma_z at angles 0..steepest_, m; 0: not computed yet
   std::vector<bool> smoothed_;
   std::vector<Visited> visited_;
   std::vector<Window> windows_;
@@ -438,9 +459,15 @@ class FoldSmoother {
 
 void smooth_folds(const FlatSea& sea, const RayLink& link, std::vector<Eigenray>& paths) {
   const RayOptions& options = sea.options;
-  const SmoothedLink over{sea.water,           options.fine_structure, options.frequency_hz,
-                          sea.core_speed_mps,  link.source_depth_m,    link.receiver_depth_m,
-                          link.range_m,        sea.bottom_depth_m,     sea.water.speed_at(link.source_depth_m),
+  const SmoothedLink over{sea.water,
+                          options.fine_structure,
+                          options.frequency_hz,
+                          sea.core_speed_mps,
+                          link.source_depth_m,
+                          link.receiver_depth_m,
+                          link.range_m,
+                          sea.bottom_depth_m,
+                          sea.water.speed_at(link.source_depth_m),
                           sea.water.speed_at(link.receiver_depth_m)};
   FoldSmoother(LevelRays(sea, link), over, paths).run();
 }

@@ -14,6 +14,8 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kFlatness = kBlobHeightM / kBlobLengthM;  // L_v / L_h
+constexpr double kLeastSine = 1e-6;  // of a ray that is horizontal: it turns at once, or runs on
+constexpr double kRounding = 1e-12;  // of a cosine
 const double kRootPi = std::sqrt(std::numbers::pi);
 
 // mu times sqrt(sin^2 theta + (L_v / L_h)^2).
@@ -35,16 +37,21 @@ double turning_rate(double speed_variance, double sine) {
   return steepness_free(speed_variance) / std::sqrt(sine * sine + kFlatness * kFlatness);
 }
 
+namespace {
+
+// Integral of mu over the range of a ray of Snell's invariant `xi` through part of a layer of constant
+// gradient, `range_m` long, between angles of the sines `s1` and `s2`; rad^2.
 double turning_through(const FineStructure& structure, double gradient_per_s, double xi, double s1, double s2,
                        double range_m) {
   // With ds = -xi g dr, the integral of dr / sqrt(s^2 + q^2) is (asinh(s1 / q) - asinh(s2 / q)) / (xi g).
   const double free = steepness_free(structure.speed_variance(gradient_per_s));
   const double change = std::abs(s1 - s2);
   if (change < 1e-6) return range_m * turning_rate(structure.speed_variance(gradient_per_s), 0.5 * (s1 + s2));
-  const double areas =
-      std::abs(area_sine(std::abs(s1) / kFlatness) - area_sine(std::abs(s2) / kFlatness));
+  const double areas = std::abs(area_sine(std::abs(s1) / kFlatness) - area_sine(std::abs(s2) / kFlatness));
   return free * areas / (xi * std::abs(gradient_per_s));
 }
+
+}  // namespace
 
 double cycle_turning_rate(const RayWater& water, const FineStructure& structure, double bottom_m,
                           double depth_m, double xi) {
@@ -54,8 +61,9 @@ double cycle_turning_rate(const RayWater& water, const FineStructure& structure,
     return cosine < 1 ? std::sqrt((1 - cosine) * (1 + cosine)) : 0;
   };
   const std::size_t here = water.layer_at(depth_m);
-  const double here_mps = water.speed_at(depth_m), sine_here = sine_at(here_mps);
-  if (!(sine_here > 0)) return turning_rate(structure.speed_variance(water.gradients_per_s()[here]), 0);
+  const double here_mps = water.speed_at(depth_m), sine_here = std::max(sine_at(here_mps), kLeastSine);
+  if (xi * here_mps > 1 + kRounding)
+    return turning_rate(structure.speed_variance(water.gradients_per_s()[here]), 0);
   double range_m = 0, turned = 0;
   for (const bool down : {false, true}) {
     double z = depth_m, c = here_mps, s = sine_here;

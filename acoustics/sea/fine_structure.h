@@ -42,12 +42,6 @@ void validate(const FineStructure& structure);
 // mu of a ray whose angle has the sine `sine`, in water of the variance `speed_variance`, rad^2/m.
 double turning_rate(double speed_variance, double sine);
 
-// Integral of mu over the range of a ray of Snell's invariant `xi`, s/m, through part of a layer of constant
-// gradient, between the points where its angle has the sines `s1` and `s2` of one sign, `range_m` apart;
-// rad^2. A closed form: the sine changes by xi gradient per metre.
-double turning_through(const FineStructure& structure, double gradient_per_s, double xi, double s1, double s2,
-                       double range_m);
-
 // Mean of mu over the range of a cycle of the rays of Snell's invariant `xi`, s/m, that pass `depth_m` in
 // water `bottom_m` deep, rad^2/m: from their upper turning point or the surface to the lower one or the
 // bottom. A mean over range is one over depth weighted by the cotangent of the angle. A ray that does not
