@@ -14,6 +14,7 @@
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/fine_structure.h"
 #include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/profile_reader.h"
 #include "acoustics/sea/sound_speed.h"
@@ -208,10 +209,20 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
     v.problem("reverberation", "\"lambert\" needs fading = \"sea\"");
 }
 
+// The irregularity of the water that turns rays.
+void visit_fine_structure(bus::ConfigVisitor& v, acoustics::FineStructure& f) {
+  v.number(
+      "fine_structure_mps", f.speed_mps,
+      {0, 5, "m/s", "rms sound speed of the water's fine structure, which blurs focused sound; 0: none"});
+  v.number("internal_wave_m", f.internal_wave_m,
+           {0, 50, "m", "rms height of internal waves, which blur focused sound by the profile; 0: none"});
+}
+
 void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
   bus::choice(v, "model", p.model, kPropagationModels,
               "eigenrays where the bottom is known, or one straight path");
   with_rays(v, p, [&] { visit_bottom(v, p); });
+  with_rays(v, p, [&] { visit_fine_structure(v, p.rays.options.fine_structure); });
   visit_fading(v, p);
   visit_replay(v, p.replay);
 }

@@ -226,6 +226,7 @@ void validate(const RayOptions& options) {
     require_in_range(options.diffuse_below_db, 10, 100, "level of diffuse sound below the strongest path",
                      "dB");
   require_in_range(options.diffuse_below_pressure, 0, 1e6, "pressure below which sound is diffuse");
+  validate(options.fine_structure);
 }
 
 RayOptions widened(RayOptions options) {

@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "acoustics/sea/fine_structure.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -128,6 +129,9 @@ struct RayOptions {
   // True: near caustics the wave field applies, with one path on their shadow side. False: plain ray theory,
   // whose amplitudes are unbounded there.
   bool airy_folds = true;
+  // Irregularity of the water, which smooths folds and cusps (acoustics/rays/smoothed_folds.h). A perfect
+  // medium leaves paths as they are.
+  FineStructure fine_structure = {};
   bool operator==(const RayOptions&) const = default;
 };
 

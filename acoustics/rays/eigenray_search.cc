@@ -13,6 +13,7 @@
 #include "acoustics/rays/layered_rays.h"
 #include "acoustics/rays/profile_rays.h"
 #include "acoustics/rays/ray_trace.h"
+#include "acoustics/rays/smoothed_folds.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "core/elementary.h"
@@ -63,6 +64,8 @@ class EigenraySearch {
   std::vector<Eigenray> paths() const;
   // The reason why there are no paths.
   PathLack lack() const;
+  // Gives families of rays the mean power of a medium that is not perfect.
+  void smooth(std::vector<Eigenray>& paths) const;
 
  private:
   std::vector<Eigenray> paths_with(const RayOptions& options) const;
@@ -72,6 +75,10 @@ class EigenraySearch {
   double core_speed() const { return core_ ? core_->greatest_speed_mps : 0; }
   FlatSea flat_sea(const RayOptions& options, double bottom_m) const {
     return {sea_.water, bottom_m, sea_.bottom, sea_.surface, options, core_speed()};
+  }
+  ProfiledSea profiled_sea(const RayOptions& options) const {
+    return {sea_.water, sea_.bottom_profile, sea_.bottom,       sea_.surface,
+            options,    core_speed(),        sea_.section.get()};
   }
   RayOptions with_bounce_loss(double loss_db) const;
   double most_bounce_loss_db() const;
@@ -90,8 +97,7 @@ std::vector<Eigenray> EigenraySearch::solved(const RayOptions& options) const {
     case RaySolver::kSnell:
       return layered_rays(flat_sea(options, sea_.bottom_profile.depth_at(link_.range_m)), link_);
     case RaySolver::kArcs: {
-      const ProfiledSea profiled{sea_.water, sea_.bottom_profile, sea_.bottom,       sea_.surface,
-                                 options,    core_speed(),        sea_.section.get()};
+      const ProfiledSea profiled = profiled_sea(options);
       return shared_ != nullptr ? shared_->at(profiled, link_) : profile_rays(profiled, link_);
     }
   }
@@ -171,6 +177,13 @@ std::vector<Eigenray> EigenraySearch::paths() const {
   return paths;
 }
 
+void EigenraySearch::smooth(std::vector<Eigenray>& paths) const {
+  if (sea_.options.fine_structure.is_perfect() || solver_ == RaySolver::kImages) return;
+  if (solver_ == RaySolver::kSnell)
+    return smooth_folds(flat_sea(sea_.options, sea_.bottom_profile.depth_at(link_.range_m)), link_, paths);
+  smooth_folds(profiled_sea(sea_.options), link_, paths);
+}
+
 PathLack EigenraySearch::lack() const {
   RayOptions all = sea_.options;
   all.max_launch_angle_rad = std::numbers::pi / 2;
@@ -226,6 +239,7 @@ Eigenrays eigenrays(const RaySea& sea, const RayLink& link, std::optional<RaySol
   const RaySolver chosen = solver.value_or(choose_solver(sea, held));
   const EigenraySearch search(sea, held, chosen, shared);
   Eigenrays found{chosen, search.paths()};
+  search.smooth(found.paths);
   if (found.silent()) found.lack = search.lack();
   if (held.range_m != link.range_m) {
     const EndSpeeds speeds{sea.water.speed_at(held.source_depth_m),

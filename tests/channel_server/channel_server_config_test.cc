@@ -182,6 +182,12 @@ TEST(ChannelServerConfig, ABottomIsGivenByNameOrByNumbers) {
   EXPECT_EQ(custom.bottom, acoustics::fluid_bottom(2.1, 1800, 0.5));
 }
 
+TEST(ChannelServerConfig, FineStructureIsTaken) {
+  const auto options =
+      make_rays(read("[propagation]\nfine_structure_mps = 0.1\ninternal_wave_m = 2")).options;
+  EXPECT_EQ(options.fine_structure, (acoustics::FineStructure{.speed_mps = 0.1, .internal_wave_m = 2}));
+}
+
 TEST(ChannelServerConfig, FadingIsTaken) {
   const auto fading = make_rays(read("[propagation]\nlarge_scale_fading_db = 1\nlarge_scale_fading_s = 60\n"
                                      "bottom_roughness_m = 0.1\nscattering_loss = \"lambert\""))
