@@ -40,7 +40,7 @@ class FieldColumn {
   }
   double absorption_db_per_km(double depth_m, double khz_squared) const {
     const auto [depth, temperature, salinity] = at(depth_m);
-    return absorption_spectrum(environment_->absorption_model,
+    return absorption_spectrum_in(*environment_,
                                {.temperature_degc = temperature,
                                 .salinity_psu = salinity,
                                 .depth_m = depth,

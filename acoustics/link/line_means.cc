@@ -30,7 +30,7 @@ LineMeans water_at(const Environment& environment, const Vec3& place, double khz
   const double speed_mps = sound_speed_mps(environment.profile.model(), water.temperature_degc,
                                            water.salinity_psu, place.z(), environment.latitude_rad);
   const AbsorptionSpectrum absorption =
-      absorption_spectrum(environment.absorption_model,
+      absorption_spectrum_in(environment,
                           {.temperature_degc = water.temperature_degc,
                            .salinity_psu = water.salinity_psu,
                            .depth_m = place.z(),
