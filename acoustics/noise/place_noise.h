@@ -49,6 +49,9 @@ constexpr bool is_under_ice(NoisePlace place) { return place == NoisePlace::kFas
 constexpr bool is_impulsive(NoisePlace place) {
   return place == NoisePlace::kReef || place == NoisePlace::kReefEdge || place == NoisePlace::kFastIce;
 }
+// Exponent of the alpha-stable noise of such places (Chitre, Potter and Ong 2006: 1.6 to 1.9 in warm shallow
+// waters; the value is our choice).
+inline constexpr double kPlaceBurstExponent = 1.7;
 // Rise of the place's noise from noon to midnight, dB: 4 over and beside a reef (3 to 6, Johnson et al.
 // 1947), 0 elsewhere.
 constexpr double day_night_db(NoisePlace place) {

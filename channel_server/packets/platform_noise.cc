@@ -110,7 +110,7 @@ std::vector<NoiseSound> PlatformNoise::others(const NoiseQuery& query) {
 Decibels PlatformNoise::noise_level(VehicleId receiver, const acoustics::Band& band, SimTime at,
                                     SimTime decided_at) {
   Decibels level = ambient_.level(band, propagation_.environment(at).noise);
-  if (variation_.spread_db > 0) level = level + noise_offset(variation_, seed_, at);
+  if (variation_.changes_level()) level = level + noise_offset(variation_, seed_, at);
   const double own = own_power(receiver, band, at, decided_at);
   return own > 0 ? to_decibels({to_power_ratio(level).value + own}) : level;
 }
