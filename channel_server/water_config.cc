@@ -236,7 +236,15 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
 void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
   bus::choice(v, "model", p.model, kPropagationModels,
               "eigenrays where the bottom is known, or one straight path");
-  with_rays(v, p, [&] { visit_bottom(v, p); });
+  with_rays(v, p, [&] {
+    visit_bottom(v, p);
+    enum class Beyond { kHold, kNone };
+    Beyond beyond = p.rays.holds_terrain ? Beyond::kHold : Beyond::kNone;
+    bus::choice(v, "beyond", beyond, {"hold", "none"},
+                "seabed beyond a raster and where it has no data: its last depth, or none, and packets there "
+                "are NO_TERRAIN");
+    p.rays.holds_terrain = beyond == Beyond::kHold;
+  });
   visit_fading(v, p);
   visit_replay(v, p.replay);
 }

@@ -26,7 +26,7 @@ std::string_view name_of(channel_server::Multipath multipath) {
 }
 
 std::string_view name_of(channel_server::PathState state) {
-  constexpr std::array kNames{"open", "shadow", "blocked", "too weak", "too steep"};
+  constexpr std::array kNames{"open", "shadow", "blocked", "too weak", "too steep", "no terrain"};
   return kNames.at(static_cast<std::size_t>(state));
 }
 

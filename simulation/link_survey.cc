@@ -246,6 +246,10 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
                                   eigenrays_of(answer.reception, transmitter, receiver));
   answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
   answer.multipath = multipath_of(answer.reception, receiver.min_receivable_level);
+  if (answer.reception.used == channel_server::PropagationUsed::kRaysBeyondTerrain)
+    answer.notes.emplace_back(answer.reception.state == channel_server::PathState::kNoTerrain
+                                  ? "the terrain ends or has no data on the way: no sound passes there"
+                                  : "the terrain ends or has no data on the way: its last depth is held");
   return answer;
 }
 
