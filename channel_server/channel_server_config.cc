@@ -16,6 +16,7 @@
 #include "bus/config/carried_files.h"
 #include "channel_server/modems/clock_config.h"
 #include "channel_server/modems/modem_config.h"
+#include "channel_server/own_noise.h"
 #include "channel_server/packets/extra_loss.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/vehicles/vehicle_id.h"
@@ -86,6 +87,8 @@ void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicl
               [&](bus::ConfigVisitor& section) { visit_vehicle_noise(section, noise); });
     vehicle.noise = noise;
   }
+  v.boolean("own_noise", vehicle.own_noise,
+            "true: without [vehicle.noise] the propellers of its model are heard at its own hydrophone");
   v.boolean("has_modem", vehicle.carries_modem,
             "false: a ship or a jammer, which sends and receives nothing");
   v.when(vehicle.carries_modem, "has_modem = true", [&] {
@@ -268,8 +271,10 @@ VehicleEquipment make_equipment(const ChannelServerConfig& config, const bus::Sc
     if (entry == nullptr) continue;
     if (vehicle.is_transponder) transponders.insert(entry->id);
     if (vehicle.clock) clocks.push_back({vehicle.name, entry->id, *vehicle.clock});
-    if (vehicle.noise) {
-      noise.push_back(*vehicle.noise);
+    std::optional<NoiseSource> source = vehicle.noise;
+    if (!source && vehicle.own_noise && vehicle.carries_modem) source = propeller_noise(entry->model);
+    if (source) {
+      noise.push_back(*std::move(source));
       noise.back().vehicle = vehicle.name;
       noise.back().id = entry->id;
     }

@@ -55,6 +55,8 @@ class PlatformNoise {
 
   // True when some vehicle makes noise.
   bool any() const { return !fleet_.equipment().noise.sources().empty(); }
+  // True when some vehicle's noise is heard by others.
+  bool any_is_heard() const { return fleet_.equipment().noise.are_heard(); }
   // True when the noise at a receiver may differ from the ambient noise of the environment.
   bool differ() const { return any() || variation_.changes_level(); }
   // Returns the power over the band of the receiver's own noise at its hydrophone at `at`, uPa^2.

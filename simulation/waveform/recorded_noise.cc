@@ -130,6 +130,7 @@ void add_vehicle_noise(const ScenarioConfig& config, ScenarioLinks& links, const
       add(own, sound);
       continue;
     }
+    if (!source.is_heard_by_others) continue;
     // Sound that arrives within the span departed earlier by its travel time, at no less than 1400 m/s, and
     // by half a second for echoes.
     const SimTime begin = SimTime::from_seconds(sound.begin_s);
