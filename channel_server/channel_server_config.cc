@@ -191,8 +191,8 @@ double noon_s(const bus::Scenario& scenario) {
   if (scenario.ocean.start_date.empty()) return 0;
   constexpr double kDayS = 86'400, kSecondsPerDegree = kDayS / 360;
   const auto utc = ocean::CfTimeAxis::parse("seconds since 2000-01-01", "standard");
-  const double start_s = utc.seconds_of(scenario.ocean.start_date) +
-                         kSecondsPerDegree * scenario.origin_longitude_deg;
+  const double start_s =
+      utc.seconds_of(scenario.ocean.start_date) + kSecondsPerDegree * scenario.origin_longitude_deg;
   return kDayS / 2 - (start_s - kDayS * std::floor(start_s / kDayS));
 }
 

@@ -183,7 +183,8 @@ ConfiguredModems make_modems(const ChannelServerConfig& config);
 // Returns the variation of the ambient noise: the configured one, with what the place adds. A reef is louder
 // by night, and snaps and cracks are a part of their place's noise. Noon is 12 h local solar time of [ocean]
 // start_date; without that date a run starts at noon.
-acoustics::NoiseVariation make_noise_variation(const EnvironmentConfig& config, const bus::Scenario& scenario);
+acoustics::NoiseVariation make_noise_variation(const EnvironmentConfig& config,
+                                               const bus::Scenario& scenario);
 
 // Returns the rules with the values that other sections give: seed, fading, and variation of the noise.
 ServerRules make_rules(const ChannelServerConfig& config, const bus::Scenario& scenario);

@@ -119,8 +119,7 @@ void visit_place(bus::ConfigVisitor& v, EnvironmentConfig& e) {
          "kind of place whose noise adds to that of wind, ships and rain, +-6 dB (docs/scenarios.md); "
          "by-depth: shelf in water of up to 500 m, else open");
   visit_site_noise(v, e);
-  if (!v.writing() && !e.site_noise.empty())
-    bus::report_refusal(v, "site_noise", [&] { noise_sources(e); });
+  if (!v.writing() && !e.site_noise.empty()) bus::report_refusal(v, "site_noise", [&] { noise_sources(e); });
 }
 
 void visit_load(bus::ConfigVisitor& v, acoustics::WaterLoad& load) {

@@ -44,9 +44,9 @@ void set_noise_place(ScenarioConfig& config) {
   const bus::Scenario& scenario = config.scenario;
   double depth_m = 0;
   try {
-    depth_m = mean_water_depth_m(config.terrain,
-                                 {scenario.origin_latitude_deg, scenario.origin_longitude_deg},
-                                 scenario.sea_surface_z_m);
+    depth_m =
+        mean_water_depth_m(config.terrain, {scenario.origin_latitude_deg, scenario.origin_longitude_deg},
+                           scenario.sea_surface_z_m);
   } catch (const InvalidArgument&) {
     // A terrain that cannot be made is refused where it is used.
   }

@@ -22,8 +22,8 @@ struct TimedSpectrum {
 // InvalidArgument, with the file and the line, when the file cannot be read or a value is out of range.
 std::vector<TimedSpectrum> read_noise_table(const std::string& path);
 
-// Reads a CSV file with the columns frequency_khz and level_db (dB re 1 uPa^2/Hz), by rising frequency. Throws
-// InvalidArgument as read_noise_table() does.
+// Reads a CSV file with the columns frequency_khz and level_db (dB re 1 uPa^2/Hz), by rising frequency.
+// Throws InvalidArgument as read_noise_table() does.
 std::shared_ptr<const NoiseSpectrum> read_noise_spectrum(const std::string& path);
 
 }  // namespace halocline::acoustics

@@ -16,7 +16,7 @@
 // and both slopes of reefs are our choices. A place lies within some 6 dB of its kind's level
 // (kPlaceSpreadDb). Left out: fish, whales, rain (acoustics/sea/noise.h), single ships (vehicle noise).
 //
-//   const double level_db = place_noise(NoisePlace::kHarbour, 25e3).value;  // 50.4
+//   const double level_db = place_noise(NoisePlace::kHarbour, 25e3).value().value;  // 50.4
 #pragma once
 
 #include <array>

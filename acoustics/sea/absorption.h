@@ -10,9 +10,9 @@
 //       .salinity_psu = 35, .depth_m = 0, .pressure_atm = 1, .ph = 8}).components_at(10e3).total_db_per_km;
 //       // 0.83
 //
-// Frequencies are in Hz; formulas in kHz convert internally. Levels are in dB (10 log10 of power). What turbid
-// water carries is added where a spectrum states it (water_load.h). Left out: scattering, bubbles, fresh
-// water with dissolved minerals.
+// Frequencies are in Hz; formulas in kHz convert internally. Levels are in dB (10 log10 of power). What
+// turbid water carries is added where a spectrum states it (water_load.h). Left out: scattering, bubbles,
+// fresh water with dissolved minerals.
 #pragma once
 
 #include <array>

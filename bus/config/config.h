@@ -80,7 +80,8 @@ class ConfigVisitor {
                     const std::function<void(ConfigVisitor&, std::size_t)>& item) = 0;
   // True when the scenario gives this key; always true on writing.
   virtual bool given(std::string_view key) const = 0;
-  // True when the scenario gives this key a text, for keys that are a file's name or a value; false on writing.
+  // True when the scenario gives this key a text, for keys that are a file's name or a value; false on
+  // writing.
   virtual bool is_text(std::string_view key) const = 0;
   // True when a configuration is written: all effective values are to be visited, whatever `given` returns.
   virtual bool writing() const = 0;

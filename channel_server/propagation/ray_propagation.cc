@@ -137,10 +137,9 @@ Reception RayPropagation::straight_instead(SimTime at, const EndPair& ends, Prop
   reception.state = PathState::kNoTerrain;
   reception.paths.clear();
   const Vec3 &from = ends.from.position_ned_m, &to = ends.to.position_ned_m;
-  reception.budget =
-      straight_.kernel_of(at, *ends.from.modem, *ends.to.modem)
-          ->budget_of_path(from, to, ends.from.modem->source_level - kSilence, (to - from).norm(), capacity,
-                           ends.to.above_ambient);
+  reception.budget = straight_.kernel_of(at, *ends.from.modem, *ends.to.modem)
+                         ->budget_of_path(from, to, ends.from.modem->source_level - kSilence,
+                                          (to - from).norm(), capacity, ends.to.above_ambient);
   reception.budget.receivable = false;
   return reception;
 }

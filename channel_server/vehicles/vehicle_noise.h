@@ -44,8 +44,8 @@ struct NoiseSource {
   // decade, as machinery and cavitation noise does above 1 kHz (Urick 1983, chapter 10).
   acoustics::NoiseSpectrum at_1m{{1e3, 1e5}, {100, 60}};
   NoiseDriver driver = NoiseDriver::kPropeller;
-  double reference = 25;  // turns per second (1500 rpm, our choice), or m/s; above 0
-  Decibels own_loss{20};  // from 1 m to its own hydrophone, 0..200
+  double reference = 25;           // turns per second (1500 rpm, our choice), or m/s; above 0
+  Decibels own_loss{20};           // from 1 m to its own hydrophone, 0..200
   bool is_heard_by_others = true;  // false: at its own hydrophone alone
 };
 
