@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -11,14 +12,18 @@
 #include <vector>
 
 #include "acoustics/noise/noise_spectrum.h"
+#include "acoustics/noise/place_noise.h"
 #include "bus/config/carried_files.h"
 #include "channel_server/modems/clock_config.h"
 #include "channel_server/modems/modem_config.h"
+#include "channel_server/own_noise.h"
 #include "channel_server/packets/extra_loss.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_power.h"
 #include "core/check.h"
+#include "core/units.h"
+#include "ocean/cf_time.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -82,6 +87,8 @@ void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicl
               [&](bus::ConfigVisitor& section) { visit_vehicle_noise(section, noise); });
     vehicle.noise = noise;
   }
+  v.boolean("own_noise", vehicle.own_noise,
+            "true: without [vehicle.noise] the propellers of its model are heard at its own hydrophone");
   v.boolean("has_modem", vehicle.carries_modem,
             "false: a ship or a jammer, which sends and receives nothing");
   v.when(vehicle.carries_modem, "has_modem = true", [&] {
@@ -155,6 +162,40 @@ void visit_extra_loss(bus::ConfigVisitor& v, ExtraLoss& loss) {
   loss.end = until_s > 0 ? SimTime::from_seconds(until_s) : SimTime::never();
 }
 
+// Returns the kind of the place; empty when it is left to the depth.
+std::optional<acoustics::NoisePlace> noise_place(const EnvironmentConfig& config) {
+  for (const acoustics::NoisePlace place : acoustics::kNoisePlaces) {
+    if (config.noise_place == to_name(place)) return place;
+  }
+  require(config.noise_place == kByDepth, "no place of noise is called " + config.noise_place);
+  return std::nullopt;
+}
+
+bool has_site_noise(const EnvironmentConfig& config) {
+  return !config.site_noise_file.empty() || !config.site_noise.empty();
+}
+
+std::shared_ptr<const acoustics::NoiseSpectrum> site_spectrum(const EnvironmentConfig& config) {
+  if (!config.site_noise_file.empty()) return acoustics::read_noise_spectrum(config.site_noise_file.place());
+  if (config.site_noise.empty()) return nullptr;
+  std::vector<double> frequencies_hz, levels_db;
+  for (const auto& [khz, level_db] : config.site_noise) {
+    frequencies_hz.push_back(khz_to_hz(khz));
+    levels_db.push_back(level_db);
+  }
+  return std::make_shared<const acoustics::NoiseSpectrum>(std::move(frequencies_hz), std::move(levels_db));
+}
+
+// Simulation time of noon, local solar time, s.
+double noon_s(const bus::Scenario& scenario) {
+  if (scenario.ocean.start_date.empty()) return 0;
+  constexpr double kDayS = 86'400, kSecondsPerDegree = kDayS / 360;
+  const auto utc = ocean::CfTimeAxis::parse("seconds since 2000-01-01", "standard");
+  const double start_s =
+      utc.seconds_of(scenario.ocean.start_date) + kSecondsPerDegree * scenario.origin_longitude_deg;
+  return kDayS / 2 - (start_s - kDayS * std::floor(start_s / kDayS));
+}
+
 }  // namespace
 
 std::vector<acoustics::TimedSpectrum> noise_table(const EnvironmentConfig& config) {
@@ -166,7 +207,17 @@ acoustics::NoiseSources noise_sources(const EnvironmentConfig& config) {
   acoustics::NoiseSources sources = config.noise;
   const auto table = noise_table(config);
   if (!table.empty()) sources.table = table.front().spectrum;
+  sources.place = noise_place(config).value_or(acoustics::NoisePlace::kOpen);
+  sources.site = site_spectrum(config);
   return sources;
+}
+
+bool needs_depth(const EnvironmentConfig& config) {
+  return config.noise_place == kByDepth && config.noise_file.empty() && !has_site_noise(config);
+}
+
+void use_depth(double depth_m, EnvironmentConfig& config) {
+  if (needs_depth(config)) config.noise_place = to_name(acoustics::place_of_depth(depth_m));
 }
 
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config) {
@@ -220,8 +271,10 @@ VehicleEquipment make_equipment(const ChannelServerConfig& config, const bus::Sc
     if (entry == nullptr) continue;
     if (vehicle.is_transponder) transponders.insert(entry->id);
     if (vehicle.clock) clocks.push_back({vehicle.name, entry->id, *vehicle.clock});
-    if (vehicle.noise) {
-      noise.push_back(*vehicle.noise);
+    std::optional<NoiseSource> source = vehicle.noise;
+    if (!source && vehicle.own_noise && vehicle.carries_modem) source = propeller_noise(entry->model);
+    if (source) {
+      noise.push_back(*std::move(source));
       noise.back().vehicle = vehicle.name;
       noise.back().id = entry->id;
     }
@@ -236,11 +289,25 @@ VehicleEquipment make_equipment(const ChannelServerConfig& config, const bus::Sc
           VehicleNoise(std::move(noise), lag), std::move(transponders)};
 }
 
+acoustics::NoiseVariation make_noise_variation(const EnvironmentConfig& config,
+                                               const bus::Scenario& scenario) {
+  acoustics::NoiseVariation variation = config.noise_variation;
+  if (!config.noise_file.empty()) return variation;
+  const auto place = noise_place(config).value_or(acoustics::NoisePlace::kOpen);
+  variation.day_night_db = acoustics::day_night_db(place);
+  if (variation.day_night_db > 0) variation.noon_s = noon_s(scenario);
+  if (acoustics::is_impulsive(place) && !variation.is_impulsive()) {
+    variation.burst_exponent = acoustics::kPlaceBurstExponent;
+    variation.bursts_within_level = true;
+  }
+  return variation;
+}
+
 ServerRules make_rules(const ChannelServerConfig& config, const bus::Scenario& scenario) {
   ServerRules rules = config.rules;
   rules.medium.seed = scenario.seed;
   rules.medium.fading = rules.reach.fading = config.propagation.fading;
-  rules.medium.noise = config.environment.noise_variation;
+  rules.medium.noise = make_noise_variation(config.environment, scenario);
   rules.reach.noise_spread_db = config.environment.noise_variation.spread_db;
   return rules;
 }

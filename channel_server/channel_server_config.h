@@ -6,9 +6,11 @@
 // output of --example.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
@@ -17,6 +19,7 @@
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "acoustics/sea/water_load.h"
 #include "bus/config/config.h"
 #include "bus/config/scenario.h"
 #include "channel_server/detail.h"
@@ -68,11 +71,20 @@ struct EnvironmentConfig {
   std::string absorption_model = "francois-garrison";
   acoustics::NoiseSources noise{.wind_mps = 5};
   FilePath noise_file;  // a table of noise spectra that replaces `noise`
+  // A kind of place (acoustics/noise/place_noise.h), or kByDepth; use_depth() replaces the latter by a kind,
+  // and until then it adds nothing.
+  std::string noise_place = "open";
+  FilePath site_noise_file;  // noise measured at the place, in the place of noise_place: a file, or
+  std::vector<std::array<double, 2>> site_noise;  // rows of frequency, kHz, and level, dB re 1 uPa^2/Hz
   acoustics::NoiseVariation noise_variation;
   double profile_spread_mps = 0;  // of ProfileDrift
+  acoustics::WaterLoad load;
   double spreading_exponent = 1.5;
   double ph = 8.0;
 };
+
+// The noise place of scenarios that leave it to the depth of their water.
+inline constexpr std::string_view kByDepth = "by-depth";
 
 // The model of propagation: eigenrays, or one straight path.
 enum class PropagationModel { kRays, kStraight };
@@ -123,6 +135,7 @@ struct ChannelServerConfig {
     VehicleModem modem;
     bool carries_modem = true;  // false for a ship or a jammer
     bool is_transponder = false;
+    bool own_noise = false;  // the noise of a propeller, where the vehicle's model has one
     std::optional<ClockSettings> clock;
     std::optional<NoiseSource> noise;
   };
@@ -143,6 +156,11 @@ void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
 // Returns the spectra of noise_file; empty without a file. Throws InvalidArgument as
 // acoustics::read_noise_table does.
 std::vector<acoustics::TimedSpectrum> noise_table(const EnvironmentConfig& config);
+// True when the noise of the place is left to the depth of the water.
+bool needs_depth(const EnvironmentConfig& config);
+// Sets the place that is left to the depth: a shelf in water of up to 500 m, else open.
+void use_depth(double depth_m, EnvironmentConfig& config);
+
 // Returns the noise sources at the start, with the first spectrum of noise_file.
 acoustics::NoiseSources noise_sources(const EnvironmentConfig& config);
 
@@ -162,6 +180,12 @@ RayModel make_rays(const ChannelServerConfig& config);
 
 // Returns the scenario's modem and those of its vehicles.
 ConfiguredModems make_modems(const ChannelServerConfig& config);
+
+// Returns the variation of the ambient noise: the configured one, with what the place adds. A reef is louder
+// by night, and snaps and cracks are a part of their place's noise. Noon is 12 h local solar time of [ocean]
+// start_date; without that date a run starts at noon.
+acoustics::NoiseVariation make_noise_variation(const EnvironmentConfig& config,
+                                               const bus::Scenario& scenario);
 
 // Returns the rules with the values that other sections give: seed, fading, and variation of the noise.
 ServerRules make_rules(const ChannelServerConfig& config, const bus::Scenario& scenario);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <string>
 
+#include "bathymetry/bathymetry_config.h"
+#include "bathymetry/rasters/terrain_recipe.h"
 #include "bus/config/config.h"
 #include "bus/config/scenario.h"
 #include "bus/runtime/node_command_line.h"
@@ -34,7 +36,12 @@ int main(int argc, char** argv) {
       "            LINK_REPLY.<client>, BEST_PLACE_REPLY.<client>, RAY_QUERY, MODEM_REPLY and "
       "FOUND_PATHS.<shard> (as a shard),\n"
       "            MODEM_ENERGY.<vehicle> (of vehicles with a battery), STATUS.<name>";
-  program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
+  // The terrain tells the noise of the place where the scenario leaves it to the depth.
+  halocline::bathymetry::TerrainRecipe recipe;
+  program.visit_config = [&](halocline::bus::ConfigVisitor& v) {
+    visit(v, config);
+    if (needs_depth(config.environment)) visit(v, recipe);
+  };
   std::string share, journal;
   program.options = {
       {"--shard", "I/N: serve the I-th share of the vehicles, beside N - 1 other servers", &share, nullptr,
@@ -50,6 +57,10 @@ int main(int argc, char** argv) {
   program.make_node = [&](const NodeProgram::Context& context) {
     halocline::bus::Scenario scenario = context.scenario;
     scenario.configuration = configuration_of(*context.file);
+    if (needs_depth(config.environment)) {
+      const halocline::bathymetry::Site site{scenario.origin_latitude_deg, scenario.origin_longitude_deg};
+      use_depth(mean_water_depth_m(recipe, site, scenario.sea_surface_z_m), config.environment);
+    }
     auto node = make_channel_server(context.lcm, context.identity, config, scenario);
     require(journal.empty() || !context.in_lockstep,
             "--journal is " + journal + "; in lockstep the conductor has the journal of all");

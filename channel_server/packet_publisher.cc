@@ -38,6 +38,14 @@ void PacketPublisher::publish(const MediumEvent& event) {
   }
 }
 
+void PacketPublisher::warn_of_terrain(PropagationUsed used) {
+  if (used != PropagationUsed::kRaysBeyondTerrain || warned_of_terrain_) return;
+  warned_of_terrain_ = true;
+  bus_.log().warning("terrain-ends",
+                     "reason=\"packets cross the end of the terrain or places without data\" "
+                     "see=propagation.beyond");
+}
+
 // A repeated SEND gets its receipt again, except while recorded inputs are replayed.
 void PacketPublisher::publish(const Receipt& receipt, SimTime at) {
   const std::string channel = channels::kReceipt.of(receipt.vehicle);
@@ -50,6 +58,7 @@ void PacketPublisher::publish(const Receipt& receipt, SimTime at) {
 }
 
 void PacketPublisher::publish(const PacketOutcome& outcome, SimTime at, bool late) {
+  warn_of_terrain(outcome.propagation);
   const std::string outcomes(channels::kOutcome);
   const packet_outcome_t message = to_outcome(outcome, at);
   const std::string identity = identity_of(message);

@@ -10,6 +10,7 @@
 #include "bus/recovery/crash_journal.h"
 #include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/propagation/propagation.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -26,10 +27,13 @@ class PacketPublisher {
 
  private:
   void publish(const PacketOutcome& outcome, SimTime at, bool late);
+  // Warns once a run of packets whose way leaves the known terrain.
+  void warn_of_terrain(PropagationUsed used);
 
   bus::Bus& bus_;
   bus::CrashJournal& journal_;
   std::int64_t published_late_ = 0;
+  bool warned_of_terrain_ = false;
 };
 
 }  // namespace halocline::channel_server

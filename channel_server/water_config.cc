@@ -12,6 +12,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/slow_fading.h"
 #include "acoustics/noise/noise_variation.h"
+#include "acoustics/noise/place_noise.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/fine_structure.h"
@@ -19,6 +20,7 @@
 #include "acoustics/sea/profile_reader.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "acoustics/sea/water_load.h"
 #include "bus/config/carried_files.h"
 #include "bus/config/config.h"
 #include "bus/config/scenario.h"
@@ -94,6 +96,48 @@ void visit_profile(bus::ConfigVisitor& v, ProfileConfig& p) {
   with_profile(v, p, {ProfileSource::kFile}, [&] { visit_file(v, p); });
 }
 
+std::vector<std::string> noise_places() {
+  std::vector<std::string> names = bus::names_of(acoustics::kNoisePlaces);
+  names.emplace_back(kByDepth);
+  return names;
+}
+
+// Visits the noise measured at the place: a file's name or rows, under one key.
+void visit_site_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
+  constexpr std::string_view kKey = "site_noise";
+  if (v.writing() ? !e.site_noise_file.empty() : v.is_text(kKey)) {
+    v.file(kKey, e.site_noise_file, bus::FileNames::kFiles,
+           "noise measured at the place, in the place of noise_place, as CSV of frequency_khz, level_db");
+    if (!e.site_noise_file.empty()) bus::require_readable(v, kKey, e.site_noise_file);
+    return;
+  }
+  v.pairs(kKey, e.site_noise,
+          {-200, 1000, "",
+           "noise measured at the place, in the place of noise_place: rows of [frequency kHz, level dB re 1 "
+           "uPa^2/Hz], or a CSV file of frequency_khz, level_db; empty: none"});
+}
+
+// A place differs from the level of its kind by +-6 dB.
+void visit_place(bus::ConfigVisitor& v, EnvironmentConfig& e) {
+  v.text("noise_place", e.noise_place, noise_places(),
+         "kind of place whose noise adds to that of wind, ships and rain, +-6 dB (docs/scenarios.md); "
+         "by-depth: shelf in water of up to 500 m, else open");
+  visit_site_noise(v, e);
+  if (!v.writing() && !e.site_noise.empty()) bus::report_refusal(v, "site_noise", [&] { noise_sources(e); });
+}
+
+void visit_load(bus::ConfigVisitor& v, acoustics::WaterLoad& load) {
+  v.number("particles_kg_m3", load.particles_kg_m3,
+           {0, 100, "kg/m^3", "mass of suspended mineral particles; they absorb sound (Urick 1948)"});
+  v.when(load.particles_kg_m3 > 0, "particles_kg_m3 above 0", [&] {
+    double radius_um = load.particle_radius_m * 1e6;
+    v.number("particle_um", radius_um, {0.1, 1000, "um", "radius of the particles"});
+    load.particle_radius_m = radius_um / 1e6;
+  });
+  v.number("plants_db_per_km", load.plants_db_per_km,
+           {0, 1000, "dB/km", "absorption by plants in the water, as over a meadow of seagrass"});
+}
+
 void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
   v.number("wind_mps", e.noise.wind_mps, kWind);
   v.file("noise_file", e.noise_file, bus::FileNames::kFiles,
@@ -103,6 +147,7 @@ void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
   v.when(e.noise_file.empty(), "no noise_file", [&] {
     v.number("shipping", e.noise.shipping, kShipping);
     v.number("rain_mm_per_h", e.noise.rain_mm_per_h, kRain);
+    visit_place(v, e);
   });
   acoustics::NoiseVariation& n = e.noise_variation;
   v.number("noise_spread_db", n.spread_db,
@@ -223,6 +268,15 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
               "eigenrays where the bottom is known, or one straight path");
   with_rays(v, p, [&] { visit_bottom(v, p); });
   with_rays(v, p, [&] { visit_fine_structure(v, p.rays.options.fine_structure); });
+  with_rays(v, p, [&] {
+    visit_bottom(v, p);
+    enum class Beyond { kHold, kNone };
+    Beyond beyond = p.rays.holds_terrain ? Beyond::kHold : Beyond::kNone;
+    bus::choice(v, "beyond", beyond, {"hold", "none"},
+                "seabed beyond a raster and where it has no data: its last depth, or none, and packets there "
+                "are NO_TERRAIN");
+    p.rays.holds_terrain = beyond == Beyond::kHold;
+  });
   visit_fading(v, p);
   visit_replay(v, p.replay);
 }
@@ -305,6 +359,8 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
   v.section("environment", "Water, weather and ambient noise",
             [&](bus::ConfigVisitor& s) { visit_environment(s, config.environment); });
+  v.section("water_load", "What the water carries and sound is absorbed by",
+            [&](bus::ConfigVisitor& s) { visit_load(s, config.environment.load); });
   v.section("propagation", "Propagation of sound",
             [&](bus::ConfigVisitor& s) { visit_propagation(s, config.propagation); });
   v.list(
@@ -337,6 +393,7 @@ acoustics::Environment make_environment(const EnvironmentConfig& config, const b
   environment.spreading_exponent = config.spreading_exponent;
   environment.absorption_model = *absorption;
   environment.ph = config.ph;
+  environment.load = config.load;
   environment.latitude_rad = to_radians(scenario.origin_latitude_deg);
   environment.sea_surface_z_m = scenario.sea_surface_z_m;
   set_field(scenario, environment);

@@ -165,6 +165,7 @@ environment_t to_message(const acoustics::Environment& environment, const WaterD
   message.shipping_activity = environment.noise.shipping;
   message.rain_mm_per_h = environment.noise.rain_mm_per_h;
   message.noise_from_table = environment.noise.table ? 1 : 0;
+  message.noise_place = environment.noise.site ? "measured" : to_name(environment.noise.place);
   message.acidity_ph = environment.ph;
   message.sea_surface_z_m = environment.sea_surface_z_m;
   message.spreading_exponent = environment.spreading_exponent;

@@ -62,10 +62,21 @@ CoverageArea area_of(const CoverageOptions& options, const LinkSurveyEnd& from) 
 
 constexpr std::size_t kMany = 100'000;  // number of links, each of which takes a millisecond or more
 
-// Notes the part of a run's prediction that exists between vehicles only.
+// Notes the part of a run's prediction that exists between vehicles only, and how sure the noise is.
 void note_what_is_left_out(const ScenarioConfig& config) {
+  if (const std::string place = noise_place_text(config); !place.empty())
+    fmt::print(std::cerr, "note: noise of the place: {}\n", place);
   if (config.channel_server.propagation.replay.is_wanted())
     fmt::print(std::cerr, "note: measured channels apply between vehicles alone: the map is modelled\n");
+}
+
+void note_terrain(const ScenarioConfig& config, const Coverage& coverage) {
+  if (coverage.cells_beyond_terrain == 0) return;
+  const std::size_t cells = coverage.area.side * coverage.area.side;
+  fmt::print(std::cerr, "note: in {} of {} cells the terrain ends or has no data: {}\n",
+             coverage.cells_beyond_terrain, cells,
+             config.channel_server.propagation.rays.holds_terrain ? "its last depth is held"
+                                                                  : "they have no value (NO_TERRAIN)");
 }
 
 int map(const CoverageOptions& options, const ScenarioConfig& config, const LinkSurveyEnd& from) {
@@ -92,6 +103,7 @@ int map(const CoverageOptions& options, const ScenarioConfig& config, const Link
   const Coverage coverage =
       compute_coverage(config, terrain, from, area, quantities, options.threads, sharing_of(options));
   write_coverage(coverage, file, options.output);
+  note_terrain(config, coverage);
   if (!options.plot.empty()) write_coverage_picture(coverage, file, options.plot);
   const auto best = coverage.best_depth();
   if (best) {

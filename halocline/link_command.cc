@@ -57,6 +57,7 @@ void print_table(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkS
   line("transmission loss", b.transmission_loss.value, 3, "dB");
   line("received level", b.received_level.value, 3, "dB re 1 uPa");
   line("noise in the band", b.noise_level.value, 3, "dB re 1 uPa");
+  if (!answer.noise_place.empty()) fmt::print(std::cout, "noise of the place    {}\n", answer.noise_place);
   line("SNR", b.snr.value, 3, "dB");
   line("capacity", b.capacity_bps, 1, "bit/s");
   fmt::print(std::cout,

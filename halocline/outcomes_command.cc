@@ -80,6 +80,7 @@ void add_outcomes_command(CLI::App& app, int& exit_code) {
       "  blocked       the terrain stops every ray\n"
       "  too weak      rays arrive that lost too much at their bounces\n"
       "  too steep     rays arrive only more steeply than is searched (80 degrees)\n"
+      "  no terrain    the terrain ends or has no data on the way (propagation.beyond = \"none\")\n"
       "  out of reach  so far away that its sound cannot matter; counted, in one row a packet\n"
       "  foreign       the packet's waveform is not of the receiver's family\n"
       "  not acquired  the preamble was missed; bit errors: the bits after it\n\n" +

@@ -37,12 +37,29 @@ void visit(bus::ConfigVisitor& v, ScenarioConfig& config) {
 
 namespace {
 
+// Sets the noise place that is left to the depth of the water, as the channel server's main does.
+void set_noise_place(ScenarioConfig& config) {
+  channel_server::EnvironmentConfig& environment = config.channel_server.environment;
+  if (!needs_depth(environment)) return;
+  const bus::Scenario& scenario = config.scenario;
+  double depth_m = 0;
+  try {
+    depth_m =
+        mean_water_depth_m(config.terrain, {scenario.origin_latitude_deg, scenario.origin_longitude_deg},
+                           scenario.sea_surface_z_m);
+  } catch (const InvalidArgument&) {
+    // A terrain that cannot be made is refused where it is used.
+  }
+  use_depth(depth_m, environment);
+}
+
 // Reads the sections and makes all checks that need no terrain; findings are collected in `file`.
 ScenarioConfig read_scenario(bus::ConfigFile& file, ScenarioUse use) {
   ScenarioConfig config;
   file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
   file.check(/*whole_file=*/true);
   config.scenario.configuration = bus::configuration_of(file);
+  set_noise_place(config);
   check_water(config, file);
   if (use == ScenarioUse::kRun) check_missions(config, file);
   return config;

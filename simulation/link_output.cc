@@ -26,7 +26,7 @@ std::string_view name_of(channel_server::Multipath multipath) {
 }
 
 std::string_view name_of(channel_server::PathState state) {
-  constexpr std::array kNames{"open", "shadow", "blocked", "too weak", "too steep"};
+  constexpr std::array kNames{"open", "shadow", "blocked", "too weak", "too steep", "no terrain"};
   return kNames.at(static_cast<std::size_t>(state));
 }
 
@@ -57,6 +57,7 @@ std::string to_json(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const Li
   json["transmission_loss_db"] = b.transmission_loss.value;
   json["received_level_db"] = b.received_level.value;
   json["noise_level_db"] = b.noise_level.value;
+  if (!answer.noise_place.empty()) json["noise_place"] = answer.noise_place;
   json["snr_db"] = b.snr.value;
   json["snr_narrowband_db"] = b.snr_narrowband.value;
   json["capacity_bps"] = b.capacity_bps;

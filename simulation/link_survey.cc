@@ -14,8 +14,10 @@
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/noise/place_noise.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/noise.h"
 #include "acoustics/sea/published_range.h"
 #include "bathymetry/ray_service.h"
 #include "bathymetry/terrain/terrain.h"
@@ -180,6 +182,15 @@ std::vector<std::string> notes_of(const ScenarioConfig& config, const bathymetry
 
 }  // namespace
 
+std::string noise_place_text(const ScenarioConfig& config) {
+  const acoustics::NoiseSources noise = noise_sources(config.channel_server.environment);
+  if (noise.table) return {};
+  if (noise.site) return "as measured (site_noise)";
+  if (noise.place == acoustics::NoisePlace::kOpen) return {};
+  return std::string(to_name(noise.place)) + ", +-" + format_number(acoustics::kPlaceSpreadDb) +
+         " dB from place to place";
+}
+
 Vec3 parse_vector(const std::string& text, const std::string& what) {
   Vec3 vector;
   require(parse_position(text, vector), what + " is '" + text + "'; allowed is north,east,down");
@@ -246,6 +257,11 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
                                   eigenrays_of(answer.reception, transmitter, receiver));
   answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
   answer.multipath = multipath_of(answer.reception, receiver.min_receivable_level);
+  answer.noise_place = noise_place_text(config);
+  if (answer.reception.used == channel_server::PropagationUsed::kRaysBeyondTerrain)
+    answer.notes.emplace_back(answer.reception.state == channel_server::PathState::kNoTerrain
+                                  ? "the terrain ends or has no data on the way: no sound passes there"
+                                  : "the terrain ends or has no data on the way: its last depth is held");
   return answer;
 }
 

@@ -37,6 +37,7 @@ struct LinkSurvey {
   channel_server::Multipath multipath = channel_server::Multipath::kUnknown;
   LinkArrivals arrivals;           // paths of the reception with all details
   std::vector<std::string> notes;  // formulas beyond their published range, and other remarks
+  std::string noise_place;         // noise_place_text()
 };
 
 // Parses one end of a link: the name of a vehicle of the scenario (at its start, with its modem), or
@@ -57,6 +58,10 @@ std::optional<double> seabed_z_m(const bathymetry::Terrain& terrain, const Vec3&
 
 // Throws InvalidArgument when the end is inside the seabed.
 void require_above_seabed(const bathymetry::Terrain& terrain, const LinkSurveyEnd& end);
+
+// Returns the place whose noise the scenario adds, and its spread: "shelf, +-6 dB from place to place". Empty
+// where nothing is added.
+std::string noise_place_text(const ScenarioConfig& config);
 
 // Answers the map's pending requests for depths from the terrain.
 void answer_requests(const bathymetry::Terrain& terrain, channel_server::SeabedMap& seabed);

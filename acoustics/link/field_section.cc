@@ -40,12 +40,12 @@ class FieldColumn {
   }
   double absorption_db_per_km(double depth_m, double khz_squared) const {
     const auto [depth, temperature, salinity] = at(depth_m);
-    return absorption_spectrum(environment_->absorption_model,
-                               {.temperature_degc = temperature,
-                                .salinity_psu = salinity,
-                                .depth_m = depth,
-                                .pressure_atm = pressure_atm_absolute(depth, environment_->latitude_rad),
-                                .ph = environment_->ph})
+    return absorption_spectrum_in(*environment_,
+                                  {.temperature_degc = temperature,
+                                   .salinity_psu = salinity,
+                                   .depth_m = depth,
+                                   .pressure_atm = pressure_atm_absolute(depth, environment_->latitude_rad),
+                                   .ph = environment_->ph})
         .db_per_km(khz_squared);
   }
 

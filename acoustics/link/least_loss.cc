@@ -43,7 +43,7 @@ double least_absorption(const Environment& environment, double depth_m, double k
     water.temperature_degc = range.least_degc + i / temperatures * (range.greatest_degc - range.least_degc);
     for (double j = 0; j <= kSalinities; ++j) {
       water.salinity_psu = range.least_psu + j / kSalinities * (range.greatest_psu - range.least_psu);
-      least = std::min(least, absorption_spectrum(environment.absorption_model, water).db_per_km(khz * khz));
+      least = std::min(least, absorption_spectrum_in(environment, water).db_per_km(khz * khz));
     }
   }
   return least;

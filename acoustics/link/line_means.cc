@@ -29,13 +29,12 @@ LineMeans water_at(const Environment& environment, const Vec3& place, double khz
   const ocean::WaterAtDepth water = environment.field.ocean->water_at(place, environment.field.time_s);
   const double speed_mps = sound_speed_mps(environment.profile.model(), water.temperature_degc,
                                            water.salinity_psu, place.z(), environment.latitude_rad);
-  const AbsorptionSpectrum absorption =
-      absorption_spectrum(environment.absorption_model,
-                          {.temperature_degc = water.temperature_degc,
-                           .salinity_psu = water.salinity_psu,
-                           .depth_m = place.z(),
-                           .pressure_atm = pressure_atm_absolute(place.z(), environment.latitude_rad),
-                           .ph = environment.ph});
+  const AbsorptionSpectrum absorption = absorption_spectrum_in(
+      environment, {.temperature_degc = water.temperature_degc,
+                    .salinity_psu = water.salinity_psu,
+                    .depth_m = place.z(),
+                    .pressure_atm = pressure_atm_absolute(place.z(), environment.latitude_rad),
+                    .ph = environment.ph});
   return {1 / speed_mps, absorption.db_per_km(khz_squared)};
 }
 

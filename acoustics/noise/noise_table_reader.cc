@@ -20,10 +20,26 @@ struct Rows {
   std::vector<double> frequencies_hz, levels_db;
 };
 
+CsvTable read_table(const std::string& path) {
+  std::ifstream file = open_input(path);
+  std::vector<std::string> errors;
+  CsvTable table = read_csv(file, errors);
+  require(errors.empty(), path + ": " + (errors.empty() ? "" : errors.front()));
+  return table;
+}
+
+std::shared_ptr<const NoiseSpectrum> spectrum_of(Rows rows, const std::string& path) {
+  try {
+    return std::make_shared<const NoiseSpectrum>(std::move(rows.frequencies_hz), std::move(rows.levels_db));
+  } catch (const InvalidArgument& error) {
+    throw InvalidArgument(path + ":" + std::to_string(rows.line) + ": " + error.what());
+  }
+}
+
 std::size_t column_of(const CsvTable& table, std::string_view name, const std::string& path) {
   const auto column = table.column(name);
   require(column.has_value(), path + ": no column is called " + std::string(name) +
-                                  "; needed are t_s, frequency_khz and level_db");
+                                  "; needed are t_s (of noise_file), frequency_khz and level_db");
   return *column;
 }
 
@@ -51,22 +67,24 @@ std::map<double, Rows> rows_by_time(const CsvTable& table, const std::string& pa
 }  // namespace
 
 std::vector<TimedSpectrum> read_noise_table(const std::string& path) {
-  std::ifstream file = open_input(path);
-  std::vector<std::string> errors;
-  const CsvTable table = read_csv(file, errors);
-  require(errors.empty(), path + ": " + (errors.empty() ? "" : errors.front()));
   std::vector<TimedSpectrum> spectra;
-  for (auto& [time_s, rows] : rows_by_time(table, path)) {
-    try {
-      spectra.push_back(
-          {SimTime::from_seconds(time_s),
-           std::make_shared<const NoiseSpectrum>(std::move(rows.frequencies_hz), std::move(rows.levels_db))});
-    } catch (const InvalidArgument& error) {
-      throw InvalidArgument(path + ":" + std::to_string(rows.line) + ": " + error.what());
-    }
-  }
+  for (auto& [time_s, rows] : rows_by_time(read_table(path), path))
+    spectra.push_back({SimTime::from_seconds(time_s), spectrum_of(std::move(rows), path)});
   require(!spectra.empty(), path + ": holds no row of noise");
   return spectra;
+}
+
+std::shared_ptr<const NoiseSpectrum> read_noise_spectrum(const std::string& path) {
+  const CsvTable table = read_table(path);
+  const std::size_t frequency = column_of(table, "frequency_khz", path),
+                    level = column_of(table, "level_db", path);
+  Rows rows;
+  for (const CsvLine& row : table.rows) {
+    if (rows.line == 0) rows.line = row.number;
+    rows.frequencies_hz.push_back(1000 * number_in(row, frequency, path));
+    rows.levels_db.push_back(number_in(row, level, path));
+  }
+  return spectrum_of(std::move(rows), path);
 }
 
 }  // namespace halocline::acoustics

@@ -10,6 +10,18 @@
 
 namespace halocline::acoustics {
 
+namespace {
+
+constexpr double kDayS = 86'400;
+
+Decibels rise_by_night(const NoiseVariation& variation, SimTime at) {
+  if (variation.day_night_db == 0) return {0};
+  const double turn = 2 * std::numbers::pi * (at.seconds() - variation.noon_s) / kDayS;
+  return {variation.day_night_db * (1 - elementary::cos(turn)) / 2};
+}
+
+}  // namespace
+
 void validate(const NoiseVariation& v) {
   require_in_range(v.spread_db, 0, 30, "spread of the noise", "dB");
   require_in_range(v.spread_time_s, 0.1, 1e6, "correlation time of the noise", "s");
@@ -17,14 +29,17 @@ void validate(const NoiseVariation& v) {
           "the exponent of impulsive noise is 0 (none), or 0.5 to 2");
   require_in_range(v.burst_level.value, -100, 100, "level of impulsive noise", "dB");
   require_in_range(v.burst.seconds(), 1e-3, 60, "duration of a burst of noise", "s");
+  require_in_range(v.day_night_db, 0, 20, "rise of the noise by night", "dB");
+  require_in_range(v.noon_s, -1e6, 1e6, "time of noon", "s");
 }
 
 Decibels noise_offset(const NoiseVariation& variation, std::uint64_t seed, SimTime at) {
-  if (variation.spread_db == 0) return {0};
+  const Decibels of_day = rise_by_night(variation, at);
+  if (variation.spread_db == 0) return of_day;
   const DrawAddress address{.seed = seed, .purpose = purpose_of("noise-spread")};
   const double sigma = variation.spread_db;
-  return {GaussMarkovProcess(sigma, variation.spread_time_s, address).at(at) -
-          sigma * sigma * std::numbers::ln10 / 20};
+  return of_day + Decibels{GaussMarkovProcess(sigma, variation.spread_time_s, address).at(at) -
+                           sigma * sigma * std::numbers::ln10 / 20};
 }
 
 double burst_power(double exponent, std::uint64_t seed, std::uint32_t receiver, std::int64_t burst) {

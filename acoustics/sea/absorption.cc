@@ -48,7 +48,8 @@ AbsorptionSpectrum fisher_simmons(const AbsorbingWater& water) {
           .sulphate = k * a2 * p2 * f2_hz,
           .sulphate_khz_squared = f2_hz * f2_hz / kHzSquaredPerKhzSquared,
           .water = k * a3 * p3 * kHzSquaredPerKhzSquared,
-          .low_below_400_hz = false};
+          .low_below_400_hz = false,
+          .load = {}};
 }
 
 // Cubic for the viscosity of pure water, in two pieces (Francois and Garrison 1982, part II, equation 10).
@@ -75,7 +76,8 @@ AbsorptionSpectrum francois_garrison(const AbsorbingWater& water) {
           .sulphate = a2 * p2 * f2,
           .sulphate_khz_squared = f2 * f2,
           .water = francois_garrison_a3(t) * p3,
-          .low_below_400_hz = false};
+          .low_below_400_hz = false,
+          .load = {}};
 }
 
 // Ainslie and McColm 1998; f in kHz, z in km, result in dB/km.
@@ -92,13 +94,14 @@ AbsorptionSpectrum ainslie_mccolm(const AbsorbingWater& water) {
           .sulphate = 0.52 * (1 + t / 43) * (s / 35) * f2 * elementary::exp(-z_km / 6),
           .sulphate_khz_squared = f2 * f2,
           .water = 0.00049 * elementary::exp(-(t / 27 + z_km / 17)),
-          .low_below_400_hz = false};
+          .low_below_400_hz = false,
+          .load = {}};
 }
 
 // Thorp 1967, f in kHz, with the constants a, b, c, d of each author:
 //   alpha = a + b f^2 / (1 + f^2) + c f^2 / (4100 + f^2) + d f^2
 constexpr AbsorptionSpectrum thorp(double constant, double first, double second, double quadratic) {
-  return {constant, first, 1, second, 4100, quadratic, false};
+  return {constant, first, 1, second, 4100, quadratic, false, {}};
 }
 
 constexpr AbsorptionSpectrum kThorpKiloyard = thorp(0, 0.1, 40, 0);
@@ -136,7 +139,11 @@ double AbsorptionSpectrum::thorp_low(double frequency_khz_squared) {
 
 AbsorptionComponents AbsorptionSpectrum::components_at(double frequency_hz) const {
   const double f = hz_to_khz(frequency_hz), f2 = f * f;
-  if (low_below_400_hz && f < kThorpJoinKhz) return kLow.components_at(frequency_hz);
+  if (low_below_400_hz && f < kThorpJoinKhz) {
+    AbsorptionSpectrum low = kLow;
+    low.load = load;
+    return low.components_at(frequency_hz);
+  }
   return {.boric_db_per_km = boric * f2 / (boric_khz_squared + f2),
           .magnesium_sulphate_db_per_km = sulphate * f2 / (sulphate_khz_squared + f2),
           .water_db_per_km = water * f2,

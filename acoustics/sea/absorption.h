@@ -10,15 +10,19 @@
 //       .salinity_psu = 35, .depth_m = 0, .pressure_atm = 1, .ph = 8}).components_at(10e3).total_db_per_km;
 //       // 0.83
 //
-// Frequencies are in Hz; formulas in kHz convert internally. Levels are in dB (10 log10 of power). Left out:
-// scattering, bubbles, turbid water, fresh water with dissolved minerals.
+// Frequencies are in Hz; formulas in kHz convert internally. Levels are in dB (10 log10 of power). What
+// turbid water carries is added where a spectrum states it (water_load.h). Left out: scattering, bubbles,
+// fresh water with dissolved minerals.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "acoustics/math/frequency_band.h"
+#include "acoustics/sea/water_load.h"
+#include "core/units.h"
 
 namespace halocline::acoustics {
 
@@ -87,8 +91,14 @@ struct AbsorptionSpectrum {
   double sulphate, sulphate_khz_squared;
   double water;           // a3, dB/km/kHz^2
   bool low_below_400_hz;  // kThorpPiecewise only
+  WaterLoad load = {};    // what the water carries
   // Total absorption, dB/km, at `frequency_khz_squared` > 0: the innermost loop of a link budget.
   double db_per_km(double frequency_khz_squared) const {
+    const double clear = clear_db_per_km(frequency_khz_squared);
+    return load.is_none() ? clear : clear + load.db_per_km(khz_to_hz(std::sqrt(frequency_khz_squared)));
+  }
+  // The same without the load.
+  double clear_db_per_km(double frequency_khz_squared) const {
     const double f2 = frequency_khz_squared;
     if (low_below_400_hz && f2 < kThorpJoinKhz * kThorpJoinKhz) return thorp_low(f2);
     return constant + boric * f2 / (boric_khz_squared + f2) + sulphate * f2 / (sulphate_khz_squared + f2) +

@@ -21,6 +21,9 @@ void validate(const Environment& environment) {
   require_in_range(environment.latitude_rad, -std::numbers::pi / 2, std::numbers::pi / 2, "latitude", "rad");
   require_in_range(environment.sea_surface_z_m, -100, 100, "z of the sea surface", "m");
   validate(environment.drift);
+  require_in_range(environment.load.particles_kg_m3, 0, 100, "mass of particles in the water", "kg/m^3");
+  require_in_range(environment.load.particle_radius_m, 1e-7, 1e-3, "radius of the particles", "m");
+  require_in_range(environment.load.plants_db_per_km, 0, 1000, "absorption by plants", "dB/km");
 }
 
 Environment environment_at(const Environment& environment, double north_m, double east_m) {
@@ -57,8 +60,14 @@ AbsorbingWater absorbing_water(const Environment& environment, double depth_m) {
           .ph = environment.ph};
 }
 
+AbsorptionSpectrum absorption_spectrum_in(const Environment& environment, const AbsorbingWater& water) {
+  AbsorptionSpectrum spectrum = absorption_spectrum(environment.absorption_model, water);
+  spectrum.load = environment.load;
+  return spectrum;
+}
+
 AbsorptionSpectrum absorption_spectrum_at(const Environment& environment, double depth_m) {
-  return absorption_spectrum(environment.absorption_model, absorbing_water(environment, depth_m));
+  return absorption_spectrum_in(environment, absorbing_water(environment, depth_m));
 }
 
 }  // namespace halocline::acoustics

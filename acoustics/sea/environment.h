@@ -11,6 +11,7 @@
 #include "acoustics/sea/noise.h"
 #include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "acoustics/sea/water_load.h"
 #include "core/frames.h"
 #include "ocean/ocean_field.h"
 
@@ -42,6 +43,7 @@ struct Environment {
   // Changes of the profile over hours; none where there is a field. The profile here is that without them, or
   // that of one block in what EnvironmentTimeline (channel_server/propagation) returns.
   ProfileDrift drift = {};
+  WaterLoad load = {};
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
@@ -56,7 +58,10 @@ double sound_speed_at(const Environment& environment, const Vec3& position_ned_m
 // Properties of the water for absorption at `depth_m` below the surface; negative depths count as 0.
 AbsorbingWater absorbing_water(const Environment& environment, double depth_m);
 
-// Coefficients of alpha(f) for the environment's model at a depth.
+// Coefficients of alpha(f) for the environment's model in given water, with what the environment's water
+// carries.
+AbsorptionSpectrum absorption_spectrum_in(const Environment& environment, const AbsorbingWater& water);
+// The same at a depth of the environment's profile.
 AbsorptionSpectrum absorption_spectrum_at(const Environment& environment, double depth_m);
 
 }  // namespace halocline::acoustics

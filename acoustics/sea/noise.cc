@@ -10,13 +10,20 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr Decibels kNoRain{-300};
+constexpr Decibels kAbsent{-300};
 
 // Spectrum level of rain, f in kHz (noise.h has the formula).
 Decibels rain_level(double f, double rain_mm_per_h) {
-  if (rain_mm_per_h <= 0) return kNoRain;
+  if (rain_mm_per_h <= 0) return kAbsent;
   return {42.4 + 15.4 * elementary::log10(rain_mm_per_h) - 10 * elementary::log10(1 + (f / 15) * (f / 15))};
 }
+
+Decibels place_level(double frequency_hz, const NoiseSources& sources) {
+  if (sources.site) return sources.site->level(frequency_hz);
+  return place_noise(sources.place, frequency_hz).value_or(kAbsent);
+}
+
+bool has_place(const NoiseSources& sources) { return sources.site || sources.place != NoisePlace::kOpen; }
 
 }  // namespace
 
@@ -33,9 +40,12 @@ NoiseComponents noise_components(double frequency_hz, const NoiseSources& source
   n.wind = {50 + 7.5 * std::sqrt(sources.wind_mps) + 20 * log_f - 40 * elementary::log10(f + 0.4)};
   n.thermal = {-15 + 20 * log_f};
   n.rain = rain_level(f, sources.rain_mm_per_h);
+  n.place = place_level(frequency_hz, sources);
+  if (is_under_ice(sources.place)) n.wind = kAbsent;
   n.total_power = to_power_ratio(n.turbulence) + to_power_ratio(n.shipping) + to_power_ratio(n.wind) +
                   to_power_ratio(n.thermal);
   if (sources.rain_mm_per_h > 0) n.total_power = n.total_power + to_power_ratio(n.rain);
+  if (has_place(sources)) n.total_power = n.total_power + to_power_ratio(n.place);
   if (sources.table) n.total_power = to_power_ratio(sources.table->level(frequency_hz));
   n.total = to_decibels(n.total_power);
   return n;
@@ -45,7 +55,8 @@ PowerRatio noise_power_density(double frequency_hz, const NoiseSources& sources)
   return noise_components(frequency_hz, sources).total_power;
 }
 
-// Each component is monotonic in frequency or has one maximum: its minimum is at an end of the band.
+// Each component is monotonic in frequency or has one maximum: its minimum is at an end of the band. A
+// spectrum measured at the place may have its least level anywhere.
 PowerRatio least_noise_power_density(double low_hz, double high_hz, const NoiseSources& sources) {
   if (sources.table) return to_power_ratio(sources.table->least_level(low_hz, high_hz));
   const NoiseComponents low = noise_components(low_hz, sources), high = noise_components(high_hz, sources);
@@ -55,6 +66,11 @@ PowerRatio least_noise_power_density(double low_hz, double high_hz, const NoiseS
     density += to_power_ratio(std::min(low.*component, high.*component)).value;
   }
   if (sources.rain_mm_per_h > 0) density += to_power_ratio(std::min(low.rain, high.rain)).value;
+  if (sources.site) {
+    density += to_power_ratio(sources.site->least_level(low_hz, high_hz)).value;
+  } else if (has_place(sources)) {
+    density += to_power_ratio(std::min(low.place, high.place)).value;
+  }
   return {density};
 }
 

@@ -12,13 +12,15 @@
 //   rain        42.4 + 15.4 log10 R - 10 log10(1 + (f / 15)^2),
 // the level at 5 kHz of Ma and Nystuen 2005 (J. Atmos. Ocean. Technol. 22, 1225; 2 to 200 mm/h), white up to
 // some 15 kHz and falling above, as for the impact of drops (Nystuen 1986); this spectral shape is our
-// choice. A table of levels replaces all of these (noise_spectrum.h). Left out: ice, animals; for vehicles
-// see channel_server/vehicles/vehicle_noise.h.
+// choice. A place adds its own noise in power (acoustics/noise/place_noise.h), or a spectrum measured there
+// does; under fast ice it takes the place of wind. A table of levels replaces all of these
+// (noise_spectrum.h). For vehicles see channel_server/vehicles/vehicle_noise.h.
 #pragma once
 
 #include <memory>
 
 #include "acoustics/noise/noise_spectrum.h"
+#include "acoustics/noise/place_noise.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -29,12 +31,15 @@ struct NoiseSources {
   double wind_mps = 0;                                   // m/s, 10 m above the sea, 0 to 60
   double rain_mm_per_h = 0;                              // 0 to 500
   std::shared_ptr<const NoiseSpectrum> table = nullptr;  // replaces all other sources
+  NoisePlace place = NoisePlace::kOpen;
+  // Noise of the place as measured, in the place of that of its kind.
+  std::shared_ptr<const NoiseSpectrum> site = nullptr;
 };
 
-// Spectrum levels, dB re 1 uPa^2/Hz, and their total power, uPa^2/Hz. Without rain its level is -300. A table
-// sets the total alone.
+// Spectrum levels, dB re 1 uPa^2/Hz, and their total power, uPa^2/Hz. A source that is absent (rain, a
+// place in the open sea, wind under ice) has the level -300. A table sets the total alone.
 struct NoiseComponents {
-  Decibels turbulence, shipping, wind, thermal, rain, total;
+  Decibels turbulence, shipping, wind, thermal, rain, place, total;
   PowerRatio total_power;
 };
 

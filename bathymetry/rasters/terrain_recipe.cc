@@ -76,6 +76,15 @@ HeightGrid base_grid(const TerrainRecipe& recipe, const LocalFrame& frame,
   return std::move(loaded.grid);
 }
 
+// Returns the grid's rectangle with 9 posts along its longer side.
+GridGeometry coarse(const GridGeometry& grid) {
+  constexpr int kSteps = 8;
+  const double north_m = grid.last_x_m() - grid.first_x_m, east_m = grid.last_y_m() - grid.first_y_m;
+  const double spacing_m = std::max(north_m, east_m) / kSteps;
+  const auto posts = [spacing_m](double side_m) { return static_cast<int>(side_m / spacing_m) + 1; };
+  return {grid.first_x_m, grid.first_y_m, spacing_m, std::max(posts(north_m), 2), std::max(posts(east_m), 2)};
+}
+
 std::string summary_of(const TerrainRecipe& recipe, const Terrain& terrain,
                        const std::vector<RasterReport>& reports) {
   static constexpr const char* kNames[] = {"flat", "slope", "ridge", "seamount", "raster"};
@@ -134,6 +143,24 @@ double memory_of(const TerrainRecipe& recipe) {
           "the terrain's grids have " + format_number(posts) +
               " posts in all, more than 2^30; take smaller domains or a wider spacing");
   return posts * kBytesAPost;
+}
+
+double mean_water_depth_m(const TerrainRecipe& recipe, const Site& site, double sea_surface_z_m) {
+  const auto shape = shape_of(recipe);
+  const LocalFrame frame(recipe.frame, to_radians(site.origin_latitude_deg),
+                         to_radians(site.origin_longitude_deg));
+  const HeightGrid grid = shape ? make_grid(coarse(grid_of(recipe)), *shape)
+                          : recipe.whole_file
+                              ? load_local_raster(recipe.raster).grid
+                              : load_raster(recipe.raster, frame, coarse(recipe.domain.geometry())).grid;
+  double sum_m = 0, count = 0;
+  for (const float z_m : grid.posts()) {
+    const double depth_m = z_m - sea_surface_z_m;
+    if (!(depth_m > 0)) continue;  // land, or no data
+    sum_m += depth_m;
+    ++count;
+  }
+  return count > 0 ? sum_m / count : 0;
 }
 
 PreparedTerrain prepare_terrain(const TerrainRecipe& recipe, const Site& site) {

@@ -87,6 +87,11 @@ double memory_of(const TerrainRecipe& recipe);
 // when it needs more than the available memory.
 PreparedTerrain prepare_terrain(const TerrainRecipe& recipe, const Site& site);
 
+// Returns the mean depth of the water over the terrain's area, m, from 9 x 9 places of the base without
+// relief and nested grids: cheap, and enough to tell a shelf from the deep sea. Places on land are left out;
+// 0 when all are. Throws InvalidArgument for rasters that cannot be read.
+double mean_water_depth_m(const TerrainRecipe& recipe, const Site& site, double sea_surface_z_m);
+
 // Returns the extent of the terrain for a reader: "north -2000 to 2000 m, east -2000 to 2000 m".
 std::string extent_text(const Terrain& terrain);
 

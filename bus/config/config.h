@@ -67,6 +67,9 @@ class ConfigVisitor {
   virtual void numbers(std::string_view key, std::vector<double>& values, const NumberRule& rule) = 0;
   // An array of arrays of three numbers (waypoints).
   virtual void points(std::string_view key, std::vector<Vec3>& values, const NumberRule& rule) = 0;
+  // An array of arrays of two numbers (rows of a table).
+  virtual void pairs(std::string_view key, std::vector<std::array<double, 2>>& values,
+                     const NumberRule& rule) = 0;
   // A table within the current table.
   virtual void section(std::string_view key, std::string_view meaning,
                        const std::function<void(ConfigVisitor&)>& body) = 0;
@@ -77,6 +80,9 @@ class ConfigVisitor {
                     const std::function<void(ConfigVisitor&, std::size_t)>& item) = 0;
   // True when the scenario gives this key; always true on writing.
   virtual bool given(std::string_view key) const = 0;
+  // True when the scenario gives this key a text, for keys that are a file's name or a value; false on
+  // writing.
+  virtual bool is_text(std::string_view key) const = 0;
   // True when a configuration is written: all effective values are to be visited, whatever `given` returns.
   virtual bool writing() const = 0;
   // Reports that the key's value is impossible for a reason that no rule covers, for instance in relation to

@@ -100,6 +100,8 @@ class ConfigReader : public ConfigVisitor {
   void vector3(std::string_view key, Vec3& value, const NumberRule& rule) override;
   void numbers(std::string_view key, std::vector<double>& values, const NumberRule& rule) override;
   void points(std::string_view key, std::vector<Vec3>& values, const NumberRule& rule) override;
+  void pairs(std::string_view key, std::vector<std::array<double, 2>>& values,
+             const NumberRule& rule) override;
   void section(std::string_view key, std::string_view meaning,
                const std::function<void(ConfigVisitor&)>& body) override;
   void list(std::string_view key, std::string_view meaning, std::size_t count,
@@ -108,6 +110,10 @@ class ConfigReader : public ConfigVisitor {
   bool given(std::string_view key) const override {
     note(key);
     return table_.contains(key);
+  }
+  bool is_text(std::string_view key) const override {
+    note(key);
+    return table_[key].is_string();
   }
   bool writing() const override { return false; }
   void problem(std::string_view key, std::string_view what_is_allowed) override;

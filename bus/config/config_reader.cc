@@ -279,6 +279,22 @@ void ConfigReader::points(std::string_view key, std::vector<Vec3>& values, const
   values = std::move(read);
 }
 
+void ConfigReader::pairs(std::string_view key, std::vector<std::array<double, 2>>& values,
+                         const NumberRule& rule) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  const toml::array* array = node->as_array();
+  if (array == nullptr) return fail(*node, key, "an array of [a, b] is needed");
+  std::vector<std::array<double, 2>> read;
+  for (const toml::node& element : *array) {
+    std::vector<double> numbers;
+    if (!read_numbers(element, key, rule, numbers)) return;
+    if (numbers.size() != 2) return fail(element, key, "two numbers are needed, each: " + allowed_text(rule));
+    read.push_back({numbers[0], numbers[1]});
+  }
+  values = std::move(read);
+}
+
 void ConfigReader::section(std::string_view key, std::string_view /*meaning*/,
                            const std::function<void(ConfigVisitor&)>& body) {
   toml::node* node = find(key);

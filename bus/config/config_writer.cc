@@ -217,6 +217,13 @@ class Writer : public ConfigVisitor {
     for (const Vec3& value : values) text += (text.empty() ? "" : ", ") + array(value);
     line(key, "[" + text + "]", described(rule));
   }
+  void pairs(std::string_view key, std::vector<std::array<double, 2>>& values,
+             const NumberRule& rule) override {
+    std::string text;
+    for (const auto& [first, second] : values)
+      text += (text.empty() ? "[" : ", [") + exact(first) + ", " + exact(second) + "]";
+    line(key, "[" + text + "]", described(rule));
+  }
   void section(std::string_view key, std::string_view meaning,
                const std::function<void(ConfigVisitor&)>& body) override {
     if (is_left_out()) return;
@@ -235,6 +242,7 @@ class Writer : public ConfigVisitor {
     }
   }
   bool given(std::string_view) const override { return true; }
+  bool is_text(std::string_view) const override { return false; }
   bool writing() const override { return true; }
   void problem(std::string_view, std::string_view) override {}
   void shared_with_others() override {}

@@ -5,7 +5,7 @@
 // sections, so that it finds every error at once. The sections are read by:
 //   [scenario] [time] [bus] [ocean] [[vehicle]] [vehicle.battery]      this file
 //   [terrain]                                                          bathymetry/bathymetry_config.h
-//   [environment] [modem] [channel_server]                             channel_server/channel_server_config.h
+//   [environment] [water_load] [modem] [channel_server]                channel_server/channel_server_config.h
 //   [vehicle.modem] [vehicle.clock] [vehicle.noise]                    channel_server/channel_server_config.h
 //   [vehicle_sim] [sensors] [vehicle.sensors] [[tether]] [[fault]]     vehicle_sim/vehicle_sim_config.h
 //   [vehicle.mission] [vehicle.traffic] [vehicle.localiser]            clients/

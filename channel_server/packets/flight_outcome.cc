@@ -70,6 +70,8 @@ OutcomeKind outcome_without_path(PathState state) {
       return OutcomeKind::kTooWeak;
     case PathState::kTooSteep:
       return OutcomeKind::kTooSteep;
+    case PathState::kNoTerrain:
+      return OutcomeKind::kNoTerrain;
     case PathState::kOpen:
     case PathState::kShadow:
       break;

@@ -5,11 +5,12 @@
 
 #include <array>
 #include <cstddef>
-#include <utility>
+#include <tuple>
 
 #include "acoustics/link/capacity.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/noise/noise_spectrum.h"
+#include "acoustics/noise/place_noise.h"
 #include "acoustics/sea/noise.h"
 #include "core/lru_cache.h"
 #include "core/units.h"
@@ -24,9 +25,10 @@ class NoiseLevelCache {
   Decibels level(const acoustics::Band& band, const acoustics::NoiseSources& sources);
 
  private:
-  // Low and high end of the band, Hz; shipping; wind, m/s; rain, mm/h; the table of the sea, which outlives
-  // the cache and never changes.
-  using Key = std::pair<std::array<double, 5>, const acoustics::NoiseSpectrum*>;
+  // Low and high end of the band, Hz; shipping; wind, m/s; rain, mm/h; the spectra of the sea and of the
+  // place, which outlive the cache and never change; the kind of place.
+  using Key = std::tuple<std::array<double, 5>, const acoustics::NoiseSpectrum*,
+                         const acoustics::NoiseSpectrum*, acoustics::NoisePlace>;
   LruCache<Key, Decibels> levels_{kMaxKept};
   // The last query and its result: most packets repeat it.
   Key last_ = {};

@@ -168,9 +168,10 @@ enum class OutcomeKind {
   // [0] Beyond the range, at departure, at which the packet can be received or disturb a reception
   // (propagation/reach.h).
   kOutOfReach,
-  kAsleep,     // [6] the receiver's modem slept during part of the packet
-  kExtraLoss,  // [12] otherwise received, but dropped on purpose (extra_loss.h)
-  kNoPower,    // [1] the receiver's battery was empty at the first bit or at the last
+  kAsleep,          // [6] the receiver's modem slept during part of the packet
+  kExtraLoss,       // [12] otherwise received, but dropped on purpose (extra_loss.h)
+  kNoPower,         // [1] the receiver's battery was empty at the first bit or at the last
+  kNoTerrain = 19,  // [4] the terrain ends or has no data on the way, and its last depth is not held
 };
 
 // The quantities that decided an outcome, and the random draws.

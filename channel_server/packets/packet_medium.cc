@@ -237,7 +237,7 @@ bool PacketMedium::try_to_arrive(Flight& flight, SimTime at) {
   const SimTime first_sound = flight.first_sound();
   if (first_sound > at + kSolvedInTime && flight.solutions < kMaxSolutions) {
     flights_.add(first_sound, flight);
-  } else if (!sounds_.any()) {
+  } else if (!sounds_.any_is_heard()) {
     begin_reception(flight, at);
   } else {
     flight.stage = Flight::Stage::kSolved;

@@ -68,11 +68,12 @@ PacketPointer PlatformNoise::sound_of(const NoiseSource& noise, const NoiseQuery
 }
 
 std::vector<PacketPointer> PlatformNoise::sounds_within_reach(const NoiseQuery& query) {
+  if (!any_is_heard()) return {};
   std::vector<PlacedVehicle> present;
   if (reach_ != nullptr) present = place_all(fleet_, query.at);
   std::vector<PacketPointer> sounds;
   for (const auto& [id, noise] : fleet_.equipment().noise.sources()) {
-    if (id == query.receiver.id || id == query.silent) continue;
+    if (id == query.receiver.id || id == query.silent || !noise.is_heard_by_others) continue;
     PacketPointer sound = sound_of(noise, query);
     if (!sound) continue;
     const double range_m = (sound->departure_ned_m - query.receiver.position_ned_m).norm();
@@ -110,7 +111,7 @@ std::vector<NoiseSound> PlatformNoise::others(const NoiseQuery& query) {
 Decibels PlatformNoise::noise_level(VehicleId receiver, const acoustics::Band& band, SimTime at,
                                     SimTime decided_at) {
   Decibels level = ambient_.level(band, propagation_.environment(at).noise);
-  if (variation_.spread_db > 0) level = level + noise_offset(variation_, seed_, at);
+  if (variation_.changes_level()) level = level + noise_offset(variation_, seed_, at);
   const double own = own_power(receiver, band, at, decided_at);
   return own > 0 ? to_decibels({to_power_ratio(level).value + own}) : level;
 }
@@ -129,7 +130,7 @@ Decibels PlatformNoise::above_ambient(const NoiseQuery& query) {
 void PlatformNoise::set_noise(Flight& flight, SimTime decided_at) {
   flight.reception.budget.noise_level =
       noise_level(flight.receiver_id, flight.packet->modem.band(), flight.arrival(), decided_at);
-  if (!any()) return;
+  if (!any_is_heard()) return;
   flight.noise = others(noise_query_of(flight, decided_at));
   for (NoiseSound& sound : flight.noise) {
     const VehicleId from = sound.source->request.source_id, to = flight.receiver_id;

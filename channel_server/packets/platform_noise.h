@@ -55,8 +55,10 @@ class PlatformNoise {
 
   // True when some vehicle makes noise.
   bool any() const { return !fleet_.equipment().noise.sources().empty(); }
+  // True when some vehicle's noise is heard by others.
+  bool any_is_heard() const { return fleet_.equipment().noise.are_heard(); }
   // True when the noise at a receiver may differ from the ambient noise of the environment.
-  bool differ() const { return any() || variation_.spread_db > 0; }
+  bool differ() const { return any() || variation_.changes_level(); }
   // Returns the power over the band of the receiver's own noise at its hydrophone at `at`, uPa^2.
   double own_power(VehicleId receiver, const acoustics::Band& band, SimTime at, SimTime decided_at) const;
   // Returns the level over the band of ambient and own noise, dB re 1 uPa.

@@ -58,6 +58,7 @@ struct RayModel {
   // sound. 0..kDeepestWater, rising.
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
   int max_searches_per_tick = 0;  // limit for link tables (search_scheduler.h); 0: unlimited
+  bool holds_terrain = true;      // beyond the terrain its last depth continues; false: no sound passes there
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.

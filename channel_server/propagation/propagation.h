@@ -77,11 +77,12 @@ struct EndPair {
 };
 
 enum class PathState {
-  kOpen,      // there is at least one path
-  kShadow,    // no ray arrives: refraction bends all of them away from the receiver
-  kBlocked,   // no ray arrives, and the terrain cuts the straight line between the ends
-  kTooWeak,   // rays arrive, but losses at their bounces leave them below the limit of the search
-  kTooSteep,  // rays arrive, but only at launch angles steeper than the limit of the search
+  kOpen,       // there is at least one path
+  kShadow,     // no ray arrives: refraction bends all of them away from the receiver
+  kBlocked,    // no ray arrives, and the terrain cuts the straight line between the ends
+  kTooWeak,    // rays arrive, but losses at their bounces leave them below the limit of the search
+  kTooSteep,   // rays arrive, but only at launch angles steeper than the limit of the search
+  kNoTerrain,  // the terrain ends or has no data on the way, and its last depth is not held
 };
 
 enum class PropagationUsed {

@@ -133,6 +133,14 @@ Reception RayPropagation::straight_instead(SimTime at, const EndPair& ends, Prop
                                            acoustics::Capacity capacity) {
   Reception reception = straight_.along_line(at, ends, capacity);
   reception.used = used;
+  if (used != PropagationUsed::kStraightWithoutBottom || model_.holds_terrain) return reception;
+  reception.state = PathState::kNoTerrain;
+  reception.paths.clear();
+  const Vec3 &from = ends.from.position_ned_m, &to = ends.to.position_ned_m;
+  reception.budget = straight_.kernel_of(at, *ends.from.modem, *ends.to.modem)
+                         ->budget_of_path(from, to, ends.from.modem->source_level - kSilence,
+                                          (to - from).norm(), capacity, ends.to.above_ambient);
+  reception.budget.receivable = false;
   return reception;
 }
 
@@ -141,6 +149,11 @@ Reception RayPropagation::answer(const Task& task, const SearchResult& found,
   Reception reception;
   reception.used = found.beyond_terrain ? PropagationUsed::kRaysBeyondTerrain : PropagationUsed::kRays;
   reception.paths_age = task.age;
+  if (lacks_terrain(found)) {
+    reception.state = PathState::kNoTerrain;
+    set_silent(task, capacity, reception);
+    return reception;
+  }
   const std::optional<acoustics::Eigenrays> elsewhere =
       reused_eigenrays(task.link, task.query, *task.water, *task.environment, found.eigenrays);
   const acoustics::Eigenrays& eigenrays = elsewhere ? *elsewhere : found.eigenrays;
@@ -183,7 +196,9 @@ LinkChart RayPropagation::chart(SimTime at, const LinkEnd& from, const LinkEnd& 
       bottom_under(*searches_.seabed_of(task.query), task.link, task.environment->sea_surface_z_m);
   const acoustics::RaySurface surface{model_.surface, task.environment->noise.wind_mps};
   std::vector<LinkChart::Row> rows;
-  for (const Arrival& arrival : arrivals(task, found->eigenrays)) {
+  std::vector<Arrival> of_paths;
+  if (!lacks_terrain(*found)) of_paths = arrivals(task, found->eigenrays);
+  for (const Arrival& arrival : of_paths) {
     const Decibels kept = kept_at_surface(boundaries_, *task.environment, task.query.frequency_hz, arrival);
     rows.push_back({.arrival = arrival, .surface_db = arrival.surface_loss_db - kept.value});
   }

@@ -132,6 +132,10 @@ class RayPropagation : public Propagation {
   Reception straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,
                              acoustics::Capacity capacity = acoustics::Capacity::kComputed);
   Reception answer(const Task& task, const SearchResult& found, acoustics::Capacity capacity) const;
+  // True when the seabed of the search rests on depths beyond the terrain, which the model does not hold.
+  bool lacks_terrain(const SearchResult& found) const {
+    return found.beyond_terrain && !model_.holds_terrain;
+  }
   static PathState state_without_path(const SearchResult& found);
   std::vector<Arrival> arrivals(const Task& task, const acoustics::Eigenrays& eigenrays) const;
   Decibels received_level(const Task& task, const acoustics::Eigenrays& eigenrays,

@@ -14,15 +14,16 @@ VehicleNoise::VehicleNoise(std::vector<NoiseSource> sources, SimDuration lag) : 
     require(std::isfinite(source.reference) && source.reference > 0,
             "the reference speed of a vehicle's noise must be above 0");
     require_in_range(source.own_loss.value, 0, 200, "loss of own noise", "dB");
+    are_heard_ = are_heard_ || source.is_heard_by_others;
+    ids_.emplace(source.vehicle, source.id);
     sources_.emplace(source.id, std::move(source));
   }
 }
 
 void VehicleNoise::add_rate(std::string_view vehicle, SimTime at, double turns_per_s) {
-  for (const auto& [id, source] : sources_) {
-    if (source.vehicle != vehicle) continue;
-    rates_.try_emplace(id, 0.0, kMaxRates).first->second.set(at, std::abs(turns_per_s));
-  }
+  const auto known = ids_.find(vehicle);
+  if (known == ids_.end()) return;
+  rates_.try_emplace(known->second, 0.0, kMaxRates).first->second.set(at, std::abs(turns_per_s));
 }
 
 double VehicleNoise::rate_at(VehicleId id, SimTime at, SimTime decided_at) const {

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -43,8 +44,9 @@ struct NoiseSource {
   // decade, as machinery and cavitation noise does above 1 kHz (Urick 1983, chapter 10).
   acoustics::NoiseSpectrum at_1m{{1e3, 1e5}, {100, 60}};
   NoiseDriver driver = NoiseDriver::kPropeller;
-  double reference = 25;  // turns per second (1500 rpm, our choice), or m/s; above 0
-  Decibels own_loss{20};  // from 1 m to its own hydrophone, 0..200
+  double reference = 25;           // turns per second (1500 rpm, our choice), or m/s; above 0
+  Decibels own_loss{20};           // from 1 m to its own hydrophone, 0..200
+  bool is_heard_by_others = true;  // false: at its own hydrophone alone
 };
 
 class VehicleNoise {
@@ -54,6 +56,8 @@ class VehicleNoise {
   VehicleNoise() = default;  // no vehicle radiates noise
   VehicleNoise(std::vector<NoiseSource> sources, SimDuration lag);
 
+  // True when some vehicle is heard by others.
+  bool are_heard() const { return are_heard_; }
   const std::map<VehicleId, NoiseSource>& sources() const { return sources_; }
   // Adds the turn rate of the vehicle's fastest propeller at `at`, turns per second. No effect for a vehicle
   // that radiates no noise.
@@ -64,8 +68,10 @@ class VehicleNoise {
 
  private:
   std::map<VehicleId, NoiseSource> sources_;
+  std::map<std::string, VehicleId, std::less<>> ids_;  // of the sources, by the vehicle's name
   std::map<VehicleId, Schedule<double>> rates_;
   SimDuration lag_;
+  bool are_heard_ = false;
 };
 
 // Returns the power over the band at 1 m, uPa^2, when the driver has the value `speed`; 0 for a vehicle that

@@ -111,6 +111,8 @@ std::string deciding_reason(const packet_outcome_t& o, const VehicleName& name) 
       return "no path: the bounces leave too little of every ray";
     case packet_outcome_t::TOO_STEEP:
       return "no path: every ray is launched more steeply than is searched";
+    case packet_outcome_t::NO_TERRAIN:
+      return "the terrain ends or has no data on the way";
     case packet_outcome_t::OUT_OF_REACH:
       return fmt::format("{:.0f} m away, where its sound is too weak to matter", o.range_m);
     case packet_outcome_t::NO_POWER:

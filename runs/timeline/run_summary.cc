@@ -154,9 +154,10 @@ void add_terrain(const RunTimeline& timeline, std::vector<SummaryRow>& rows) {
   const std::int64_t beyond = counts[static_cast<std::size_t>(packet_outcome_t::RAYS_BEYOND_TERRAIN)];
   if (beyond == 0) return;
   const std::int64_t all = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
-  rows.push_back({"terrain", share(beyond, all) +
-                                 " outcomes lie where the terrain ends or has no data: its last known depth "
-                                 "was held for sound"});
+  const bool is_held = timeline.ledger().total()[static_cast<std::size_t>(packet_outcome_t::NO_TERRAIN)] == 0;
+  rows.push_back({"terrain", share(beyond, all) + " outcomes lie where the terrain ends or has no data: " +
+                                 (is_held ? "its last known depth was held for sound"
+                                          : "no sound passes there (propagation.beyond = \"none\")")});
 }
 
 }  // namespace

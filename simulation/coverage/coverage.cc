@@ -61,8 +61,13 @@ class Mapping {
 
   Coverage run() {
     seabed_z_m_.resize(area_.side * area_.side, kNothing);
-    for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell)
-      seabed_z_m_[cell] = seabed_z_m(terrain_, place(cell, 0)).value_or(kNothing);
+    for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell) {
+      const Vec3 at = place(cell, 0);
+      const auto held = terrain_.held_depth_at(at.x(), at.y());
+      const bool is_beyond = held && held->is_held;
+      map_.cells_beyond_terrain += is_beyond ? 1 : 0;
+      seabed_z_m_[cell] = held && (!is_beyond || links_.holds_terrain()) ? held->z_m : kNothing;
+    }
     if (level_z_m_ && !links_.is_in_a_field() && !links_.is_among_noise()) {
       by_range(*level_z_m_);
     } else {
@@ -160,7 +165,9 @@ class Mapping {
   void over_terrain() {
     channel_server::SeabedMap seabed = links_.seabed_map();
     std::vector<Line> lines = lines_of_cells();
-    if (sharing_ == RaySharing::kRanges && !links_.is_in_a_field()) lines = bearings(lines);
+    // A bearing may leave the terrain beside its cells, which matters where the last depth is not held.
+    const bool shares_ranges = sharing_ == RaySharing::kRanges && links_.holds_terrain();
+    if (shares_ranges && !links_.is_in_a_field()) lines = bearings(lines);
     // The seabed must be known along a whole bearing; otherwise each of its cells gets its own profile.
     std::vector<Line> known;
     for (const Line& line : lines) {

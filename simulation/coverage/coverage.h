@@ -76,6 +76,9 @@ struct Coverage {
   std::vector<std::vector<double>> delivery_low, delivery_high;  // likewise
   std::vector<std::vector<double>> snr_db;  // likewise; empty: noise_level_db holds in all cells
   double noise_level_db = 0;                // of the ambient noise, over the band of the modem
+  // Number of cells beyond the terrain and where it has no data: the last depth is held there, or with
+  // propagation.beyond = "none" they have no value.
+  std::size_t cells_beyond_terrain = 0;
 
   // Returns the values of a quantity at the depth with that index. SNR is the level minus that of the ambient
   // noise and the noise of vehicles.

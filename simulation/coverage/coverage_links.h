@@ -55,6 +55,8 @@ class CoverageLinks {
   // True when a vehicle makes noise, so that links of equal range differ.
   bool is_among_noise() const;
   double noise_level_db() const;  // of the ambient noise
+  // True when sound meets the last depth beyond the terrain; false: no sound passes there.
+  bool holds_terrain() const { return config_.channel_server.propagation.rays.holds_terrain; }
   // Returns an empty seabed map with the settings that the scenario's links use.
   channel_server::SeabedMap seabed_map() const;
   // Surveys the seabed that rays to a position need; does nothing for straight paths.

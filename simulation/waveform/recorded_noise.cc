@@ -85,7 +85,8 @@ void add_sea_noise(const ScenarioConfig& config, const ScenarioLinks& links, con
                    Samples& sound) {
   const auto who = static_cast<std::uint32_t>(links.id_of(receiver));
   const std::uint64_t seed = config.scenario.seed;
-  const acoustics::NoiseVariation& variation = config.channel_server.environment.noise_variation;
+  const acoustics::NoiseVariation variation =
+      channel_server::make_noise_variation(config.channel_server.environment, config.scenario);
   const acoustics::Environment& water = links.water(SimTime::from_seconds(sound.begin_s));
   const auto density = [&](double frequency_hz) {
     return acoustics::noise_power_density(frequency_hz, water.noise).value;
@@ -129,6 +130,7 @@ void add_vehicle_noise(const ScenarioConfig& config, ScenarioLinks& links, const
       add(own, sound);
       continue;
     }
+    if (!source.is_heard_by_others) continue;
     // Sound that arrives within the span departed earlier by its travel time, at no less than 1400 m/s, and
     // by half a second for echoes.
     const SimTime begin = SimTime::from_seconds(sound.begin_s);

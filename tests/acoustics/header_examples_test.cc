@@ -13,6 +13,7 @@
 #include "acoustics/math/gauss_legendre.h"
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/noise/place_noise.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/absorption.h"
@@ -21,6 +22,7 @@
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "acoustics/sea/water_load.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 #include "core/units.h"
@@ -94,6 +96,16 @@ TEST(HeaderExamples, Absorption) {
                        .components_at(10e3)
                        .total_db_per_km;
   EXPECT_NEAR(a, 0.83, 0.005);
+}
+
+TEST(HeaderExamples, PlaceNoise) {
+  const double level_db = place_noise(NoisePlace::kHarbour, 25e3).value().value;
+  EXPECT_NEAR(level_db, 50.4, 0.05);
+}
+
+TEST(HeaderExamples, WaterLoad) {
+  const double db_per_km = WaterLoad{.particles_kg_m3 = 0.2, .particle_radius_m = 3e-6}.db_per_km(25e3);
+  EXPECT_NEAR(db_per_km, 7.5, 0.05);
 }
 
 TEST(HeaderExamples, BoundaryReflection) {

@@ -199,5 +199,19 @@ TEST(TerrainRecipe, RefusesASpacingThatDoesNotDivideTheSize) {
   EXPECT_THROW(prepare_terrain(recipe, {}), InvalidArgument);
 }
 
+TEST(MeanWaterDepth, OfAShapeIsThatOverItsAreaAndLandIsLeftOut) {
+  TerrainRecipe recipe;
+  recipe.flat.depth_m = 120;
+  EXPECT_EQ(mean_water_depth_m(recipe, {}, 0), 120);
+  EXPECT_EQ(mean_water_depth_m(recipe, {}, -5), 125);
+  recipe.kind = TerrainKind::kSlope;
+  recipe.slope = {.depth_m = 600, .slope = 0.1};
+  EXPECT_NEAR(mean_water_depth_m(recipe, {}, 0), 600, 1e-3);
+  recipe.slope = {.depth_m = 0, .slope = 0.1};  // 4 of 9 rows lie in the water: 50, 100, 150 and 200 m
+  EXPECT_NEAR(mean_water_depth_m(recipe, {}, 0), 125, 1e-3);
+  recipe.slope = {.depth_m = -1000};
+  EXPECT_EQ(mean_water_depth_m(recipe, {}, 0), 0);
+}
+
 }  // namespace
 }  // namespace halocline::bathymetry

@@ -9,6 +9,7 @@
 
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/modem/error_model.h"
+#include "acoustics/noise/place_noise.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
@@ -103,6 +104,17 @@ void add_water_of_the_line(std::vector<Turn>& all) {
   add(
       "shipping", World(), [](World& w) { w.water.noise.shipping = 1; },
       Moves{moves_by("noise", kBusyDb)} + ratio_by(-kBusyDb) + dimmer());
+  acoustics::NoiseSources harbour = World().water.noise;
+  harbour.place = acoustics::NoisePlace::kHarbour;
+  const double harbour_db = noise_db(harbour) - noise_db(World().water.noise);
+  add(
+      "noise of the place", World(), [=](World& w) { w.water.noise.place = harbour.place; },
+      Moves{moves_by("noise", harbour_db)} + ratio_by(-harbour_db) + not_acquired());
+  acoustics::Environment turbid = World().water;
+  turbid.load = {.particles_kg_m3 = 0.05};
+  add(
+      "load of the water", World(), [=](World& w) { w.water.load = turbid.load; },
+      loss_by(absorbed_db(turbid) - absorbed_db(World().water)) + dimmer());
   // Thorp's absorption knows neither temperature nor salinity; Francois and Garrison's knows both.
   using Absorption = acoustics::AbsorptionModel;
   for (const auto& [input, temperature, salinity] :

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "channel_server/channel_server_config.h"
 
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
 #include <string>
 #include <tuple>
 
@@ -12,6 +17,8 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/noise.h"
+#include "bus/config/scenario.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/water_model.h"
 #include "core/check.h"
@@ -46,6 +53,97 @@ TEST(ChannelServerConfig, EveryBuiltInProfileCanBeNamed) {
     EXPECT_GT(water_of("[environment]\nprofile = \"" + name + "\"").profile.sound_speed_mps(500), 1400)
         << name;
   }
+}
+
+// Level over the ambient noise of the open sea at 25 kHz, in powers.
+double added_db(const std::string& toml) {
+  const auto density = [](const std::string& text) {
+    return acoustics::noise_power_density(25e3, noise_sources(read(text).environment)).value;
+  };
+  return 10 * std::log10(density(toml) - density("[environment]\nnoise_place = \"open\""));
+}
+
+TEST(ChannelServerConfig, ThePlaceOrWhatWasMeasuredThereAddsItsNoise) {
+  EXPECT_NEAR(added_db("[environment]\nnoise_place = \"harbour\""), 52 - 17 * std::log10(1.25), 1e-9);
+  EXPECT_NEAR(added_db("[environment]\nnoise_place = \"reef\"\n"
+                       "site_noise = [[2, 60], [10, 55], [25, 50], [80, 40]]"),
+              50, 1e-9);
+  const std::string path = ::testing::TempDir() + "site-noise.csv";
+  std::ofstream(path) << "frequency_khz,level_db\n1,70\n25,51\n";
+  EXPECT_NEAR(added_db("[environment]\nsite_noise = \"" + path + "\""), 51, 1e-9);
+  std::filesystem::remove(path);
+}
+
+TEST(ChannelServerConfig, NoiseOfAPlaceThatIsNoneIsRefused) {
+  EXPECT_THAT(errors_of("[environment]\nnoise_place = \"moon\""), HasSubstr("harbour"));
+  EXPECT_THAT(errors_of("[environment]\nsite_noise = [[2, 60], [1, 50]]"), HasSubstr("must rise"));
+  EXPECT_THAT(errors_of("[environment]\nsite_noise = [[2, 60, 1]]"), HasSubstr("two numbers"));
+  EXPECT_THAT(errors_of("[environment]\nsite_noise = \"gone.csv\""), HasSubstr("gone.csv"));
+}
+
+TEST(ChannelServerConfig, APlaceLeftToTheDepthIsAShelfOrOpen) {
+  EnvironmentConfig config = read("[environment]\nnoise_place = \"by-depth\"").environment;
+  EnvironmentConfig deep = config;
+  ASSERT_TRUE(needs_depth(config));
+  EXPECT_EQ(noise_sources(config).place, acoustics::NoisePlace::kOpen);
+  use_depth(120, config);
+  use_depth(900, deep);
+  EXPECT_EQ(noise_sources(config).place, acoustics::NoisePlace::kShelf);
+  EXPECT_EQ(noise_sources(deep).place, acoustics::NoisePlace::kOpen);
+  EXPECT_FALSE(needs_depth(config) || needs_depth(deep));
+  EXPECT_FALSE(
+      needs_depth(read("[environment]\nnoise_place = \"by-depth\"\nsite_noise = [[1, 60]]").environment));
+}
+
+// Noon is 12 h local solar time: at 90 degrees east, six hours before that of Greenwich.
+TEST(ChannelServerConfig, AReefSnapsAndIsLouderByNight) {
+  const EnvironmentConfig reef = read("[environment]\nnoise_place = \"reef\"").environment;
+  bus::Scenario scenario;
+  const acoustics::NoiseVariation from_noon = make_noise_variation(reef, scenario);
+  EXPECT_EQ(from_noon.day_night_db, 4);
+  EXPECT_EQ(from_noon.noon_s, 0);
+  EXPECT_TRUE(from_noon.is_impulsive());
+  EXPECT_FALSE(from_noon.has_bursts());
+  scenario.ocean.start_date = "2026-05-02T03:00:00Z";
+  scenario.origin_longitude_deg = 90;
+  EXPECT_NEAR(make_noise_variation(reef, scenario).noon_s, 3 * 3600, 1e-6);
+  EXPECT_FALSE(make_noise_variation(read("").environment, scenario).is_impulsive());
+  const auto own = read("[environment]\nnoise_place = \"reef\"\nimpulse_exponent = 1.5").environment;
+  EXPECT_TRUE(make_noise_variation(own, scenario).has_bursts());
+  EXPECT_EQ(make_noise_variation(own, scenario).burst_exponent, 1.5);
+}
+
+TEST(ChannelServerConfig, WhatTheWaterCarriesIsTaken) {
+  const auto water = water_of("[water_load]\nparticles_kg_m3 = 0.2\nparticle_um = 3\nplants_db_per_km = 12");
+  EXPECT_EQ(water.load.particles_kg_m3, 0.2);
+  EXPECT_NEAR(water.load.particle_radius_m, 3e-6, 1e-20);
+  EXPECT_EQ(water.load.plants_db_per_km, 12);
+}
+
+TEST(ChannelServerConfig, BeyondTheTerrainThereIsItsLastDepthOrNone) {
+  EXPECT_TRUE(make_rays(read("[propagation]\nbeyond = \"hold\"")).holds_terrain);
+  EXPECT_FALSE(make_rays(read("[propagation]\nbeyond = \"none\"")).holds_terrain);
+}
+
+TEST(ChannelServerConfig, APropellerIsHeardAtItsOwnHydrophoneAlone) {
+  bus::Scenario scenario;
+  std::string vehicles;
+  for (const char* model : {"torpedo", "hover", "glider", "fixed"}) {
+    bus::VehicleEntry entry;
+    entry.name = model;
+    entry.id = static_cast<std::int32_t>(scenario.vehicles.size()) + 1;
+    entry.model = model;
+    scenario.vehicles.push_back(entry);
+    vehicles += "[[vehicle]]\nown_noise = true\nname = \"" + std::string(model) + "\"\n";
+  }
+  const auto equipment = make_equipment(read(vehicles), scenario);
+  ASSERT_EQ(equipment.noise.sources().size(), 2U);
+  // 11 m/s at the tips of propellers of 0.14 and 0.076 m.
+  EXPECT_NEAR(equipment.noise.sources().at(1).reference, 11 / (std::numbers::pi * 0.14), 1e-9);
+  EXPECT_NEAR(equipment.noise.sources().at(2).reference, 11 / (std::numbers::pi * 0.076), 1e-9);
+  EXPECT_FALSE(equipment.noise.are_heard());
+  const auto silent = make_equipment(read("[[vehicle]]\nname = \"torpedo\"\nown_noise = false"), scenario);
+  EXPECT_TRUE(silent.noise.sources().empty());
 }
 
 TEST(ChannelServerConfig, ATableOfWaterIsTaken) {

@@ -164,8 +164,10 @@ TEST_F(SeabedNodeTest, WithoutTheServicePacketsGoStraightOnceItsDeadlineHasPasse
   EXPECT_EQ(sea.bench.outcomes.back().propagation_used, packet_outcome_t::RAYS);
 }
 
-TEST_F(SeabedNodeTest, OutsideOfTheTerrainItsLastDepthIsHeldAndNothingWaits) {
-  NodeBench bench({}, {testing::quick_modem(), {}}, ray_model(testing::even_water(), {}, {}));
+// One packet over 300 m where the bathymetry service knows no place, but its last depth, 100 m; and the first
+// row of the table.
+std::pair<packet_outcome_t, link_t> beyond_the_terrain(const RayModel& rays) {
+  NodeBench bench({}, {testing::quick_modem(), {}}, ray_model(testing::even_water(), rays, {}));
   bus::Bus service(bench.lcm(), {"bathymetry", 11});
   service.subscribe<ray_query_t>(testing::channels::kRayQuery, [&](const ray_query_t& query) {
     ray_reply_t reply{};
@@ -183,9 +185,29 @@ TEST_F(SeabedNodeTest, OutsideOfTheTerrainItsLastDepthIsHeldAndNothingWaits) {
   }
   bench.send(1, 0.5, 0, 8);
   bench.run_to(0.9);
-  ASSERT_EQ(bench.outcomes.size(), 1u);
-  EXPECT_EQ(bench.outcomes[0].propagation_used, packet_outcome_t::RAYS_BEYOND_TERRAIN);
-  EXPECT_GT(bench.outcomes[0].num_paths, 1);
+  EXPECT_EQ(bench.outcomes.size(), 1u);
+  const packet_outcome_t outcome = bench.outcomes.at(0);
+  bench.run_to(2);
+  return {outcome, bench.last_table(1).peers.at(0)};
+}
+
+TEST_F(SeabedNodeTest, OutsideOfTheTerrainItsLastDepthIsHeldAndNothingWaits) {
+  const auto [outcome, row] = beyond_the_terrain({});
+  EXPECT_EQ(outcome.propagation_used, packet_outcome_t::RAYS_BEYOND_TERRAIN);
+  EXPECT_GT(outcome.num_paths, 1);
+  EXPECT_EQ(row.propagation_used, link_t::USED_RAYS_BEYOND_TERRAIN);
+  EXPECT_EQ(row.path_state, link_t::PATH_OPEN);
+}
+
+TEST_F(SeabedNodeTest, OutsideOfATerrainThatIsNotHeldNoSoundPasses) {
+  RayModel rays;
+  rays.holds_terrain = false;
+  const auto [outcome, row] = beyond_the_terrain(rays);
+  EXPECT_EQ(outcome.outcome, packet_outcome_t::NO_TERRAIN);
+  EXPECT_EQ(outcome.num_paths, 0);
+  EXPECT_EQ(row.path_state, link_t::PATH_NO_TERRAIN);
+  EXPECT_EQ(row.delivery_probability, 0);
+  EXPECT_FALSE(row.receivable);
 }
 
 }  // namespace

@@ -8,10 +8,10 @@ namespace halocline::layers {
 const std::vector<Exemption>& exemptions() {
   static const std::vector<Exemption> table{
       {"bathymetry/terrain/local_frame", "GeographicLib/", "the one place of geodesy"},
-      {"vehicle_sim/main.cc", "bathymetry/rasters/terrain_recipe.h",
+      {"vehicle_sim/main.cc", "bathymetry/",
        "vehicles touch the seabed that the bathymetry service answers from: its main makes the same terrain"},
-      {"vehicle_sim/main.cc", "bathymetry/bathymetry_config.h",
-       "vehicles touch the seabed that the bathymetry service answers from: its main makes the same terrain"},
+      {"channel_server/main.cc", "bathymetry/",
+       "the depth of the water tells what noise a place has: its main reads the recipe of the terrain"},
       {"viewer/sources/log_nodes", "simulation/composition.h",
        "the links of a log are computed by the nodes that its configuration describes"},
       {"viewer/sources/modems", "channel_server/",

@@ -33,6 +33,7 @@ TEST_F(IdleKeys, KeysThatLackTheirChoiceAreWarnedOf) {
       {"[environment]\nassumed_salinity_psu = 30\n", "environment.assumed_salinity_psu",
        "profile = \"munk\" or \"isovelocity\" or \"file\""},
       {"[environment]\nimpulse_level_db = 3\n", "environment.impulse_level_db", "impulse_exponent above 0"},
+      {"[water_load]\nparticle_um = 3\n", "water_load.particle_um", "particles_kg_m3 above 0"},
       {"[terrain.raster]\npath = \"gone.tif\"\n", "terrain.raster", "kind = \"raster\""},
       {"[terrain.slope]\nslope = 0.1\n", "terrain.slope", "kind = \"slope\""},
       {"[terrain]\nframe = \"enu\"\n", "terrain.frame", "kind = \"raster\", or a nested raster"},

@@ -254,6 +254,75 @@ TEST(LinkSurvey, BeyondARasterTheLastDepthIsHeld) {
   std::filesystem::remove(path);
 }
 
+// Raster of 4 km by 4 km that falls towards north, from 60 m at its middle, by 1 in 50.
+class SlopingRaster : public ::testing::Test {
+ protected:
+  SlopingRaster() {
+    std::ofstream raster(path_);
+    raster << "ncols 41\nnrows 41\nxllcorner -2050\nyllcorner -2050\ncellsize 100\n";
+    for (int i = 0; i < 41; ++i) {
+      for (int j = 0; j < 41; ++j) raster << -60 - (20 - i) * 2 << " ";
+      raster << "\n";
+    }
+    raster.close();
+    config_.terrain.kind = bathymetry::TerrainKind::kRaster;
+    config_.terrain.whole_file = true;
+    config_.terrain.raster.path = path_;
+    config_.terrain.raster.coordinate_system = "local";
+    config_.channel_server.modem.modem.source_level = Decibels{150};
+  }
+  ~SlopingRaster() override { std::filesystem::remove(path_); }
+  LinkSurvey link(double north_m) const {
+    return survey_link(config_, link_end(config_, "0,0,30"),
+                       link_end(config_, std::to_string(north_m) + ",0,30"));
+  }
+
+  const std::string path_ = ::testing::TempDir() + "slope-" + std::to_string(getpid()) + ".asc";
+  ScenarioConfig config_ = two_vehicles();
+};
+
+TEST_F(SlopingRaster, DeliveryDoesNotJumpAcrossItsEnd) {
+  double before = link(1968).forecast.delivery_probability, least = before, greatest = before;
+  for (double north_m = 1970; north_m <= 2040; north_m += 2) {
+    const double delivery = link(north_m).forecast.delivery_probability;
+    EXPECT_NEAR(delivery, before, 0.1) << north_m;
+    before = delivery;
+    least = std::min(least, delivery);
+    greatest = std::max(greatest, delivery);
+  }
+  EXPECT_GT(greatest, 0.02);
+  EXPECT_LT(least, 0.98);
+}
+
+TEST_F(SlopingRaster, ThatIsNotHeldEndsTheSea) {
+  config_.channel_server.propagation.rays.holds_terrain = false;
+  EXPECT_EQ(link(1900).reception.state, channel_server::PathState::kOpen);
+  const LinkSurvey beyond = link(2100);
+  EXPECT_EQ(beyond.reception.state, channel_server::PathState::kNoTerrain);
+  EXPECT_TRUE(beyond.reception.paths.empty());
+  EXPECT_TRUE(beyond.arrivals.received.empty());
+  EXPECT_EQ(beyond.forecast.delivery_probability, 0);
+  ASSERT_FALSE(beyond.notes.empty());
+  EXPECT_NE(beyond.notes.back().find("no sound passes"), std::string::npos);
+}
+
+// The noise of a place adds to what the sea has, in a link as in a map of links.
+TEST(LinkSurvey, NoiseOfThePlaceIsThatOfTheTable) {
+  ScenarioConfig config = two_vehicles();
+  config.channel_server.modem.modem.centre_frequency_hz = 25'000;
+  config.channel_server.modem.modem.bandwidth_hz = 10;
+  const auto noise_db = [&](const std::string& place) {
+    config.channel_server.environment.noise_place = place;
+    const LinkSurvey link = survey_link(config, link_end(config, "0,0,40"), link_end(config, "500,0,40"));
+    return link.reception.budget.noise_level.value - 10;  // over 10 Hz
+  };
+  EXPECT_NEAR(noise_db("open"), 38.5, 0.05);
+  EXPECT_NEAR(noise_db("shelf"), 42.6, 0.05);
+  EXPECT_NEAR(noise_db("harbour"), 50.6, 0.05);
+  EXPECT_NEAR(noise_db("reef"), 63.7, 0.05);
+  EXPECT_EQ(noise_place_text(config), "reef, +-6 dB from place to place");
+}
+
 TEST(LinkSurvey, TwoVehiclesThirtyCentimetresApartAreAsFarApartAsThat) {
   for (const auto model :
        {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {

@@ -22,7 +22,8 @@ constexpr LinkCategory kPaths[] = {{link_t::PATH_OPEN, "open", true},
                                    {link_t::PATH_SHADOW, "shadow", false},
                                    {link_t::PATH_BLOCKED, "blocked", false},
                                    {link_t::PATH_TOO_WEAK, "too weak", false},
-                                   {link_t::PATH_TOO_STEEP, "too steep", false}};
+                                   {link_t::PATH_TOO_STEEP, "too steep", false},
+                                   {link_t::PATH_NO_TERRAIN, "no terrain", false}};
 constexpr LinkCategory kUsed[] = {{link_t::USED_STRAIGHT, "straight", true},
                                   {link_t::USED_RAYS, "rays", true},
                                   {link_t::USED_STRAIGHT_WITHOUT_BOTTOM, "straight, no bottom", false},

@@ -190,6 +190,8 @@ std::string notice_of(const link_answer_t& answer) {
       return "No sound arrives: the bounces leave too little of every ray.";
     case link_t::PATH_TOO_STEEP:
       return "No sound arrives: every ray is launched more steeply than is searched.";
+    case link_t::PATH_NO_TERRAIN:
+      return "No terrain: it ends or has no data on the way (beyond = \"none\").";
     default:
       break;
   }

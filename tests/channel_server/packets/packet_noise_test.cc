@@ -106,6 +106,21 @@ TEST(OwnNoise, GrowsBy60DecibelsADecadeOfSpeed) {
   EXPECT_EQ(noise_power_at_1m(noise, 0, 2e4, 3e4), 0);
 }
 
+TEST(OwnNoise, MayBeHeardByTheVehicleAlone) {
+  NoiseSource of_sender = propeller_of(1, 120), of_receiver = propeller_of(2, 60);
+  of_sender.is_heard_by_others = of_receiver.is_heard_by_others = false;
+  Sea sea({of_sender, of_receiver});
+  sea.turn(1, 20);
+  sea.turn(2, 20);
+  EXPECT_NEAR(power_of(sea.send().budget.noise_level) / (ambient_power() + 5000 * 1e5), 1, tolerance(1e-12));
+}
+
+TEST(AmbientNoise, RisesByNight) {
+  const acoustics::NoiseVariation reef{.day_night_db = 4, .noon_s = -12 * 3600};
+  const double level_db = Sea({}, reef).send().budget.noise_level.value;
+  EXPECT_NEAR(level_db - to_decibels({ambient_power()}).value, 4, 1e-6);
+}
+
 TEST(OwnNoise, IsThatOfTheLatestTurnRateKnownALagBefore) {
   VehicleNoise noise({propeller_of(2, 60)}, for_s(0.05));
   noise.add_rate("v2", at_s(10), 20);

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "acoustics/link/link_budget.h"
 #include "acoustics/noise/noise_spectrum.h"
@@ -273,6 +276,41 @@ TEST(Coverage, QuantitiesAreReadAndRefused) {
             (std::vector<CoverageQuantity>{CoverageQuantity::kSnr, CoverageQuantity::kDelivery}));
   for (const char* text : {"", "snr,snr", "loudness", "snr,,level"})
     EXPECT_THROW(quantities_of(text), InvalidArgument) << text;
+}
+
+// A raster of 2 km by 2 km in a map of 4 km by 4 km: a quarter of the cells.
+TEST(CoverageMap, SaysWhereTheTerrainEnds) {
+  const std::string path = ::testing::TempDir() + "coverage-" + std::to_string(getpid()) + ".asc";
+  std::ofstream raster(path);
+  raster << "ncols 21\nnrows 21\nxllcorner -1050\nyllcorner -1050\ncellsize 100\n";
+  for (int i = 0; i < 21; ++i) {
+    for (int j = 0; j < 21; ++j) raster << -80 - i << " ";
+    raster << "\n";
+  }
+  raster.close();
+  ScenarioConfig config = level_sea();
+  config.terrain = {};
+  config.terrain.kind = bathymetry::TerrainKind::kRaster;
+  config.terrain.whole_file = true;
+  config.terrain.raster.path = path;
+  config.terrain.raster.coordinate_system = "local";
+  const CoverageArea area{0, 0, 500, 8, {40}};
+  const auto map = [&] {
+    return compute_coverage(config, make_terrain(config).terrain, link_end(config, "0,0,40"), area,
+                            {CoverageQuantity::kDelivery}, /*threads=*/2);
+  };
+  const auto known = [](const Coverage& coverage) {
+    return std::count_if(coverage.delivery[0].begin(), coverage.delivery[0].end(),
+                         [](double value) { return !std::isnan(value); });
+  };
+  const Coverage held = map();
+  config.channel_server.propagation.rays.holds_terrain = false;
+  const Coverage ended = map();
+  std::filesystem::remove(path);
+  EXPECT_EQ(held.cells_beyond_terrain, 48U);
+  EXPECT_EQ(ended.cells_beyond_terrain, 48U);
+  EXPECT_EQ(known(held), 64);
+  EXPECT_EQ(known(ended), 16);
 }
 
 }  // namespace
