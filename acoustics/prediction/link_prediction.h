@@ -40,6 +40,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/reception/disturbing_powers.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
@@ -51,10 +52,11 @@ struct LinkPrediction {
   double sinr = 0;                     // ratio of the mean signal to noise plus mean own interference
   double acquisition_probability = 0;  // probability of detecting the preamble
   double delivery_probability = 0;     // probability of detecting the preamble and decoding all bits
+  DisturbingPowers disturbances;       // of the mean signal, without other packets and impulses
 };
 
 // Prediction for one window. `noise` is the power over the band, uPa^2, less the receiver's directivity
-// index. The receiver's modem is that of `sync`; `curves` belong to the packet's modem and payload. Without
+// index and before its loss and hydrophones (acoustics/modem/modem.h). The receiver's modem is that of `sync`; `curves` belong to the packet's modem and payload. Without
 // paths all results are 0.
 LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Synchronisation& sync, const Band& band, double noise,

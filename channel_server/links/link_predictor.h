@@ -22,6 +22,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/prediction/one_path_forecast.h"
 #include "acoustics/reception/reception_curves.h"
+#include "acoustics/reception/disturbing_powers.h"
 #include "channel_server/propagation/propagation.h"
 #include "core/units.h"
 
@@ -35,6 +36,9 @@ struct LinkForecast {
   double coherence_time_s = 0;  // at most 1e6
   double doppler_spread_hz = 0, rms_delay_spread_s = 0;
   double best_rate_bps = 0;  // 0 when no rate delivers
+  acoustics::DisturbingPowers powers;  // means, without other packets
+  // The power without which delivery would rise most; kNone where 999 packets in 1000 arrive, or nothing does.
+  acoustics::LossReason reason = acoustics::LossReason::kNone;
 };
 
 class LinkPredictor {
@@ -43,6 +47,7 @@ class LinkPredictor {
     std::size_t payload_bytes = 32;  // or a modem's largest payload, if that is less
     acoustics::FadingModel fading;
     std::vector<acoustics::Modem> profiles;  // the known profiles
+    bool impulsive_noise = false;            // true: receivers have their impulse_loss
   };
   // A rate of a transmitter. Rates lists its own rate first, then the other rates of its family, the fastest
   // first.
