@@ -31,6 +31,8 @@ void validate_hopping(const Modem& modem) {
   require_in_range(modem.hop_clearing.seconds(), 0, 60, "clearing time of the hop pattern", "s");
   require(hops_well(modem),
           "hopping needs a chip, and a pattern that does not return before the chip has ended");
+  require(modem.error_model != ErrorModel::kPulses || modem.chip > SimDuration(),
+          "the error model of pulses needs a chip, the pulse");
 }
 
 void validate_receiver(const Modem& modem) {
@@ -100,7 +102,10 @@ double acquisition_probability(const Modem& modem, PowerRatio sinr) {
 }
 
 PowerRatio bit_energy(const Modem& modem, PowerRatio sinr) {
-  return {sinr.value * modem.bandwidth_hz / modem.bit_rate_bps};  // Eb / N0 = SNR B / R
+  // Eb / N0 = SNR B T, T the pulse of a pulse code, else 1 / R.
+  if (modem.error_model == ErrorModel::kPulses)
+    return {sinr.value * modem.bandwidth_hz * modem.chip.seconds()};
+  return {sinr.value * modem.bandwidth_hz / modem.bit_rate_bps};
 }
 
 PowerRatio least_mean_square_error(PowerRatio sinr) {

@@ -143,7 +143,7 @@ inline constexpr double kFalseAlarmProbability = 1e-8;
 double acquisition_probability(const Modem& modem, PowerRatio sinr);
 
 // Eb/N0 of an information bit, after despreading and decoding: sinr bandwidth / bit rate, for noise and
-// interference that are white over the band.
+// interference that are white over the band; of a pulse, sinr bandwidth chip.
 PowerRatio bit_energy(const Modem& modem, PowerRatio sinr);
 
 // Mean square error of the symbols, of power 1, after an equaliser whose output has the ratio `sinr` of
