@@ -52,7 +52,7 @@ struct LinkPrediction {
   double sinr = 0;                     // ratio of the mean signal to noise plus mean own interference
   double acquisition_probability = 0;  // probability of detecting the preamble
   double delivery_probability = 0;     // probability of detecting the preamble and decoding all bits
-  DisturbingPowers disturbances;       // of the mean signal, without other packets and impulses
+  DisturbingPowers disturbances = {};  // of the mean signal, without other packets and impulses
 };
 
 // Prediction for one window. `noise` is the power over the band, uPa^2, less the receiver's directivity

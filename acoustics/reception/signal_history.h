@@ -55,13 +55,13 @@ struct SignalHistory {
   std::vector<double> echoes;  // uPa^2 by stretch: interference by the packet's own paths
   // Part of the echoes by paths in the window: what the receiver does not track of them as they fade, and
   // what a Doppler shift that it does not correct costs.
-  std::vector<double> fast_fading;
+  std::vector<double> fast_fading = {};
   // The receiver's factor on noise, 10^(receiver_loss / 10), and its hydrophones n: with interference I
   //   SINR = n S / (noise_loss N + I).
   struct Receiver {
     double noise_loss = 1, channels = 1;
   };
-  Receiver receiver;
+  Receiver receiver = {};
 
   std::size_t stretches() const { return echoes.size(); }
   double mean_signal(std::size_t stretch) const;

@@ -36,7 +36,7 @@ struct LinkForecast {
   double coherence_time_s = 0;  // at most 1e6
   double doppler_spread_hz = 0, rms_delay_spread_s = 0;
   double best_rate_bps = 0;  // 0 when no rate delivers
-  acoustics::DisturbingPowers powers;  // means, without other packets
+  acoustics::DisturbingPowers powers = {};  // means, without other packets
   // The power without which delivery would rise most; kNone where 999 packets in 1000 arrive, or nothing does.
   acoustics::LossReason reason = acoustics::LossReason::kNone;
 };

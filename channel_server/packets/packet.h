@@ -184,7 +184,7 @@ struct DecisionStatistics {
   double success_draw = 0;             // in (0, 1); decides the header and the first frame
   std::vector<PacketName> colliders;   // loudest first, at most 16
   std::uint32_t frames_good = 0;       // bit i is set when frame i was right
-  acoustics::DisturbingPowers powers;  // 0 if the decision did not get that far
+  acoustics::DisturbingPowers powers = {};  // 0 if the decision did not get that far
   acoustics::LossReason reason = acoustics::LossReason::kNone;  // of a packet not acquired or in error
 };
 
