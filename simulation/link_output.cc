@@ -37,8 +37,7 @@ std::string_view name_of(channel_server::PropagationUsed used) {
 }
 
 std::string_view name_of(acoustics::LossReason reason) {
-  constexpr std::array kNames{"none",        "noise",         "late echoes",
-                              "fast fading", "other packets", "impulses"};
+  constexpr std::array kNames{"none", "noise", "late echoes", "fast fading", "other packets", "impulses"};
   return kNames.at(static_cast<std::size_t>(reason));
 }
 

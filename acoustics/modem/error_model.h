@@ -5,8 +5,8 @@
 // less energy each) and without one are comparable. Formula, source and limits of each model: bit_error.h,
 // convolutional_code.h, block_code.h.
 //
-// kOrthogonal16: orthogonal_symbols.h. kPulses: a pulse of energy E is missed with 1 - P_detect at a false alarm
-// of 1e-3 (preamble_detection.h); Eb is that of a pulse, which the modem sends in its chip alone
+// kOrthogonal16: orthogonal_symbols.h. kPulses: a pulse of energy E is missed with 1 - P_detect at a false
+// alarm of 1e-3 (preamble_detection.h); Eb is that of a pulse, which the modem sends in its chip alone
 // (bit_energy() of modem.h).
 //
 // Rayleigh: each bit (for JANUS each chip) fades independently, which represents bits interleaved over many
@@ -40,8 +40,8 @@ enum class ErrorModel {
 inline constexpr std::array kErrorModels = {
     ErrorModel::kNone,          ErrorModel::kBfsk,      ErrorModel::kBfskRayleigh,  ErrorModel::kBpsk,
     ErrorModel::kBpskRayleigh,  ErrorModel::kDbpsk,     ErrorModel::kDbpskRayleigh, ErrorModel::kJanus,
-    ErrorModel::kJanusRayleigh, ErrorModel::kBpskBch64, ErrorModel::kBpskHamming14,
-    ErrorModel::kOrthogonal16,  ErrorModel::kPulses};
+    ErrorModel::kJanusRayleigh, ErrorModel::kBpskBch64, ErrorModel::kBpskHamming14, ErrorModel::kOrthogonal16,
+    ErrorModel::kPulses};
 
 // Names of the models: "none", "bfsk", "bfsk-rayleigh", "bpsk", "bpsk-rayleigh", "dbpsk", "dbpsk-rayleigh",
 // "janus", "janus-rayleigh", "bpsk-bch64", "bpsk-hamming14", "orthogonal16", "pulses".

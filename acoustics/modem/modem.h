@@ -155,7 +155,8 @@ PowerRatio least_mean_square_error(PowerRatio sinr);
 // ratio over the band during the bits.
 double bit_error_rate(const Modem& modem, PowerRatio sinr);
 
-// Factor on the noise by the receiver's loss and its hydrophones: 10^(receiver_loss / 10) / receiver_channels.
+// Factor on the noise by the receiver's loss and its hydrophones: 10^(receiver_loss / 10) /
+// receiver_channels.
 double noise_factor(const Modem& receiver);
 // Gain of reception over one ideal hydrophone, the inverse of noise_factor() in dB.
 Decibels receiver_gain(const Modem& receiver);

@@ -56,8 +56,8 @@ struct LinkPrediction {
 };
 
 // Prediction for one window. `noise` is the power over the band, uPa^2, less the receiver's directivity
-// index and before its loss and hydrophones (acoustics/modem/modem.h). The receiver's modem is that of `sync`; `curves` belong to the packet's modem and payload. Without
-// paths all results are 0.
+// index and before its loss and hydrophones (acoustics/modem/modem.h). The receiver's modem is that of
+// `sync`; `curves` belong to the packet's modem and payload. Without paths all results are 0.
 LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Synchronisation& sync, const Band& band, double noise,
                             const ReceptionCurves& curves);

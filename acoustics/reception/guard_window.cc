@@ -57,8 +57,7 @@ double hop_overlap(const Modem& modem, double apart_s) {
 
 // Share of a late echo's power that disturbs: kappa (1 - eta rho) of what falls on the tones of its packet.
 double disturbing_share(const Modem& modem, const Arrival& path, double apart_s) {
-  const double followed =
-      modem.echo_cancelled > 0 ? modem.echo_cancelled * tracked_share(modem, path) : 0;
+  const double followed = modem.echo_cancelled > 0 ? modem.echo_cancelled * tracked_share(modem, path) : 0;
   return modem.late_echo_share * (1 - followed) * hop_overlap(modem, apart_s);
 }
 

@@ -11,8 +11,8 @@
 // - An equaliser (ReceiverKind) of phase-shift keying tracks a fading path for T = 0.05 s (our choice). The
 //   share
 //     rho = exp(-(2 pi B T)^2 / 2)
-//   of its power is signal, the rest interferes: fast fading. Its equaliser combines the band, so S is the mean over the
-//   band. For other modems rho = 1.
+//   of its power is signal, the rest interferes: fast fading. Its equaliser combines the band, so S is the
+//   mean over the band. For other modems rho = 1.
 // - Coded frequency-shift keying hops: its 8 frequencies move by eighths of their spacing from stretch to
 //   stretch, so that no delay below 64 periods of the band is in phase at all of them.
 // - A Doppler shift beyond what the receiver corrects leaves e = (|D - 1| - correction) f_c and costs the

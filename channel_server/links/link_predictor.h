@@ -21,8 +21,8 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/prediction/one_path_forecast.h"
-#include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/disturbing_powers.h"
+#include "acoustics/reception/reception_curves.h"
 #include "channel_server/propagation/propagation.h"
 #include "core/units.h"
 
@@ -35,9 +35,10 @@ struct LinkForecast {
   double acquisition_probability = 0, delivery_probability = 0;
   double coherence_time_s = 0;  // at most 1e6
   double doppler_spread_hz = 0, rms_delay_spread_s = 0;
-  double best_rate_bps = 0;  // 0 when no rate delivers
+  double best_rate_bps = 0;                 // 0 when no rate delivers
   acoustics::DisturbingPowers powers = {};  // means, without other packets
-  // The power without which delivery would rise most; kNone where 999 packets in 1000 arrive, or nothing does.
+  // The power without which delivery would rise most; kNone where 999 packets in 1000 arrive, or nothing
+  // does.
   acoustics::LossReason reason = acoustics::LossReason::kNone;
 };
 

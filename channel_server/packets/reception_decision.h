@@ -29,8 +29,8 @@
 // A loss counts as a collision when the same draws without the other packets give a reception. It counts as
 // caused by the Doppler shift when the same draws without the uncorrected part of the shift give a reception.
 //
-// The reason of a loss is the one of five powers (noise, late echoes, fast fading with Doppler, other packets,
-// impulses) without which acquisition and decoding would be likeliest, by the same curves.
+// The reason of a loss is the one of five powers (noise, late echoes, fast fading with Doppler, other
+// packets, impulses) without which acquisition and decoding would be likeliest, by the same curves.
 //
 // A draw depends only on the packet's contents and the receiver: not on the order of draws, and not on the
 // sender's session, which differs between runs of separate processes.

@@ -172,8 +172,8 @@ double ReachModel::reception_range_m(SimTime at, const acoustics::Modem& sender,
   double longest_m = 0;
   for (const acoustics::Modem* receiver : crowd.modems) {
     if (!may_receive(sender, *receiver)) continue;
-    const Decibels least = noise_at(sender, *receiver, density) + Decibels{least_sinr_db} -
-                           acoustics::receiver_gain(*receiver);
+    const Decibels least =
+        noise_at(sender, *receiver, density) + Decibels{least_sinr_db} - acoustics::receiver_gain(*receiver);
     longest_m = std::max(longest_m, range_m(at, sender, *receiver, least, crowd.deepest_m));
   }
   return longest_m;

@@ -76,8 +76,7 @@ void add_common(std::vector<Turn>& all, const World& world) {
   add(
       "loss of the receiver", [](World& w) { w.modem.modem.receiver_loss = {0.1}; },
       Moves{world.rays ? falls("sinr") : moves_by("sinr", -0.1), falls("acquisition"), falls("success")});
-  add(
-      "hydrophones", [](World& w) { w.modem.modem.receiver_channels = 2; },
+  add("hydrophones", [](World& w) { w.modem.modem.receiver_channels = 2; },
       {moves_by("sinr", 10 * std::log10(2)), rises("acquisition"), rises("success")});
   add("Doppler tolerance of a pair at rest", [](World& w) { w.modem.modem.doppler_tolerance = 1e-9; }, {});
   const SimDuration preamble = for_s(preamble_s(world.rays));

@@ -95,8 +95,8 @@ class Waterfall {
   double sum_ = 0;
 };
 
-// From SNR to SINR = 1 / (noise + late echoes + fast fading + impulses), each over the signal. A step for each
-// power: what it takes after those before it.
+// From SNR to SINR = 1 / (noise + late echoes + fast fading + impulses), each over the signal. A step for
+// each power: what it takes after those before it.
 void add_receiver(const link_t& link, Waterfall& fall) {
   constexpr double kNone_db = -200, kShown_db = 0.005;
   fall.step("Receiver", -link.noise_db - link.snr_db,
@@ -164,8 +164,7 @@ json guard_json(const link_t& link, const clients::VehicleRecord& to) {
   // A receiver of the strongest path collects what its band cannot part from it.
   const bool resolves = to.modem->receiver_kind == modem_config_t::RECEIVER_STRONGEST_PATH;
   const double guard_s = resolves ? 1 / to.modem->bandwidth_hz : to.modem->guard_time_s;
-  const double taper_s =
-      resolves || to.modem->guard_taper_s < 0 ? guard_s : to.modem->guard_taper_s;
+  const double taper_s = resolves || to.modem->guard_taper_s < 0 ? guard_s : to.modem->guard_taper_s;
   return {{"begin_s", link.first_path_delay_s},
           {"end_s", link.first_path_delay_s + guard_s},
           {"taper_s", taper_s}};

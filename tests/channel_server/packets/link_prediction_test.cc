@@ -171,10 +171,12 @@ std::vector<Case> cases() {
   const auto strongest_path = [](acoustics::Modem& modem) {
     modem.receiver = acoustics::ReceiverKind::kStrongestPath;
     modem.late_echo_share = 0.5;
+    modem.error_model = acoustics::ErrorModel::kOrthogonal16;
+    modem.bandwidth_hz = 8'000;
   };
   for (const int sea : {1, 2}) {
     all.push_back({"micromodem-psk-1", sea, equaliser, "_with_equaliser"});
-    all.push_back({"micromodem-psk-1", sea, strongest_path, "_of_strongest_path"});
+    all.push_back({"nm3", sea, strongest_path, "_of_strongest_path"});
   }
   return all;
 }
