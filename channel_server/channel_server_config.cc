@@ -316,6 +316,7 @@ LinkPredictor make_predictor(const ServerRules& rules) {
   LinkPredictor::Rule rule{static_cast<std::size_t>(rules.predicted_payload_bytes), rules.medium.fading, {}};
   rule.noise = rules.medium.noise;
   rule.seed = rules.medium.seed;
+  rule.impulsive_noise = rules.medium.noise.has_bursts();
   for (const std::string& name : built_in_modems()) rule.profiles.push_back(built_in_modem(name));
   return LinkPredictor(std::move(rule));
 }

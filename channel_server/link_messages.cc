@@ -131,6 +131,13 @@ link_t to_message(const LinkRow& row) {
   message.first_path_doppler_factor = row.doppler_factor;
   message.first_path_delay_s = row.forecast.first_path_delay_s;
   message.sinr_db = row.forecast.sinr_db;
+  const acoustics::DisturbingPowers& powers = row.forecast.powers;
+  message.noise_db = level_of(powers.noise).value;
+  message.late_echo_db = level_of(powers.late_echoes).value;
+  message.fast_fading_db = level_of(powers.fast_fading).value;
+  message.interference_db = level_of(powers.others).value;
+  message.impulse_db = level_of(powers.impulses).value;
+  message.loss_reason = static_cast<std::int8_t>(row.forecast.reason);
   message.acquisition_probability = row.forecast.acquisition_probability;
   message.delivery_probability = row.forecast.delivery_probability;
   message.delivery_low = row.forecast.delivery_low;

@@ -12,6 +12,13 @@
 namespace halocline::channel_server {
 namespace {
 
+// Returns the bytes of payload in the frames of which `frames` has a bit.
+std::int32_t bytes_in(const std::vector<std::int32_t>& frame_bytes, std::uint32_t frames) {
+  std::int32_t bytes = 0;
+  for (std::size_t i = 0; i < frame_bytes.size(); ++i) bytes += (frames >> i & 1u) != 0 ? frame_bytes[i] : 0;
+  return bytes;
+}
+
 // Returns a message with the fields that OUTCOME and RECEIVE have in common.
 template <class Message>
 Message common_fields(const PacketOutcome& outcome, SimTime at) {
@@ -35,6 +42,7 @@ Message common_fields(const PacketOutcome& outcome, SimTime at) {
   message.noise_level_db = outcome.budget.noise_level.value;
   message.num_frames = static_cast<std::int32_t>(outcome.packet->frame_bytes.size());
   message.frames_good = outcome.kind == OutcomeKind::kReceived ? outcome.statistics.frames_good : 0;
+  message.bytes_good = bytes_in(outcome.packet->frame_bytes, static_cast<std::uint32_t>(message.frames_good));
   return message;
 }
 
@@ -50,6 +58,13 @@ packet_name_t to_message(const PacketName& name) {
 
 void set_statistics(const DecisionStatistics& statistics, packet_outcome_t& message) {
   message.interference_level_db = statistics.interference.value;
+  const acoustics::DisturbingPowers& powers = statistics.powers;
+  message.noise_db = level_of(powers.noise).value;
+  message.late_echo_db = level_of(powers.late_echoes).value;
+  message.fast_fading_db = level_of(powers.fast_fading).value;
+  message.interference_db = level_of(powers.others).value;
+  message.impulse_db = level_of(powers.impulses).value;
+  message.loss_reason = static_cast<std::int8_t>(statistics.reason);
   message.acquisition_probability = statistics.acquisition_probability;
   message.success_probability = statistics.success_probability;
   message.acquisition_draw = statistics.acquisition_draw;

@@ -68,6 +68,9 @@ VehicleModem to_modem(const modem_config_t& message) {
   require(message.error_model >= 0 &&
               static_cast<std::size_t>(message.error_model) < acoustics::kErrorModels.size(),
           "error_model is no value of its enumeration");
+  require(message.receiver_kind >= 0 &&
+              static_cast<std::size_t>(message.receiver_kind) < acoustics::kReceiverKinds.size(),
+          "receiver_kind is no value of its enumeration");
   const VehicleModem profile = load_modem(message.modem_profile);
   VehicleModem modem = profile;
   modem.modem.family = message.family;
@@ -88,6 +91,12 @@ VehicleModem to_modem(const modem_config_t& message) {
   modem.modem.doppler_correction = message.doppler_correction;
   modem.modem.time_quantum = SimDuration::from_seconds(message.time_quantum_s);
   modem.modem.error_model = static_cast<acoustics::ErrorModel>(message.error_model);
+  modem.modem.receiver = static_cast<acoustics::ReceiverKind>(message.receiver_kind);
+  modem.modem.receiver_loss = {message.receiver_loss_db};
+  modem.modem.receiver_channels = message.receiver_channels;
+  modem.modem.late_echo_share = message.late_echo_share;
+  modem.modem.echo_cancelled = message.echo_cancelled;
+  modem.modem.impulse_loss = {message.impulse_loss_db};
   modem.modem.beam = beam_in(message);
   modem.max_payload_bytes = message.max_payload_bytes;
   modem.when_busy = static_cast<WhenBusy>(message.when_busy);
@@ -131,6 +140,12 @@ modem_config_t to_message(const VehicleModem& modem, SimTime from) {
   message.doppler_correction = modem.modem.doppler_correction;
   message.time_quantum_s = modem.modem.time_quantum.seconds();
   message.error_model = static_cast<std::int8_t>(modem.modem.error_model);
+  message.receiver_kind = static_cast<std::int8_t>(modem.modem.receiver);
+  message.receiver_loss_db = modem.modem.receiver_loss.value;
+  message.receiver_channels = modem.modem.receiver_channels;
+  message.late_echo_share = modem.modem.late_echo_share;
+  message.echo_cancelled = modem.modem.echo_cancelled;
+  message.impulse_loss_db = modem.modem.impulse_loss.value;
   message.when_busy = static_cast<std::int8_t>(modem.when_busy);
   message.num_beam_rows = static_cast<std::int32_t>(modem.modem.beam.rows().size());
   for (const acoustics::BeamRow& row : modem.modem.beam.rows()) {

@@ -74,10 +74,19 @@ void print_table(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkS
   line("coherence time", f.coherence_time_s, 3, "s");
   line("Doppler spread", f.doppler_spread_hz, 3, "Hz");
   line("SINR", f.sinr_db, 3, "dB");
+  const auto beside = [&](const char* what, double power) {
+    if (power > 0) line(what, channel_server::level_of(power).value, 1, "dB re signal");
+  };
+  beside("  noise", f.powers.noise);
+  beside("  late echoes", f.powers.late_echoes);
+  beside("  fast fading", f.powers.fast_fading);
+  beside("  impulses", f.powers.impulses);
   line("acquisition", f.acquisition_probability, 4, "of preambles");
   line("delivery", f.delivery_probability, 4, "of packets");
   line("delivery, low", f.delivery_low, 4, "of packets, in one hour of ten");
   line("delivery, high", f.delivery_high, 4, "of packets, in nine hours of ten");
+  if (f.reason != acoustics::LossReason::kNone)
+    fmt::print(std::cout, "losses mostly to       {}\n", name_of(f.reason));
   line("best rate", f.best_rate_bps, 0, "bit/s");
 }
 

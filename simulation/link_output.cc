@@ -36,6 +36,11 @@ std::string_view name_of(channel_server::PropagationUsed used) {
   return kNames.at(static_cast<std::size_t>(used));
 }
 
+std::string_view name_of(acoustics::LossReason reason) {
+  constexpr std::array kNames{"none", "noise", "late echoes", "fast fading", "other packets", "impulses"};
+  return kNames.at(static_cast<std::size_t>(reason));
+}
+
 namespace {
 
 nlohmann::ordered_json to_json(const LinkSurveyEnd& end) {
@@ -71,6 +76,12 @@ std::string to_json(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const Li
   const channel_server::LinkForecast& f = answer.forecast;
   json["first_path_delay_s"] = f.first_path_delay_s;
   json["sinr_db"] = f.sinr_db;
+  json["noise_db"] = channel_server::level_of(f.powers.noise).value;
+  json["late_echo_db"] = channel_server::level_of(f.powers.late_echoes).value;
+  json["fast_fading_db"] = channel_server::level_of(f.powers.fast_fading).value;
+  json["interference_db"] = channel_server::level_of(f.powers.others).value;
+  json["impulse_db"] = channel_server::level_of(f.powers.impulses).value;
+  json["loss_reason"] = name_of(f.reason);
   json["acquisition_probability"] = f.acquisition_probability;
   json["delivery_probability"] = f.delivery_probability;
   json["delivery_low"] = f.delivery_low;

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "acoustics/reception/disturbing_powers.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/propagation/propagation.h"
 #include "simulation/link_survey.h"
@@ -14,6 +15,7 @@ namespace halocline::clients {
 std::string_view name_of(channel_server::Multipath multipath);          // "unlikely", "likely", "unknown"
 std::string_view name_of(channel_server::PathState state);              // "open", "shadow", ...
 std::string_view name_of(channel_server::PropagationUsed propagation);  // "straight", "rays", ...
+std::string_view name_of(acoustics::LossReason reason);                 // "none", "noise", ...
 
 // Returns a JSON object with the numbers of the link budget, the paths and the forecast, whose names end in
 // their units; without a line break at the end.

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/modem/error_model.h"
 
+#include <algorithm>
+
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/block_code.h"
 #include "acoustics/modem/convolutional_code.h"
+#include "acoustics/modem/orthogonal_symbols.h"
+#include "acoustics/modem/preamble_detection.h"
 #include "core/check.h"
 
 namespace halocline::acoustics {
@@ -24,6 +28,14 @@ double janus(PowerRatio eb_over_n0) {
 
 double never(PowerRatio) { return 0; }
 double bch64(PowerRatio eb_over_n0) { return coded_bit_error_rate(bch_64_10(), eb_over_n0); }
+double orthogonal16(PowerRatio eb_over_n0) { return orthogonal16_bit_error_rate(eb_over_n0); }
+
+// Of the pulse's detector.
+constexpr double kPulseFalseAlarm = 1e-3;
+double pulses(PowerRatio pulse_over_n0) {
+  return std::min(0.5, 1 - detection_probability(1, kPulseFalseAlarm, pulse_over_n0));
+}
+
 double hamming14(PowerRatio eb_over_n0) { return coded_bit_error_rate(hamming_14_9(), eb_over_n0); }
 
 // An error model with its name and formula.
@@ -45,6 +57,8 @@ constexpr Known kKnown[] = {
     {ErrorModel::kJanusRayleigh, "janus-rayleigh", janus<Fading::kRayleigh>},
     {ErrorModel::kBpskBch64, "bpsk-bch64", bch64},
     {ErrorModel::kBpskHamming14, "bpsk-hamming14", hamming14},
+    {ErrorModel::kOrthogonal16, "orthogonal16", orthogonal16},
+    {ErrorModel::kPulses, "pulses", pulses},
 };
 
 const Known& known(ErrorModel model) {
@@ -63,7 +77,7 @@ bool is_coded_frequency_shift_keying(ErrorModel model) {
 
 bool is_frequency_shift_keying(ErrorModel model) {
   return is_coded_frequency_shift_keying(model) || model == ErrorModel::kNone || model == ErrorModel::kBfsk ||
-         model == ErrorModel::kBfskRayleigh;
+         model == ErrorModel::kBfskRayleigh || model == ErrorModel::kPulses;
 }
 
 double bit_error_rate(ErrorModel model, PowerRatio eb_over_n0) {

@@ -5,6 +5,10 @@
 // less energy each) and without one are comparable. Formula, source and limits of each model: bit_error.h,
 // convolutional_code.h, block_code.h.
 //
+// kOrthogonal16: orthogonal_symbols.h. kPulses: a pulse of energy E is missed with 1 - P_detect at a false
+// alarm of 1e-3 (preamble_detection.h); Eb is that of a pulse, which the modem sends in its chip alone
+// (bit_energy() of modem.h).
+//
 // Rayleigh: each bit (for JANUS each chip) fades independently, which represents bits interleaved over many
 // fades. With a single fade a packet, packets would be lost far more seldom at the same mean ratio.
 #pragma once
@@ -29,15 +33,18 @@ enum class ErrorModel {
   kJanusRayleigh,  // kJanus, interleaved over Rayleigh fades
   kBpskBch64,      // PSK with the extended BCH code (64, 10)
   kBpskHamming14,  // PSK with the shortened Hamming code (14, 9)
+  kOrthogonal16,   // one of 16 orthogonal codes a symbol, non-coherent, with parity
+  kPulses,         // on-off pulses, non-coherent: a bit is a pulse, wrong where the pulse is missed
 };
 
 inline constexpr std::array kErrorModels = {
     ErrorModel::kNone,          ErrorModel::kBfsk,      ErrorModel::kBfskRayleigh,  ErrorModel::kBpsk,
     ErrorModel::kBpskRayleigh,  ErrorModel::kDbpsk,     ErrorModel::kDbpskRayleigh, ErrorModel::kJanus,
-    ErrorModel::kJanusRayleigh, ErrorModel::kBpskBch64, ErrorModel::kBpskHamming14};
+    ErrorModel::kJanusRayleigh, ErrorModel::kBpskBch64, ErrorModel::kBpskHamming14, ErrorModel::kOrthogonal16,
+    ErrorModel::kPulses};
 
 // Names of the models: "none", "bfsk", "bfsk-rayleigh", "bpsk", "bpsk-rayleigh", "dbpsk", "dbpsk-rayleigh",
-// "janus", "janus-rayleigh", "bpsk-bch64", "bpsk-hamming14".
+// "janus", "janus-rayleigh", "bpsk-bch64", "bpsk-hamming14", "orthogonal16", "pulses".
 std::string_view to_name(ErrorModel model);
 
 // True for frequency-shift keying, which includes kNone; false for phase-shift keying.

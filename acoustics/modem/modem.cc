@@ -31,6 +31,16 @@ void validate_hopping(const Modem& modem) {
   require_in_range(modem.hop_clearing.seconds(), 0, 60, "clearing time of the hop pattern", "s");
   require(hops_well(modem),
           "hopping needs a chip, and a pattern that does not return before the chip has ended");
+  require(modem.error_model != ErrorModel::kPulses || modem.chip > SimDuration(),
+          "the error model of pulses needs a chip, the pulse");
+}
+
+void validate_receiver(const Modem& modem) {
+  require_in_range(modem.receiver_loss.value, -20, 40, "loss of the receiver", "dB");
+  require_in_range(modem.receiver_channels, 1, 64, "hydrophones of the receiver");
+  require_in_range(modem.late_echo_share, 0, 1, "share of late echoes that disturbs");
+  require_in_range(modem.echo_cancelled, 0, 1, "share of late echoes that is cancelled");
+  require_in_range(modem.impulse_loss.value, 0, 40, "loss in impulsive noise", "dB");
 }
 
 }  // namespace
@@ -58,6 +68,7 @@ void validate(const Modem& modem) {
   require_in_range(modem.doppler_correction, 0, 1, "Doppler correction");
   require_in_range(modem.time_quantum.seconds(), 0, 1, "quantum of the time of arrival", "s");
   validate_hopping(modem);
+  validate_receiver(modem);
   validate(modem.layout);
 }
 
@@ -91,7 +102,10 @@ double acquisition_probability(const Modem& modem, PowerRatio sinr) {
 }
 
 PowerRatio bit_energy(const Modem& modem, PowerRatio sinr) {
-  return {sinr.value * modem.bandwidth_hz / modem.bit_rate_bps};  // Eb / N0 = SNR B / R
+  // Eb / N0 = SNR B T, T the pulse of a pulse code, else 1 / R.
+  if (modem.error_model == ErrorModel::kPulses)
+    return {sinr.value * modem.bandwidth_hz * modem.chip.seconds()};
+  return {sinr.value * modem.bandwidth_hz / modem.bit_rate_bps};
 }
 
 PowerRatio least_mean_square_error(PowerRatio sinr) {
@@ -106,6 +120,20 @@ double bit_error_rate(const Modem& modem, PowerRatio sinr) {
 bool hops_well(const Modem& modem) {
   return modem.hop_count == 0 || (modem.chip > SimDuration() && modem.hop_clearing >= modem.chip);
 }
+
+double Modem::window_s() const {
+  return receiver == ReceiverKind::kStrongestPath ? 1 / bandwidth_hz : guard_time.seconds();
+}
+
+double Modem::window_taper_s() const {
+  return receiver == ReceiverKind::kStrongestPath ? 1 / bandwidth_hz : guard_taper_or_default().seconds();
+}
+
+double noise_factor(const Modem& receiver) {
+  return to_power_ratio(receiver.receiver_loss).value / receiver.receiver_channels;
+}
+
+Decibels receiver_gain(const Modem& receiver) { return -to_decibels(PowerRatio{noise_factor(receiver)}); }
 
 bool same_family(const Modem& sender, const Modem& receiver) { return sender.family == receiver.family; }
 

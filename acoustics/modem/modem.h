@@ -21,6 +21,7 @@
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/modem/error_model.h"
+#include "acoustics/modem/receiver_kind.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 
@@ -86,10 +87,23 @@ struct Modem {
   double doppler_correction = 0.1;
   SimDuration time_quantum;  // resolution of the measured time of arrival, 0..1 s; 0: unlimited
   ErrorModel error_model = ErrorModel::kBfsk;
+  // The receiver. With n hydrophones, S the signal, N the noise and I the interference,
+  //   SINR = n S / (N 10^(receiver_loss / 10) + I).
+  ReceiverKind receiver = ReceiverKind::kEqualiser;
+  // Loss against the theory of its error model, dB, -20..40, of acquisition and decoding alike.
+  Decibels receiver_loss{0};
+  std::int32_t receiver_channels = 1;  // hydrophones combined, 1..64
+  double late_echo_share = 1;          // kappa: share of a late echo's power that disturbs, 0..1
+  double echo_cancelled = 0;           // eta: share that feedback takes away of an echo it can follow, 0..1
+  Decibels impulse_loss{0};            // in impulsive noise, on top of receiver_loss, dB, 0..40
   FrameLayout layout;
   BeamPattern beam;  // pattern of both directions; source level and cut-off refer to its 0 dB
 
   SimDuration guard_taper_or_default() const { return guard_taper.value_or(guard_time); }
+  // Guard time and taper in effect, s. A receiver of the strongest path collects what its band cannot part
+  // from it, 1 / bandwidth; all others have guard_time and guard_taper_or_default().
+  double window_s() const;
+  double window_taper_s() const;
   Band band() const {
     return {centre_frequency_hz - bandwidth_hz / 2, centre_frequency_hz + bandwidth_hz / 2};
   }
@@ -129,7 +143,7 @@ inline constexpr double kFalseAlarmProbability = 1e-8;
 double acquisition_probability(const Modem& modem, PowerRatio sinr);
 
 // Eb/N0 of an information bit, after despreading and decoding: sinr bandwidth / bit rate, for noise and
-// interference that are white over the band.
+// interference that are white over the band; of a pulse, sinr bandwidth chip.
 PowerRatio bit_energy(const Modem& modem, PowerRatio sinr);
 
 // Mean square error of the symbols, of power 1, after an equaliser whose output has the ratio `sinr` of
@@ -140,6 +154,12 @@ PowerRatio least_mean_square_error(PowerRatio sinr);
 // Probability that an information bit is wrong after decoding, 0..0.5; it never increases with `sinr`, the
 // ratio over the band during the bits.
 double bit_error_rate(const Modem& modem, PowerRatio sinr);
+
+// Factor on the noise by the receiver's loss and its hydrophones: 10^(receiver_loss / 10) /
+// receiver_channels.
+double noise_factor(const Modem& receiver);
+// Gain of reception over one ideal hydrophone, the inverse of noise_factor() in dB.
+Decibels receiver_gain(const Modem& receiver);
 
 // True when both modems have one waveform family. Sound of another family triggers no detector.
 bool same_family(const Modem& sender, const Modem& receiver);

@@ -346,29 +346,36 @@ double sinr_of(const ReceptionStatistics& sound, double noise) {
   return signal / (noise + sound.bits_echoes + sound.untracked * signal);
 }
 
+DisturbingPowers disturbances_of(const ReceptionStatistics& sound, double noise) {
+  const double signal = sound.block_fading.mean + sound.fast;
+  if (!(signal > 0)) return {};
+  return {.noise = noise / signal, .late_echoes = sound.bits_echoes / signal, .fast_fading = sound.untracked};
+}
+
 // Prediction without fading: only the set of echoes present varies.
 LinkPrediction predict_still(const std::vector<Arrival>& paths, const Synchronisation& sync, double noise,
                              const ReceptionCurves& curves) {
   const double preamble_s = curves.timing().preamble.seconds(), end_s = curves.timing().duration.seconds();
   const SignalHistory history = still_history(paths, sync, {preamble_s, end_s});
-  const double signal = mean_signal(paths, sync.window);
+  const double signal = mean_signal(paths, sync.window), per_channel = 1 / history.receiver.channels;
   double preamble_echoes = 0, bits_echoes = 0, log_success = 0;
   for (std::size_t i = 0; i < history.stretches(); ++i) {
     const double seconds = history.edges_s[i + 1] - history.edges_s[i];
     if (history.edges_s[i + 1] <= preamble_s) {
-      preamble_echoes += seconds / preamble_s * history.echoes[i];
+      preamble_echoes += seconds / preamble_s * per_channel * history.echoes[i];
       continue;
     }
     const double part = seconds / (end_s - preamble_s);
-    bits_echoes += part * history.echoes[i];
+    bits_echoes += part * per_channel * history.echoes[i];
     log_success += part * static_cast<double>(curves.timing().information_bits) *
-                   curves.log_bit_success(signal / (noise + history.echoes[i]));
+                   curves.log_bit_success(signal / (noise + per_channel * history.echoes[i]));
   }
   LinkPrediction prediction;
   prediction.sinr = signal / (noise + bits_echoes);
   prediction.acquisition_probability = curves.acquisition(signal / (noise + preamble_echoes));
   prediction.delivery_probability = prediction.acquisition_probability * elementary::exp(log_success);
   prediction.delivery_low = prediction.delivery_high = prediction.delivery_probability;
+  prediction.disturbances = {.noise = noise / signal, .late_echoes = bits_echoes / signal};
   return prediction;
 }
 
@@ -385,6 +392,7 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>
                             const Synchronisation& sync, const Band& band, double noise,
                             const ReceptionCurves& curves, const MarginShifts& shifts) {
   if (paths.empty()) return {};
+  noise *= noise_factor(*sync.modem);
   if (!model.enabled) return predict_still(paths, sync, noise, curves);
   const ReceptionStatistics sound = reception_statistics(paths, sync, band, curves.timing());
   const PacketLevels packet(curves, sound);
@@ -399,7 +407,8 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>
     add_patterns(packet, *states.patterns, mean);
   }
   const double now = mean.delivery_probability();
-  LinkPrediction prediction{sinr_of(sound, noise), mean.acquisition_probability(), now, now, now};
+  LinkPrediction prediction{
+      sinr_of(sound, noise), mean.acquisition_probability(), now, now, now, disturbances_of(sound, noise)};
   if (!shifts.any()) return prediction;
   const auto at = [&](double shift_db) {
     return shifted_delivery(packet, states, shift_db, now,
@@ -424,6 +433,7 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>
     mean.sinr += likely.probability * one.sinr;
     mean.acquisition_probability += likely.probability * one.acquisition_probability;
     mean.delivery_probability += likely.probability * one.delivery_probability;
+    mean.disturbances.add(likely.probability, one.disturbances);
   }
   mean.delivery_low = mean.delivery_high = mean.delivery_probability;
   if (!shifts.any()) return mean;
@@ -439,7 +449,8 @@ double predicted_sinr(const FadingModel& model, const std::vector<Arrival>& path
   double mean = 0;
   for (const LikelyWindow& likely : windows) {
     mean += likely.probability *
-            sinr_of(reception_statistics(paths, {&receiver, likely.window}, band, curves.timing()), noise);
+            sinr_of(reception_statistics(paths, {&receiver, likely.window}, band, curves.timing()),
+                    noise * noise_factor(receiver));
   }
   return mean;
 }

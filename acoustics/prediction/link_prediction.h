@@ -40,6 +40,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/reception/disturbing_powers.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
@@ -53,6 +54,7 @@ struct LinkPrediction {
   double delivery_probability = 0;     // probability of detecting the preamble and decoding all bits
   // The same with the margin shifted by MarginShifts; equal to it without shifts and without fading.
   double delivery_low = 0, delivery_high = 0;
+  DisturbingPowers disturbances = {};  // of the mean signal, without other packets and impulses
 };
 
 // Changes of a link's margin, dB, at which delivery is predicted beside that of the link as it is: slow fading
@@ -65,8 +67,8 @@ struct MarginShifts {
 };
 
 // Prediction for one window. `noise` is the power over the band, uPa^2, less the receiver's directivity
-// index. The receiver's modem is that of `sync`; `curves` belong to the packet's modem and payload. Without
-// paths all results are 0.
+// index and before its loss and hydrophones (acoustics/modem/modem.h). The receiver's modem is that of
+// `sync`; `curves` belong to the packet's modem and payload. Without paths all results are 0.
 LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Synchronisation& sync, const Band& band, double noise,
                             const ReceptionCurves& curves, const MarginShifts& shifts = {});

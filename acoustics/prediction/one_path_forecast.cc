@@ -30,14 +30,16 @@ OnePathForecast::OnePathForecast(const acoustics::FadingModel& fading,
   path.fading = of_path_;
   const std::vector<acoustics::Arrival> paths{path};
   const acoustics::Modem& modem = curves.modem();
+  noise_factor_ = noise_factor(modem);
   const acoustics::GuardWindow window = best_window(paths, modem);
   const int steps = static_cast<int>(std::lround((kMaxDb - kMinDb) / kStepDb));
   for (int i = -1; i <= steps + 1; ++i) {
     const double noise = elementary::exp10(-(kMinDb + i * kStepDb) / 10);
     const acoustics::LinkPrediction one =
         predict_link(fading, paths, {&modem, window}, modem.band(), noise, curves);
-    // For a signal of power 1, 1 / SINR = noise + own_share.
-    rows_.push_back({one.acquisition_probability, one.delivery_probability, 1 / one.sinr - noise});
+    // For a signal of power 1, 1 / SINR = noise factor * noise + own_share.
+    rows_.push_back(
+        {one.acquisition_probability, one.delivery_probability, 1 / one.sinr - noise_factor_ * noise});
   }
 }
 
@@ -57,10 +59,14 @@ std::optional<acoustics::LinkPrediction> OnePathForecast::at(const std::vector<a
     return b + t / 2 * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
   };
   // SINR = 1 / (noise / signal + own_share)
+  const double over_signal = noise_factor_ / ratio, own_share = between(&Chances::own_share);
   const double delivery = std::clamp(between(&Chances::delivery), 0.0, 1.0);
-  return acoustics::LinkPrediction{1 / (1 / ratio + between(&Chances::own_share)),
-                                   std::clamp(between(&Chances::acquisition), 0.0, 1.0), delivery, delivery,
-                                   delivery};
+  return acoustics::LinkPrediction{1 / (over_signal + own_share),
+                                   std::clamp(between(&Chances::acquisition), 0.0, 1.0),
+                                   delivery,
+                                   delivery,
+                                   delivery,
+                                   {.noise = over_signal, .fast_fading = std::max(own_share, 0.0)}};
 }
 
 }  // namespace halocline::channel_server

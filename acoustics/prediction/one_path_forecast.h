@@ -39,6 +39,7 @@ class OnePathForecast {
   };
 
   acoustics::PathFading of_path_;  // fading of a path that has not bounced
+  double noise_factor_ = 1;        // of the receiver that the curves' modem describes
   std::vector<Chances> rows_;
 };
 

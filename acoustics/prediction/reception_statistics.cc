@@ -208,6 +208,7 @@ ReceptionStatistics reception_statistics(const std::vector<Arrival>& paths, cons
   const Arrival &first = paths[sync.window.first], &strongest = paths[sync.window.strongest];
   const bool collects = !is_frequency_shift_keying(sync.modem->error_model);
   const double kept = doppler_share(*sync.modem, strongest, band.centre_hz());
+  const double per_channel = 1.0 / sync.modem->receiver_channels;
   const double preamble_s = timing.preamble.seconds(), end_s = timing.duration.seconds(),
                bits_s = end_s - preamble_s;
   const std::vector<double> powers = mean_powers(paths);
@@ -229,9 +230,10 @@ ReceptionStatistics reception_statistics(const std::vector<Arrival>& paths, cons
     const double fast = fading.scattered * (1 - block_share),
                  turned_share = fading.medium + fading.scattered * block_share,
                  within = squared(sync.window.shares[p].weight) * power;
-    const double of_path = within * kept * tracked_share(*sync.modem, path), rest = within - of_path;
+    const double of_path = within * kept * tracked_share(*sync.modem, path),
+                 rest = per_channel * (within - of_path);
     double interference = rest;
-    if (const double late = sync.window.shares[p].interference * power; late > 0) {
+    if (const double late = per_channel * sync.window.shares[p].interference * power; late > 0) {
       const double of_bits = late * share_within(begin_s, begin_s + end_s, preamble_s, end_s);
       const double of_preamble = late * share_within(begin_s, begin_s + end_s, 0, preamble_s);
       const double fades = 1 - squared(fading.coherent);

@@ -64,7 +64,8 @@ struct ReceptionStatistics {
 };
 
 // Statistics of `paths` for the receiver's window `sync` and a packet of the given band and timing. `paths`
-// are not empty.
+// are not empty. Interference is per hydrophone of the receiver: divided by their number, as
+//   SINR = n S / (N + I) = S / (N / n + I / n).
 ReceptionStatistics reception_statistics(const std::vector<Arrival>& paths, const Synchronisation& sync,
                                          const Band& band, const PacketTiming& timing);
 

@@ -18,7 +18,9 @@ using std::numbers::pi;
 
 // Samples in each part of the band: at intervals of at most half of 1 / (guard time + taper), at most `most`.
 std::size_t samples_for(const Modem& receiver, double part_hz, std::size_t most) {
-  const double longest_s = (receiver.guard_time + receiver.guard_taper_or_default()).seconds();
+  const double longest_s = receiver.receiver == ReceiverKind::kStrongestPath
+                               ? receiver.window_s() + receiver.window_taper_s()
+                               : (receiver.guard_time + receiver.guard_taper_or_default()).seconds();
   return static_cast<std::size_t>(
       std::clamp(std::ceil(2 * part_hz * longest_s), 1.0, static_cast<double>(most)));
 }

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "acoustics/math/fast_functions.h"
+#include "acoustics/reception/signal_history.h"
 #include "core/units.h"
 #include "core/vector_clones.h"
 
@@ -29,9 +30,11 @@ double raised_cosine(double x) {
 class Guard {
  public:
   explicit Guard(const Modem& modem)
-      : guard_s_(modem.guard_time.seconds()),
-        taper_s_(modem.guard_taper_or_default().seconds()),
-        longest_s_((modem.guard_time + modem.guard_taper_or_default()).seconds()) {}
+      : guard_s_(modem.window_s()),
+        taper_s_(modem.window_taper_s()),
+        longest_s_(modem.receiver == ReceiverKind::kStrongestPath
+                       ? guard_s_ + taper_s_
+                       : (modem.guard_time + modem.guard_taper_or_default()).seconds()) {}
 
   double weight(double after_begin_s) const {
     if (after_begin_s < 0) return 0;
@@ -50,6 +53,12 @@ double hop_overlap(const Modem& modem, double apart_s) {
   if (modem.hop_count == 0) return 1;
   const double back_s = apart_s - modem.hop_clearing.seconds();
   return (1 - raised_cosine(back_s / modem.chip.seconds())) / modem.hop_count;
+}
+
+// Share of a late echo's power that disturbs: kappa (1 - eta rho) of what falls on the tones of its packet.
+double disturbing_share(const Modem& modem, const Arrival& path, double apart_s) {
+  const double followed = modem.echo_cancelled > 0 ? modem.echo_cancelled * tracked_share(modem, path) : 0;
+  return modem.late_echo_share * (1 - followed) * hop_overlap(modem, apart_s);
 }
 
 HALOCLINE_VECTOR_CLONES
@@ -100,7 +109,8 @@ GuardWindow window_from(std::size_t first, const std::vector<Arrival>& paths,
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const double after_s = paths[i].delay_s - paths[first].delay_s;
     const double w = i < first ? 0 : guard.weight(after_s);
-    window.shares.push_back({w, (1 - w * w) * (w < 1 ? hop_overlap(modem, std::abs(after_s)) : 0)});
+    const double disturbs = w < 1 ? disturbing_share(modem, paths[i], std::abs(after_s)) : 0;
+    window.shares.push_back({w, (1 - w * w) * disturbs});
     if (w * w * powers[i] > strongest) {
       strongest = w * w * powers[i];
       window.strongest = i;

@@ -6,10 +6,15 @@
 //   w = 1                                          0 <= d <= guard
 //   w = (1 + cos(pi (d - guard) / taper)) / 2      guard < d < guard + taper
 //   w = 0                                          otherwise.
-// The window is the one of the greatest sum of w^2 P, the earliest among equals. The remaining share 1 - w^2
-// of a path's power interferes with later symbols of the packet. In frequency-hopped FSK this remainder falls
-// on other tones: it causes no interference until the hop pattern returns (the clearing time), and 1/N of its
-// power from then on, N the number of tone pairs; the transition takes one more chip, as a raised cosine.
+// The window is the one of the greatest sum of w^2 P, the earliest among equals. Of the remaining share
+// 1 - w^2 of a path's power
+//   kappa (1 - eta rho) (1 - w^2)
+// interferes with later symbols of the packet: kappa = Modem::late_echo_share, eta = Modem::echo_cancelled,
+// rho the share of the path that the receiver tracks as it fades (tracked_share() of signal_history.h). In
+// frequency-hopped FSK the remainder falls on other tones: it causes no interference until the hop pattern
+// returns (the clearing time), and 1/N of its power from then on, N the number of tone pairs; the transition
+// takes one more chip, as a raised cosine. A receiver of the strongest path has a window of the resolution of
+// its band, Modem::window_s.
 #pragma once
 
 #include <cstddef>

@@ -125,6 +125,10 @@ class BandMean {
   std::vector<Complex> pairs_;       // each path with those before it
 };
 
+SignalHistory::Receiver history_receiver(const Modem& modem) {
+  return {to_power_ratio(modem.receiver_loss).value, static_cast<double>(modem.receiver_channels)};
+}
+
 // Appends equal stretches with their signal and echoes to the history.
 class HistoryMaker {
  public:
@@ -142,6 +146,7 @@ class HistoryMaker {
         mean_over_band_(collects_band_ ? paths : std::vector<Arrival>(), sync, band),
         turned_(paths.size()) {
     history_.frequencies = collects_band_ ? 1 : kFrequencies;
+    history_.receiver = history_receiver(*sync.modem);
     for (const Arrival& path : paths) {
       tracked_.push_back(tracked_share(*sync.modem, path));
     }
@@ -164,13 +169,15 @@ class HistoryMaker {
     const Arrival &first = paths_[sync_.window.first], &strongest = paths_[sync_.window.strongest];
     const double at_s = times.begin_s + i * times.step_s;
     std::array<Complex, kFrequencies> sums{};
-    double echoes = 0;
+    double echoes = 0, fast = 0;
     for (std::size_t p = 0; p < paths_.size(); ++p) {
       const Complex h = responses[p * static_cast<std::size_t>(times.count) + static_cast<std::size_t>(i)];
       const double power = std::norm(h), w2 = squared(sync_.window.shares[p].weight);
       const Sounding when = sounding(paths_[p], first, strongest, timing_.duration_s);
-      echoes += (sync_.window.shares[p].interference + w2 * (1 - tracked_[p])) * power *
-                share_within(when, at_s - times.step_s / 2, at_s + times.step_s / 2);
+      const double sounds = share_within(when, at_s - times.step_s / 2, at_s + times.step_s / 2),
+                   untracked = w2 * (1 - tracked_[p]);
+      echoes += (sync_.window.shares[p].interference + untracked) * power * sounds;
+      fast += untracked * power * sounds;
       if (!(w2 > 0)) continue;
       const double turned = band_.centre_hz() * (paths_[p].doppler_factor - strongest.doppler_factor) * at_s;
       turned_[p] = h * elementary::polar(std::sqrt(tracked_[p]), 2 * pi * turned);
@@ -182,6 +189,7 @@ class HistoryMaker {
       for (const Complex& sum : sums) history_.signal.push_back(std::norm(sum));
     }
     history_.echoes.push_back(echoes);
+    history_.fast_fading.push_back(fast);
   }
 
   const PathResponses& fading_;
@@ -217,7 +225,7 @@ double doppler_share(const Modem& receiver, const Arrival& strongest, double cen
 }
 
 double tracked_share(const Modem& receiver, const Arrival& path) {
-  return is_frequency_shift_keying(receiver.error_model)
+  return receiver.receiver != ReceiverKind::kEqualiser || is_frequency_shift_keying(receiver.error_model)
              ? 1
              : kept_over(kTrackingTimeS, path.fading.doppler_spread_hz);
 }
@@ -258,7 +266,9 @@ SignalHistory signal_history(const PathResponses& fading, double large_scale,
 
 SignalHistory shifted_history(SignalHistory history, double share) {
   for (std::size_t i = 0; i < history.stretches(); ++i) {
-    history.echoes[i] += (1 - share) * history.mean_signal(i);
+    const double lost = (1 - share) * history.mean_signal(i);
+    history.echoes[i] += lost;
+    history.fast_fading[i] += lost;
   }
   for (double& power : history.signal) power *= share;
   return history;
@@ -268,6 +278,7 @@ SignalHistory still_history(const std::vector<Arrival>& paths, const Synchronisa
                             const ReceivedTiming& timing) {
   const Arrival &first = paths[sync.window.first], &strongest = paths[sync.window.strongest];
   SignalHistory history;
+  history.receiver = history_receiver(*sync.modem);
   history.edges_s = {0, timing.preamble_s, timing.duration_s};
   struct Echo {
     Sounding when;
@@ -287,6 +298,7 @@ SignalHistory still_history(const std::vector<Arrival>& paths, const Synchronisa
   const double signal = mean_signal(paths, sync.window);
   history.signal.reserve(history.edges_s.size() - 1);
   history.echoes.reserve(history.edges_s.size() - 1);
+  history.fast_fading.assign(history.edges_s.size() - 1, 0);
   for (std::size_t i = 0; i + 1 < history.edges_s.size(); ++i) {
     double echoes = 0;
     for (const Echo& echo : own_echoes) {

@@ -5,13 +5,14 @@
 // (acoustics/reception/guard_window.h), interference shares i_p, excess delays tau_p and Doppler factors D_p,
 // and D the Doppler factor of the strongest path in the window, to which tau_p is relative:
 //   S(t, f) = |sum_p w_p sqrt(rho_p) h_p(t) exp(-j 2 pi (f tau_p - f_c (D_p - D) t))|^2
-//   I(t)    = sum_p i_p |h_p(t)|^2  over the paths p on which the packet is present at t.
+//   I(t)    = sum_p i_p |h_p(t)|^2  over the paths p on which the packet is present at t
 // Grid: 8 frequencies, evenly over the band; 8 to 64 stretches of the bits, each at most a quarter of the
 // coherence time and an eighth of the bits; 1 to 8 stretches of the preamble.
-// - Phase-shift keying tracks a fading path for T = 0.05 s (our choice). The share
+// - An equaliser (ReceiverKind) of phase-shift keying tracks a fading path for T = 0.05 s (our choice). The
+//   share
 //     rho = exp(-(2 pi B T)^2 / 2)
-//   of its power is signal, the rest interferes. Its equaliser combines the band, so S is the mean over the
-//   band. For other modems rho = 1.
+//   of its power is signal, the rest interferes: fast fading. Its equaliser combines the band, so S is the
+//   mean over the band. For other modems rho = 1.
 // - Coded frequency-shift keying hops: its 8 frequencies move by eighths of their spacing from stretch to
 //   stretch, so that no delay below 64 periods of the band is in phase at all of them.
 // - A Doppler shift beyond what the receiver corrects leaves e = (|D - 1| - correction) f_c and costs the
@@ -52,6 +53,15 @@ struct SignalHistory {
   std::size_t frequencies = 1;
   std::vector<double> signal;  // uPa^2 in the band, index stretch * frequencies + frequency
   std::vector<double> echoes;  // uPa^2 by stretch: interference by the packet's own paths
+  // Part of the echoes by paths in the window: what the receiver does not track of them as they fade, and
+  // what a Doppler shift that it does not correct costs.
+  std::vector<double> fast_fading = {};
+  // The receiver's factor on noise, 10^(receiver_loss / 10), and its hydrophones n: with interference I
+  //   SINR = n S / (noise_loss N + I).
+  struct Receiver {
+    double noise_loss = 1, channels = 1;
+  };
+  Receiver receiver = {};
 
   std::size_t stretches() const { return echoes.size(); }
   double mean_signal(std::size_t stretch) const;

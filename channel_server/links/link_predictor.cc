@@ -17,11 +17,14 @@
 namespace halocline::channel_server {
 namespace {
 
+using acoustics::DisturbingPowers;
+using acoustics::LossReason;
 using acoustics::Modem;
 using acoustics::ReceptionCurves;
 
 constexpr double kMaxCoherenceS = 1e6;
 constexpr double kMinDelivery = 1e-3;  // least delivery probability of a rate that counts
+constexpr double kSureDelivery = 0.999;
 
 // Returns a modem with only the parameters on which the reception curves depend; all others are the generic
 // modem's.
@@ -52,6 +55,30 @@ double shifted_delivery(const OnePathForecast& table, const std::vector<Arrival>
 bool is_impossible(const Modem& receiver, const Reception& reception, const Arrival& strongest, bool fades) {
   return !reception.budget.receivable ||
          (!fades && std::abs(strongest.doppler_factor - 1) > receiver.doppler_tolerance);
+}
+
+}  // namespace
+
+namespace {
+
+// Returns the power without which a packet of constant ratios would be likeliest to arrive.
+LossReason reason_of(const DisturbingPowers& powers, const ReceptionCurves& curves) {
+  const auto bits = static_cast<double>(curves.timing().information_bits);
+  LossReason best = LossReason::kNone;
+  double most = -1, loudest = 0;
+  for (const LossReason reason : acoustics::kLossReasons) {
+    const double power = powers.of(reason), rest = powers.sum() - power;
+    if (!(power > 0)) continue;
+    const double sinr = 1 / std::max(rest, 1e-9);
+    const double success = curves.acquisition(sinr) * elementary::exp(bits * curves.log_bit_success(sinr));
+    // Where no power alone makes a difference it is the greatest.
+    if (success > most + 1e-12 || (success > most - 1e-12 && power > loudest)) {
+      most = std::max(success, most);
+      loudest = power;
+      best = reason;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -154,7 +181,8 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
   forecast.rms_delay_spread_s = rms_delay_spread_s(reception.paths);
   const bool impossible = is_impossible(receiver, reception, paths[window.strongest], rule_.fading.enabled);
   // Slow fading changes signal and own echoes alike, so the noise stands for it.
-  const double noise_power = to_power_ratio(noise - Decibels{slow.level_db}).value;
+  const double impulses = rule_.impulsive_noise ? to_power_ratio(receiver.impulse_loss).value : 1,
+               noise_power = impulses * to_power_ratio(noise - Decibels{slow.level_db}).value;
   if (impossible) {
     forecast.sinr_db = level_of(predicted_sinr(rule_.fading, paths, receiver, windows, transmitter.band(),
                                                noise_power, rates.front().curves))
@@ -170,7 +198,7 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
     const bool own = &curves == &rates.front().curves;
     if (!own && rate_bps <= best) break;  // the rates that follow are slower still
     // For the other rates only the best window is evaluated.
-    const auto from_table = one_path.at(paths, noise_power);
+    const auto from_table = one_path.at(paths, noise_factor(receiver) * noise_power);
     const acoustics::LinkPrediction predicted =
         from_table ? *from_table
         : own
@@ -186,6 +214,14 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
       if (from_table && shifts.any()) {
         forecast.delivery_low = shifted_delivery(one_path, paths, noise_power, shifts.low_db, predicted);
         forecast.delivery_high = shifted_delivery(one_path, paths, noise_power, shifts.high_db, predicted);
+      }
+      const DisturbingPowers& d = predicted.disturbances;
+      forecast.powers = {.noise = d.noise / impulses,
+                         .late_echoes = d.late_echoes,
+                         .fast_fading = d.fast_fading,
+                         .impulses = d.noise * (1 - 1 / impulses)};
+      if (predicted.delivery_probability < kSureDelivery) {
+        forecast.reason = reason_of(forecast.powers, curves);
       }
     }
     if (predicted.delivery_probability < kMinDelivery || rate_bps * predicted.delivery_probability <= best)

@@ -76,6 +76,24 @@ void visit_framing(bus::ConfigVisitor& v, acoustics::Modem& a) {
        "time after which the hop pattern returns to a tone, at least chip_s; earlier echoes cost nothing"});
 }
 
+// Visits what the receiver collects and loses: SINR = n S / (N 10^(loss / 10) + I).
+void visit_receiver(bus::ConfigVisitor& v, acoustics::Modem& a) {
+  bus::choice(v, "receiver", a.receiver, bus::names_of(acoustics::kReceiverKinds),
+              "which paths the receiver collects: hops and equaliser those of the guard time");
+  v.number("receiver_loss_db", a.receiver_loss.value,
+           {-20, 40, "dB", "loss of the receiver against the theory of its error_model"});
+  bus::integer_as(v, "receiver_channels", a.receiver_channels,
+                  {1, 64, "", "hydrophones that the receiver combines"});
+  v.advanced([&] {
+    v.number("late_echo_share", a.late_echo_share,
+             {0, 1, "", "share of the power of an echo outside of the guard time that disturbs"});
+    v.number("echo_cancelled", a.echo_cancelled,
+             {0, 1, "", "share of such echoes that an equaliser takes away, of those it can track"});
+    v.number("impulse_loss_db", a.impulse_loss.value,
+             {0, 40, "dB", "further loss of the receiver where the sea's noise has impulses"});
+  });
+}
+
 // Visits the parameters of reception above the cut-off level.
 void visit_reception(bus::ConfigVisitor& v, acoustics::Modem& a) {
   bus::seconds(
@@ -94,6 +112,7 @@ void visit_reception(bus::ConfigVisitor& v, acoustics::Modem& a) {
   });
   a.guard_taper = taper_from(taper_s);
   bus::choice(v, "error_model", a.error_model, bus::names_of(acoustics::kErrorModels), "model of bit errors");
+  visit_receiver(v, a);
 }
 
 // Visits the modem's rates, which only a profile's file may set.

@@ -220,6 +220,7 @@ void evaluate_signal(Flight& flight, const acoustics::FadingModel& fading, std::
                : signal_history(fading, link, flight.large_scale, paths, sync, band, signal.begin, timing);
   for (double& power : signal.history.signal) power *= shared;
   for (double& power : signal.history.echoes) power *= shared;
+  for (double& power : signal.history.fast_fading) power *= shared;
   const double kept = doppler_share(flight.modem, paths[flight.window.strongest], band.centre_hz());
   if (signal.fades && kept < 1) {
     signal.without_shift = signal.history;

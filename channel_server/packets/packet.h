@@ -12,6 +12,7 @@
 #include "acoustics/link/link_budget.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/modem/packet_format.h"
+#include "acoustics/reception/disturbing_powers.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
@@ -176,14 +177,16 @@ enum class OutcomeKind {
 
 // The quantities that decided an outcome, and the random draws.
 struct DecisionStatistics {
-  Decibels interference = kSilence;    // mean over the bits, dB re 1 uPa in the packet's band
-  Decibels sinr;                       // mean over the bits; 0 if the decision did not get that far
-  double acquisition_probability = 0;  // 0 if the decision did not get that far
-  double success_probability = 0;      // probability that at least one frame is right; 0 likewise
-  double acquisition_draw = 0;         // in (0, 1); acquired when below acquisition_probability
-  double success_draw = 0;             // in (0, 1); decides the header and the first frame
-  std::vector<PacketName> colliders;   // loudest first, at most 16
-  std::uint32_t frames_good = 0;       // bit i is set when frame i was right
+  Decibels interference = kSilence;         // mean over the bits, dB re 1 uPa in the packet's band
+  Decibels sinr;                            // mean over the bits; 0 if the decision did not get that far
+  double acquisition_probability = 0;       // 0 if the decision did not get that far
+  double success_probability = 0;           // probability that at least one frame is right; 0 likewise
+  double acquisition_draw = 0;              // in (0, 1); acquired when below acquisition_probability
+  double success_draw = 0;                  // in (0, 1); decides the header and the first frame
+  std::vector<PacketName> colliders;        // loudest first, at most 16
+  std::uint32_t frames_good = 0;            // bit i is set when frame i was right
+  acoustics::DisturbingPowers powers = {};  // 0 if the decision did not get that far
+  acoustics::LossReason reason = acoustics::LossReason::kNone;  // of a packet not acquired or in error
 };
 
 // The outcome of a packet at one possible receiver. For kOutOfReach one outcome may represent several

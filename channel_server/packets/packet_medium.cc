@@ -258,7 +258,10 @@ void PacketMedium::begin_reception(Flight& flight, SimTime at) {
   flight.receiver_absent = !fleet_.is_present(place);
   flight.large_scale = large_scale_of(flight, rule_.fading, rule_.seed);
   flight.signal = received_signal(flight, to_power_ratio(noise).value, rule_.fading);
-  if (rule_.noise.has_bursts()) add_bursts(rule_.noise, rule_.seed, flight.receiver_id, flight.signal);
+  if (rule_.noise.has_bursts()) {
+    add_bursts(rule_.noise, rule_.seed, flight.receiver_id, flight.signal);
+    flight.signal.impulses = (to_power_ratio(flight.modem.impulse_loss).value - 1) * flight.signal.noise;
+  }
   flight.draws = draws_of(rule_.seed, *flight.packet, flight.identity, flight.receiver_id);
   flight.sounds_at = &state_of(flight.receiver_id);
   flight.conflicts_with_past |= flight.sounds_at->open(disturbing_sound(flight, reach_), advanced_to_);

@@ -14,6 +14,10 @@
 #include "core/random.h"
 
 namespace halocline::channel_server {
+
+using acoustics::DisturbingPowers;
+using acoustics::LossReason;
+
 namespace {
 
 // The sum of the powers of many paths over [begin, end), as a step function of time.
@@ -68,10 +72,10 @@ class PowerSteps {
   std::vector<Step> steps_;  // ascending, the first at `begin`; empty without paths
 };
 
-// The means of the signal and of the packet's own echoes over a part of the packet, uPa^2; their values at
-// its first instant if the part has no duration.
+// The means of the signal, of the packet's own echoes and of the part of these by fast fading over a part of
+// the packet, uPa^2; their values at its first instant if the part has no duration.
 struct SignalMeans {
-  double signal = 0, echoes = 0;
+  double signal = 0, echoes = 0, fast_fading = 0;
 };
 
 SignalMeans means_of(const ReceivedSignal& signal, SimTime begin, SimTime end) {
@@ -86,32 +90,41 @@ SignalMeans means_of(const ReceivedSignal& signal, SimTime begin, SimTime end) {
     if (!(share > 0)) continue;
     sums.signal += share * history.mean_signal(i);
     sums.echoes += share * history.echoes[i];
+    sums.fast_fading += share * history.fast_fading[i];
     weight += share;
   }
-  return weight > 0 ? SignalMeans{sums.signal / weight, sums.echoes / weight} : SignalMeans{};
+  if (!(weight > 0)) return {};
+  return {sums.signal / weight, sums.echoes / weight, sums.fast_fading / weight};
 }
 
-// Returns the ratio of means over [begin, end):
-//   SINR = mean S / (N + mean echoes + mean I + mean bursts)
+// Returns the noise that the receiver meets, with its losses, uPa^2.
+double noise_met(const ReceivedSignal& signal) {
+  return signal.history.receiver.noise_loss * (signal.noise + signal.impulses);
+}
+
+// Returns the ratio of means over [begin, end), n the hydrophones:
+//   SINR = n mean S / (N + mean echoes + mean I + mean bursts)
 PowerRatio mean_sinr(const ReceivedSignal& signal, const std::vector<Interference>& others, SimTime begin,
                      SimTime end) {
   const SignalMeans means = means_of(signal, begin, end);
-  return {means.signal / (signal.noise + means.echoes + mean_power(others, begin, end) +
-                          mean_power(signal.bursts, begin, end))};
+  return {signal.history.receiver.channels * means.signal /
+          (noise_met(signal) + means.echoes + mean_power(others, begin, end) +
+           mean_power(signal.bursts, begin, end))};
 }
 
 // Adds to the decoder of a block the SINR of each cell of the history within [begin, end), weighted by the
-// cell's share of that span and of the band: SINR = S / (N + echoes + interference).
+// cell's share of that span and of the band: SINR = n S / (N + echoes + interference).
 void add_cells(const ReceivedSignal& signal, const PowerSteps& others, SimTime begin, SimTime end,
                acoustics::BlockDecoder& block) {
   const acoustics::SignalHistory& history = signal.history;
-  const double whole_s = (end - begin).seconds();
+  const double whole_s = (end - begin).seconds(), noise = noise_met(signal),
+               channels = history.receiver.channels;
   for (std::size_t i = 0; i < history.stretches(); ++i) {
     const SimTime from = std::max(begin, signal.begin + SimDuration::from_seconds(history.edges_s[i]));
     const SimTime to = std::min(end, signal.begin + SimDuration::from_seconds(history.edges_s[i + 1]));
     if (to <= from) continue;
     others.for_each_stretch(from, to, [&](double seconds, double interference) {
-      const double disturbance = signal.noise + history.echoes[i] + interference;
+      const double disturbance = (noise + history.echoes[i] + interference) / channels;
       const double share = seconds / whole_s / static_cast<double>(history.frequencies);
       for (std::size_t m = 0; m < history.frequencies; ++m) {
         block.add(share, history.signal[i * history.frequencies + m] / disturbance);
@@ -191,7 +204,80 @@ bool is_received(const ReceivedSignal& signal, const std::vector<Interference>& 
          decode(signal, others, draws).frames_good != 0;
 }
 
+const std::vector<Interference> kNoInterference;
+
+// Returns the powers that disturb the bits, each over the signal of all hydrophones.
+DisturbingPowers disturbing_powers(const ReceivedSignal& signal, const std::vector<Interference>& others) {
+  const SimTime begin = signal.preamble_end, end = signal.end;
+  const SignalMeans means = means_of(signal, begin, end);
+  const double loss = signal.history.receiver.noise_loss,
+               whole = signal.history.receiver.channels * means.signal;
+  if (!(whole > 0)) return {};
+  return {.noise = loss * signal.noise / whole,
+          .late_echoes = std::max(means.echoes - means.fast_fading, 0.0) / whole,
+          .fast_fading = means.fast_fading / whole,
+          .others = mean_power(others, begin, end) / whole,
+          .impulses = (loss * signal.impulses + mean_power(signal.bursts, begin, end)) / whole};
+}
+
+// Share of the noise that stays where it is taken away, so that ratios remain finite.
+constexpr double kNoiseLeft = 1e-9;
+
+// Returns the signal without one of the powers that disturb it.
+ReceivedSignal signal_without(LossReason power, ReceivedSignal signal) {
+  acoustics::SignalHistory& history = signal.history;
+  switch (power) {
+    case LossReason::kNoise:
+      signal.noise *= kNoiseLeft;
+      break;
+    case LossReason::kLateEchoes:
+      history.echoes = history.fast_fading;
+      break;
+    case LossReason::kFastFading:
+      for (std::size_t i = 0; i < history.stretches(); ++i) {
+        history.echoes[i] = std::max(history.echoes[i] - history.fast_fading[i], 0.0);
+      }
+      break;
+    case LossReason::kImpulses:
+      signal.impulses = 0;
+      signal.bursts.clear();
+      break;
+    case LossReason::kOtherPackets:
+    case LossReason::kNone:
+      break;
+  }
+  return signal;
+}
+
 }  // namespace
+
+LossReason loss_reason(const ReceivedSignal& signal, const std::vector<Interference>& others,
+                       const DisturbingPowers& powers) {
+  // A power below this share of all is no reason, whatever else there is.
+  constexpr double kMinShare = 0.01;
+  const double all = powers.sum();
+  std::vector<std::pair<double, LossReason>> loud;
+  for (const LossReason reason : acoustics::kLossReasons) {
+    if (powers.of(reason) > kMinShare * all) loud.emplace_back(powers.of(reason), reason);
+  }
+  if (loud.empty()) return LossReason::kNone;
+  // The loudest comes first: it is the reason where no power alone makes a difference.
+  std::sort(loud.begin(), loud.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (loud.size() == 1) return loud.front().second;
+  LossReason best = loud.front().second;
+  double most = 0;
+  for (const auto& [power, reason] : loud) {
+    const std::vector<Interference>& left = reason == LossReason::kOtherPackets ? kNoInterference : others;
+    const ReceivedSignal one = signal_without(reason, signal);
+    const double acquired = acquisition_probability(one, left);
+    const double success = acquired > most ? acquired * success_probability(one, left) : 0;
+    if (success > most) {
+      most = success;
+      best = reason;
+    }
+  }
+  return best;
+}
 
 std::uint64_t identity_for_draws(const Packet& packet) {
   const SendRequest& request = packet.request;
@@ -317,12 +403,14 @@ OutcomeKind decide_reception(const ReceivedSignal& signal, const Interferers& ot
                mean_power(signal.bursts, signal.preamble_end, signal.end));
   statistics.sinr = level_of(mean_sinr(signal, others.paths, signal.preamble_end, signal.end).value);
   statistics.colliders = colliders_of(signal, others);
+  statistics.powers = disturbing_powers(signal, others.paths);
   if (acquired) {
     const Decoded decoded = decode(signal, others.paths, draws);
     statistics.success_probability = decoded.probability;
     statistics.frames_good = decoded.frames_good;
     if (decoded.frames_good != 0) return OutcomeKind::kReceived;
   }
+  statistics.reason = loss_reason(signal, others.paths, statistics.powers);
   if (!statistics.colliders.empty() && is_received(signal, {}, draws)) return OutcomeKind::kCollided;
   if (signal.without_shift) {
     ReceivedSignal corrected = signal;

@@ -5,9 +5,10 @@
 //
 // Model. A packet begins with its preamble; its information bits fill the rest evenly. At every instant and
 // frequency the signal-to-interference-and-noise ratio in the packet's band is
-//     SINR = S / (N + I)
+//     SINR = n S / (N 10^(loss / 10) + I)
 //   S  the power within the guard window, which fades; it comes from the history of the signal
 //      (acoustics/reception/signal_history.h), as do the packet's own echoes in I;
+//   n, loss  hydrophones and loss of the receiver (acoustics/modem/modem.h);
 //   N  the noise over the band, less the receiver's directivity;
 //   I  the packet's own echoes; all paths of all other packets, each during its own interval, with the
 //      large-scale fading of its link; the noise of other vehicles (platform_noise.h); and bursts of the
@@ -27,6 +28,9 @@
 //
 // A loss counts as a collision when the same draws without the other packets give a reception. It counts as
 // caused by the Doppler shift when the same draws without the uncorrected part of the shift give a reception.
+//
+// The reason of a loss is the one of five powers (noise, late echoes, fast fading with Doppler, other
+// packets, impulses) without which acquisition and decoding would be likeliest, by the same curves.
 //
 // A draw depends only on the packet's contents and the receiver: not on the order of draws, and not on the
 // sender's session, which differs between runs of separate processes.
@@ -62,6 +66,7 @@ struct ReceivedSignal {
   acoustics::SignalHistory history;
   // The history if the receiver corrected every Doppler shift; empty when it does.
   std::optional<acoustics::SignalHistory> without_shift = {};
+  double impulses = 0;  // power that impulsive noise is worth beyond `noise`, before the receiver's loss
 };
 
 // Returns the address of a draw for a packet at a receiver: it depends on the packet's contents except its
@@ -101,6 +106,11 @@ double timing_error_s(const ReceivedSignal& signal, const Interferers& others, d
 // begins at time 0.
 void add_bursts(const acoustics::NoiseVariation& variation, std::uint64_t seed, VehicleId receiver,
                 ReceivedSignal& signal);
+
+// Returns the power without which acquisition and decoding of a lost packet would be likeliest; the greatest
+// where none makes a difference alone, kNone where nothing disturbs. `powers` are those of the packet.
+acoustics::LossReason loss_reason(const ReceivedSignal& signal, const std::vector<Interference>& others,
+                                  const acoustics::DisturbingPowers& powers);
 
 // Returns the names of the packets that disturbed the reception, loudest first, then by name; at most
 // kMaxColliders.

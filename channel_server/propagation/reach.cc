@@ -65,7 +65,8 @@ Decibels least_level(const ReachRule& rule, const acoustics::Modem& sender, cons
       noise_at(sender, receiver, noise_density) - Decibels{kNoiseDeviations * rule.noise_spread_db};
   const Decibels disturbs = noise - rule.below_noise;
   if (!may_receive(sender, receiver)) return disturbs;
-  return std::min(disturbs, std::max(noise + Decibels{unnoticed_db}, receiver.min_receivable_level));
+  return std::min(disturbs, std::max(noise + Decibels{unnoticed_db} - acoustics::receiver_gain(receiver),
+                                     receiver.min_receivable_level));
 }
 
 Decibels least_beam_loss(const acoustics::Modem& modem) {
@@ -171,7 +172,8 @@ double ReachModel::reception_range_m(SimTime at, const acoustics::Modem& sender,
   double longest_m = 0;
   for (const acoustics::Modem* receiver : crowd.modems) {
     if (!may_receive(sender, *receiver)) continue;
-    const Decibels least = noise_at(sender, *receiver, density) + Decibels{least_sinr_db};
+    const Decibels least =
+        noise_at(sender, *receiver, density) + Decibels{least_sinr_db} - acoustics::receiver_gain(*receiver);
     longest_m = std::max(longest_m, range_m(at, sender, *receiver, least, crowd.deepest_m));
   }
   return longest_m;

@@ -96,6 +96,16 @@ void print(std::ostream& out, const OutcomeSummary& summary, const std::string& 
     fmt::print(out, "  {:<24}{:>9}{:>8.1f} %\n", outcome_name(outcome), count,
                100.0 * static_cast<double>(count) / static_cast<double>(all));
   }
+  for (std::size_t reason = 1; reason < kLossReasons; ++reason) {
+    const std::int64_t count = summary.by_reason()[reason];
+    if (count == 0) continue;
+    fmt::print(out, "  {:<24}{:>9}{:>8.1f} %\n", fmt::format("lost to {}", loss_reason_name(reason)), count,
+               100.0 * static_cast<double>(count) / static_cast<double>(all));
+  }
+  if (const ByteCounts& bytes = summary.bytes(); bytes.sent > 0) {
+    fmt::print(out, "  {:<24}{:>9}{:>8.1f} % of {}\n", "bytes right", bytes.good,
+               100.0 * static_cast<double>(bytes.good) / static_cast<double>(bytes.sent), bytes.sent);
+  }
   for (std::size_t propagation = 0; propagation < kPropagations; ++propagation) {
     const std::int64_t count = summary.by_propagation()[propagation];
     if (count == 0) continue;
@@ -113,11 +123,27 @@ void print(std::ostream& out, const OutcomeSummary& summary, const std::string& 
   print_energy(out, summary);
 }
 
+namespace {
+
+ByteCounts bytes_of(const OutcomeSummary& summary, const OutcomeLedger::Pair& pair) {
+  const auto found = summary.bytes_by_pair().find(pair);
+  return found != summary.bytes_by_pair().end() ? found->second : ByteCounts{};
+}
+
+}  // namespace
+
 std::string to_json(const OutcomeSummary& summary) {
   nlohmann::ordered_json json;
   json["outcomes"] = sum(summary.total());
   json["repeated"] = summary.repeated();
   json["by_outcome"] = to_json(summary.total());
+  json["by_reason"] = nlohmann::ordered_json::object();
+  for (std::size_t reason = 1; reason < kLossReasons; ++reason) {
+    const std::int64_t count = summary.by_reason()[reason];
+    if (count > 0) json["by_reason"][loss_reason_name(reason)] = count;
+  }
+  json["bytes_sent"] = summary.bytes().sent;
+  json["bytes_good"] = summary.bytes().good;
   json["by_propagation"] = nlohmann::ordered_json::object();
   for (std::size_t propagation = 0; propagation < kPropagations; ++propagation) {
     const std::int64_t count = summary.by_propagation()[propagation];
@@ -128,6 +154,8 @@ std::string to_json(const OutcomeSummary& summary) {
     json["pairs"].push_back({{"from", summary.name(pair.first)},
                              {"to", summary.name(pair.second)},
                              {"outcomes", sum(counts)},
+                             {"bytes_sent", bytes_of(summary, pair).sent},
+                             {"bytes_good", bytes_of(summary, pair).good},
                              {"by_outcome", to_json(counts)}});
   }
   json["windows"] = nlohmann::ordered_json::array();
@@ -157,7 +185,8 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
          "factor,"
          "num_paths,delay_spread_s,acquisition_probability,acquisition_draw,success_probability,success_draw,"
          "propagation,colliders,receivers,payload_bytes,transmit_energy_j,receive_energy_j,"
-         "packet_kind,rate_number,duration_s,num_frames,num_frames_good\n";
+         "packet_kind,rate_number,duration_s,num_frames,num_frames_good,bytes_good,"
+         "noise_db,late_echo_db,fast_fading_db,interference_db,impulse_db,loss_reason\n";
   for (const packet_outcome_t& o : summary.outcomes()) {
     fmt::print(out, "{:.3f},{:.3f},{},{},{},{},{}", in_seconds(o.departure_utime), in_seconds(o.utime),
                summary.name(o.source_id), summary.name(o.receiver_id),
@@ -174,7 +203,11 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
         << colliders_text(o, [&](std::int32_t id) { return summary.name(id); }) << ',' << o.num_receivers
         << ',' << o.payload_bytes << ',' << format_number(o.transmit_energy_j) << ','
         << format_number(o.receive_energy_j) << ',' << packet_kind_name(o.packet_kind) << ',' << o.rate_number
-        << ',' << format_number(o.duration_s) << ',' << o.num_frames << ',' << o.num_frames_good << '\n';
+        << ',' << format_number(o.duration_s) << ',' << o.num_frames << ',' << o.num_frames_good << ','
+        << o.bytes_good;
+    for (const double power : {o.noise_db, o.late_echo_db, o.fast_fading_db, o.interference_db, o.impulse_db})
+      out << ',' << format_number(power);
+    out << ',' << loss_reason_name(static_cast<std::size_t>(o.loss_reason)) << '\n';
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts of packet outcomes: by outcome, by pair, by window of time, and by the propagation model that
-// computed their paths.
+// Counts of packet outcomes: by outcome, by pair, by window of time, by the reason of losses, and by the
+// propagation model that computed their paths; and the bytes that were right of those sent.
 #pragma once
 
 #include <array>
@@ -14,9 +14,17 @@ namespace halocline::clients {
 
 inline constexpr std::size_t kOutcomes = 20;        // packet_outcome_t.RECEIVED to NO_TERRAIN
 inline constexpr std::size_t kReceiptResults = 12;  // modem_receipt_t.ACCEPTED to REFUSED_NO_MODEM
+inline constexpr std::size_t kLossReasons = 6;      // packet_outcome_t.REASON_NONE to REASON_IMPULSES
 inline constexpr std::size_t kPropagations = 5;     // packet_outcome_t.STRAIGHT to RAYS_BEYOND_TERRAIN
 // Counts indexed by packet_outcome_t.outcome.
 using OutcomeCounts = std::array<std::int64_t, kOutcomes>;
+// Counts indexed by packet_outcome_t.loss_reason.
+using ReasonCounts = std::array<std::int64_t, kLossReasons>;
+// Bytes of payload: sent, a packet as often as it has possible receivers, and in right frames.
+struct ByteCounts {
+  std::int64_t sent = 0, good = 0;
+  bool operator==(const ByteCounts&) const = default;
+};
 // Counts indexed by packet_outcome_t.propagation_used.
 using PropagationCounts = std::array<std::int64_t, kPropagations>;
 
@@ -37,11 +45,18 @@ class OutcomeLedger {
   // Returns the counts of each window, keyed by its start, us.
   const std::map<std::int64_t, OutcomeCounts>& by_window() const { return by_window_; }
   const PropagationCounts& by_propagation() const { return by_propagation_; }
+  // Losses that noise or interference decided, by reason.
+  const ReasonCounts& by_reason() const { return by_reason_; }
+  const ByteCounts& bytes() const { return bytes_; }
+  const std::map<Pair, ByteCounts>& bytes_by_pair() const { return bytes_by_pair_; }
 
  private:
   std::int64_t window_us_;
   OutcomeCounts total_{};
   PropagationCounts by_propagation_{};
+  ReasonCounts by_reason_{};
+  ByteCounts bytes_;
+  std::map<Pair, ByteCounts> bytes_by_pair_;
   std::map<Pair, OutcomeCounts> by_pair_;
   std::map<std::int64_t, OutcomeCounts> by_window_;
 };
@@ -58,5 +73,7 @@ inline std::size_t number_of(const packet_outcome_t& outcome) {
 const char* receipt_name(std::size_t result);
 const char* outcome_name(std::size_t outcome);
 const char* propagation_name(std::size_t propagation);
+// Returns the name of a loss reason by number: "noise", "late echoes", ...; "?" for an unknown number.
+const char* loss_reason_name(std::size_t reason);
 
 }  // namespace halocline::clients

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -24,15 +25,27 @@ std::string percent(double probability) {
   return fmt::format("{:.3g} %", 100 * probability);
 }
 
-// Returns the noise or interference that was too loud for the signal.
+// Returns what was too loud, and by how much relative to the signal.
+std::string beside_signal(const char* what, double over_signal_db) {
+  return fmt::format("{}, {:.1f} dB {} its signal", what, std::abs(over_signal_db),
+                     over_signal_db < 0 ? "below" : "above");
+}
+
+// Returns the noise or interference that was too loud for the signal: the reason of the loss.
 std::string disturbance(const packet_outcome_t& o, const std::string& others) {
-  if (!has_interference(o) || o.interference_level_db < o.noise_level_db - 10)
-    return fmt::format("noise of {:.1f} dB beside a signal of {:.1f} dB", o.noise_level_db,
-                       o.received_level_db);
-  if (!others.empty()) return "disturbed by " + others;
-  return fmt::format("its own late echoes ({:.1f} dB) {} the noise ({:.1f} dB)", o.interference_level_db,
-                     o.interference_level_db > o.noise_level_db ? "were louder than" : "added to",
-                     o.noise_level_db);
+  switch (o.loss_reason) {
+    case packet_outcome_t::REASON_LATE_ECHOES:
+      return beside_signal("its own late echoes", o.late_echo_db);
+    case packet_outcome_t::REASON_FAST_FADING:
+      return beside_signal("fading and Doppler that the receiver does not follow", o.fast_fading_db);
+    case packet_outcome_t::REASON_OTHER_PACKETS:
+      return "disturbed by " + (others.empty() ? "others" : others);
+    case packet_outcome_t::REASON_IMPULSES:
+      return beside_signal("impulses of the sea's noise", o.impulse_db);
+    default:
+      return fmt::format("noise of {:.1f} dB beside a signal of {:.1f} dB", o.noise_level_db,
+                         o.received_level_db);
+  }
 }
 
 std::string survival(const packet_outcome_t& o) {
@@ -57,7 +70,7 @@ std::string collision(const packet_outcome_t& o, const std::string& others) {
 }
 
 // Explanations of the steps of the ladder, by key.
-constexpr std::array<std::pair<std::string_view, const char*>, 11> kHelps{{
+constexpr std::array<std::pair<std::string_view, const char*>, 16> kHelps{{
     {"paths", "Ways of the sound through the water to the receiver; without one nothing arrives."},
     {"source", "What the sender radiates, one metre from it."},
     {"loss", "What spreading, absorption and bounces take on the way, all paths together."},
@@ -65,7 +78,12 @@ constexpr std::array<std::pair<std::string_view, const char*>, 11> kHelps{{
     {"noise", "Of turbulence, ships, wind and heat at the receiver, over the packet's band."},
     {"snr", "The level received over the noise."},
     {"interference",
-     "What arrives beside the signal: its own echoes after the guard time, and other packets."},
+     "All that arrives beside the signal: its own echoes, what the receiver does not follow, other packets."},
+    {"noise_over_signal", "The noise, with the receiver's loss, over the signal of all its hydrophones."},
+    {"late_echoes", "Echoes that arrive outside of the receiver's window, over the signal."},
+    {"fast_fading", "What fades or shifts faster than the receiver follows, over the signal."},
+    {"others", "Other packets and the noise of vehicles, over the signal."},
+    {"impulses", "Impulses of the sea's noise, over the signal."},
     {"sinr", "The signal within the guard time over noise and all that arrives beside it; this decides."},
     {"acquisition",
      "The receiver detects so many of such preambles; a random number below the probability is a detection."},
@@ -197,8 +215,18 @@ std::vector<LadderStep> ladder(const packet_outcome_t& o) {
     add("snr", "signal to noise", o.snr_db, "dB");
   }
   if (has_interference(o) && o.interference_level_db != 0)
-    add("interference", o.colliders.empty() ? "own late echoes" : "late echoes and other packets",
+    add("interference", o.colliders.empty() ? "own interference" : "own interference and other packets",
         o.interference_level_db, kLevel);
+  if (o.loss_reason != packet_outcome_t::REASON_NONE) {
+    const auto add_power = [&](const char* step, const char* quantity, double over_signal_db) {
+      if (over_signal_db > kNoInterference_db) add(step, quantity, over_signal_db, "dB");
+    };
+    add_power("noise_over_signal", "noise over the signal", o.noise_db);
+    add_power("late_echoes", "late echoes over the signal", o.late_echo_db);
+    add_power("fast_fading", "fast fading over the signal", o.fast_fading_db);
+    add_power("others", "other packets over the signal", o.interference_db);
+    add_power("impulses", "impulses over the signal", o.impulse_db);
+  }
   if (o.acquisition_probability > 0 || o.success_probability > 0) {
     if (o.sinr_db != 0) add("sinr", "signal to noise and interference", o.sinr_db, "dB");
     add("acquisition", "preamble detected: probability, draw", o.acquisition_probability, "",

@@ -100,6 +100,22 @@ void add_pairs(const RunTimeline& timeline, std::vector<SummaryRow>& rows) {
   rows.push_back({key, fmt::format("between {} of {} pairs", in_contact, pairs.size())});
 }
 
+// Adds the reasons of losses that noise or interference decided, the most frequent first, and the bytes that
+// were right, where they are fewer than those of the packets received.
+void add_reasons(const OutcomeLedger& ledger, std::vector<SummaryRow>& rows) {
+  std::vector<std::pair<std::int64_t, std::size_t>> reasons;
+  for (std::size_t reason = 1; reason < kLossReasons; ++reason) {
+    if (ledger.by_reason()[reason] > 0) reasons.emplace_back(-ledger.by_reason()[reason], reason);
+  }
+  std::sort(reasons.begin(), reasons.end());
+  std::string text;
+  for (const auto& [count, reason] : reasons)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", -count, loss_reason_name(reason));
+  if (!text.empty()) rows.push_back({"lost to", text});
+  if (ledger.bytes().sent > 0)
+    rows.push_back({"bytes right", share(ledger.bytes().good, ledger.bytes().sent)});
+}
+
 void add_packets(const RunTimeline& timeline, std::vector<SummaryRow>& rows) {
   std::int64_t transmitted = 0;
   std::map<std::int8_t, std::int64_t> refused;
@@ -131,6 +147,7 @@ void add_packets(const RunTimeline& timeline, std::vector<SummaryRow>& rows) {
   for (const auto& [count, outcome] : causes)
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", -count, outcome_name(outcome));
   rows.push_back({"lost", text});
+  add_reasons(timeline.ledger(), rows);
 }
 
 // Adds the programs whose results went out later than the scenario allows, the latest first.

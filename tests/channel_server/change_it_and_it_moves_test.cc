@@ -73,6 +73,12 @@ void add_common(std::vector<Turn>& all, const World& world) {
           (world.rays ? Moves{becomes("interference", kSilence.value)} : Moves{}));
   add("error model", [](World& w) { w.modem.modem.error_model = acoustics::ErrorModel::kBpsk; },
       {rises("success")});
+  // A loss of the receiver is noise; by rays late echoes remain as they are.
+  add(
+      "loss of the receiver", [](World& w) { w.modem.modem.receiver_loss = {0.1}; },
+      Moves{world.rays ? falls("sinr") : moves_by("sinr", -0.1), falls("acquisition"), falls("success")});
+  add("hydrophones", [](World& w) { w.modem.modem.receiver_channels = 2; },
+      {moves_by("sinr", 10 * std::log10(2)), rises("acquisition"), rises("success")});
   add("Doppler tolerance of a pair at rest", [](World& w) { w.modem.modem.doppler_tolerance = 1e-9; }, {});
   const SimDuration preamble = for_s(preamble_s(world.rays));
   add(
@@ -331,6 +337,10 @@ void add_modems_of_rays(std::vector<Turn>& all) {
           not_acquired());
   add("guard time", [](World& w) { w.modem.modem.guard_time = for_s(0.1); },
       {falls("interference"), rises("sinr"), rises("acquisition"), rises("success")});
+  add("share of late echoes", [](World& w) { w.modem.modem.late_echo_share = 0.5; },
+      {falls("interference"), rises("sinr"), rises("success")});
+  add("late echoes cancelled", [](World& w) { w.modem.modem.echo_cancelled = 0.5; },
+      {falls("interference"), rises("sinr"), rises("success")});
   // An echo that comes late by a fixed time is missing from more of a shorter packet.
   add("bit rate", [](World& w) { w.modem.modem.bit_rate_bps *= 2; },
       {moves_by("duration", -8 * kBytes / bit_rate_bps(true) / 2), falls("interference"), rises("sinr"),

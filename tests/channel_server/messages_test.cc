@@ -58,6 +58,12 @@ VehicleModem odd_modem() {
   modem.modem.doppler_correction = 0.001;
   modem.modem.time_quantum = for_s(0.0005);
   modem.modem.error_model = acoustics::ErrorModel::kDbpskRayleigh;
+  modem.modem.receiver = acoustics::ReceiverKind::kStrongestPath;
+  modem.modem.receiver_loss = {3.5};
+  modem.modem.receiver_channels = 4;
+  modem.modem.late_echo_share = 0.5;
+  modem.modem.echo_cancelled = 0.75;
+  modem.modem.impulse_loss = {5};
   modem.modem.beam = acoustics::BeamPattern({{-0.5, 20}, {0.25, -3}});
   modem.when_busy = WhenBusy::kQueue;
   return modem;
@@ -117,6 +123,7 @@ TEST(ChannelServerMessages, EveryErrorModelSurvivesTheRoundTrip) {
   for (const acoustics::ErrorModel model : acoustics::kErrorModels) {
     VehicleModem modem;
     modem.modem.error_model = model;
+    modem.modem.chip = for_s(0.01);
     const modem_config_t message = to_message(modem, at_s(3));
     EXPECT_EQ(bus::problem_in(message), "");
     EXPECT_EQ(to_modem(message).modem.error_model, model);

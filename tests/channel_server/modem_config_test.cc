@@ -64,6 +64,8 @@ TEST(ModemConfig, EveryPhysicalParameterOfAProfileCanBeChanged) {
           "center_frequency_hz = 10000\nbandwidth_hz = 2000\ndirectivity_index_db = 3\n"
           "family = \"psk-of-our-own\"\nguard_time_s = 0.5\nguard_taper_s = 0.25\ndoppler_tolerance = 0.01\n"
           "doppler_correction = 0.02\ntime_quantum_s = 0.001\nerror_model = \"dbpsk-rayleigh\"\n"
+          "receiver = \"strongest-path\"\nreceiver_loss_db = 2\nreceiver_channels = 3\n"
+          "late_echo_share = 0.5\necho_cancelled = 0.25\nimpulse_loss_db = 4\n"
           "max_payload_bytes = 10\nwhen_busy = \"queue\"\n")
           .modem;
   acoustics::Modem expected = load_modem("micromodem-psk-1").modem;
@@ -79,6 +81,12 @@ TEST(ModemConfig, EveryPhysicalParameterOfAProfileCanBeChanged) {
   expected.doppler_correction = 0.02;
   expected.time_quantum = for_s(0.001);
   expected.error_model = acoustics::ErrorModel::kDbpskRayleigh;
+  expected.receiver = acoustics::ReceiverKind::kStrongestPath;
+  expected.receiver_loss = {2};
+  expected.receiver_channels = 3;
+  expected.late_echo_share = 0.5;
+  expected.echo_cancelled = 0.25;
+  expected.impulse_loss = {4};
   VehicleModem all{expected, 10, WhenBusy::kQueue, "micromodem-psk-1", 1};
   set_rates_of(load_modem("micromodem-psk-1"), all);
   EXPECT_EQ(modem, all);

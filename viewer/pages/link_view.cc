@@ -94,6 +94,25 @@ class Waterfall {
   double sum_ = 0;
 };
 
+// From SNR to SINR = 1 / (noise + late echoes + fast fading + impulses), each over the signal. A step for
+// each power: what it takes after those before it.
+void add_receiver(const link_t& link, Waterfall& fall) {
+  constexpr double kNone_db = -200, kShown_db = 0.005;
+  fall.step("Receiver", -link.noise_db - link.snr_db,
+            "Its loss and its hydrophones, and sound outside of its guard window, which adds no signal.");
+  double sum = elementary::exp10(link.noise_db / 10);
+  const auto add = [&](const char* label, double over_signal_db, const char* help) {
+    if (over_signal_db < kNone_db) return;
+    const double before = sum;
+    sum += elementary::exp10(over_signal_db / 10);
+    const double taken_db = 10 * elementary::log10(sum / before);
+    if (taken_db > kShown_db) fall.step(label, -taken_db, help);
+  };
+  add("Late echoes", link.late_echo_db, "Paths outside of the guard window disturb instead of adding.");
+  add("Fast fading", link.fast_fading_db, "Sound that fades or shifts faster than the receiver follows.");
+  add("Impulses", link.impulse_db, "Impulses of the sea's noise, by the receiver's loss.");
+}
+
 json threshold_of(const LinkSubject& link) { return link.threshold_db ? json(*link.threshold_db) : json(); }
 
 json budget_json(const LinkSubject& subject, const link_t& link, const link_paths_t& paths) {
@@ -131,8 +150,7 @@ json budget_json(const LinkSubject& subject, const link_t& link, const link_path
   if (std::abs(directivity) > kRounding_db)
     fall.step("Directivity", directivity, "Noise from elsewhere that the receiver's transducer leaves out.");
   fall.total("SNR", link.snr_db, "dB", json(), "Signal to noise.");
-  fall.step("Own late echoes", link.sinr_db - link.snr_db,
-            "Paths outside the guard window disturb instead of adding.");
+  add_receiver(link, fall);
   fall.total("SINR", link.sinr_db, "dB", threshold_of(subject),
              "Signal in the guard window to noise and own echoes, mean over fading, against that at which "
              "half of the packets "
@@ -142,9 +160,12 @@ json budget_json(const LinkSubject& subject, const link_t& link, const link_path
 
 json guard_json(const link_t& link, const clients::VehicleRecord& to) {
   if (!to.modem || link.num_paths == 0) return nullptr;
-  const double taper_s = to.modem->guard_taper_s < 0 ? to.modem->guard_time_s : to.modem->guard_taper_s;
+  // A receiver of the strongest path collects what its band cannot part from it.
+  const bool resolves = to.modem->receiver_kind == modem_config_t::RECEIVER_STRONGEST_PATH;
+  const double guard_s = resolves ? 1 / to.modem->bandwidth_hz : to.modem->guard_time_s;
+  const double taper_s = resolves || to.modem->guard_taper_s < 0 ? guard_s : to.modem->guard_taper_s;
   return {{"begin_s", link.first_path_delay_s},
-          {"end_s", link.first_path_delay_s + to.modem->guard_time_s},
+          {"end_s", link.first_path_delay_s + guard_s},
           {"taper_s", taper_s}};
 }
 

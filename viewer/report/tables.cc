@@ -102,6 +102,14 @@ std::string outcome_table(const RunTimeline& timeline, const PacketLinks& links)
       "<tr class=\"sum\"><td>all</td><td class=\"number\">{}</td>"
       "<td></td><td></td></tr>\n",
       all);
+  for (std::size_t reason = 1; reason < kLossReasons; ++reason) {
+    if (const std::int64_t lost = timeline.ledger().by_reason()[reason]; lost > 0)
+      html += fmt::format("<tr><td>lost to {}</td><td class=\"number\">{}</td><td></td><td></td></tr>\n",
+                          loss_reason_name(reason), lost);
+  }
+  if (const ByteCounts& bytes = timeline.ledger().bytes(); bytes.sent > 0)
+    html += fmt::format("<tr><td>bytes right of {}</td><td class=\"number\">{}</td><td></td><td></td></tr>\n",
+                        bytes.sent, bytes.good);
   for (const auto& [result, count] : refused)
     html +=
         fmt::format("<tr><td>not transmitted: {}</td><td class=\"number\">{}</td><td></td><td></td></tr>\n",

@@ -123,6 +123,9 @@ class Vehicle {
     modem.guard_time_s = 0.02;
     modem.doppler_tolerance = modem.doppler_correction = 0.1;
     modem.error_model = modem_config_t::ERRORS_JANUS;
+    modem.receiver_kind = modem_config_t::RECEIVER_HOPS;
+    modem.receiver_channels = 1;
+    modem.late_echo_share = 1;
     lcm_.publish("MODEM." + options_.name, &modem);
   }
 

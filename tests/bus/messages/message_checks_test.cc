@@ -120,12 +120,12 @@ std::string problem_after(Change change) {
   return problem_in(message);
 }
 
-TEST(MessageChecks, AModemHasOneOfElevenErrorModels) {
-  for (const int bad : {-1, 11, 127}) {
+TEST(MessageChecks, AModemHasOneOfThirteenErrorModels) {
+  for (const int bad : {-1, 13, 127}) {
     EXPECT_NE(problem_after<modem_config_t>([&](auto& m) { m.error_model = static_cast<std::int8_t>(bad); }),
               "");
   }
-  for (std::int8_t good = 0; good <= 10; ++good) {
+  for (std::int8_t good = 0; good <= 12; ++good) {
     EXPECT_EQ(problem_after<modem_config_t>([&](auto& m) { m.error_model = good; }), "");
   }
 }

@@ -67,6 +67,9 @@ std::vector<Arrival> sea(int which, double frequency_hz) {
 struct Case {
   const char* profile;
   int sea;
+  // Another receiver than the profile's, with its name; null: the profile's.
+  void (*turn)(acoustics::Modem&) = nullptr;
+  const char* turned = "";
 };
 
 class PredictedLink : public ::testing::TestWithParam<Case> {};
@@ -102,7 +105,8 @@ struct Share {
 TEST_P(PredictedLink, DeliversAsManyPacketsAsRealised) {
   constexpr std::array<double, 9> kNoiseDb{-20, -10, -5, 0, 4, 8, 12, 16, 20};
   const FadingModel model{.enabled = true};
-  const acoustics::Modem modem = load_modem(GetParam().profile).modem;
+  acoustics::Modem modem = load_modem(GetParam().profile).modem;
+  if (GetParam().turn != nullptr) GetParam().turn(modem);
   const std::vector<Arrival> paths = sea(GetParam().sea, modem.centre_frequency_hz);
   const acoustics::Synchronisation sync{&modem, best_window(paths, modem)};
   const acoustics::ReceptionCurves curves(modem, std::min(kPayloadBytes, max_payload_bytes(modem)));
@@ -147,6 +151,7 @@ TEST_P(PredictedLink, DeliversAsManyPacketsAsRealised) {
     std::snprintf(text.data(), text.size(), "%.3f", value);
     return std::string(text.data());
   };
+  if (GetParam().turn != nullptr) return;
   testing::doc_row(
       "predicted",
       {std::string(GetParam().profile) + ", sea " + std::to_string(GetParam().sea + 1), cell(promised[half]),
@@ -158,11 +163,27 @@ std::vector<Case> cases() {
   for (const char* profile : {"generic", "janus", "micromodem-fsk", "micromodem-psk-1", "micromodem-psk-5"}) {
     for (int sea = 0; sea < 3; ++sea) all.push_back({profile, sea});
   }
+  const auto equaliser = [](acoustics::Modem& modem) {
+    modem.receiver_loss = {3};
+    modem.receiver_channels = 4;
+    modem.echo_cancelled = 0.9;
+  };
+  const auto strongest_path = [](acoustics::Modem& modem) {
+    modem.receiver = acoustics::ReceiverKind::kStrongestPath;
+    modem.late_echo_share = 0.5;
+    modem.error_model = acoustics::ErrorModel::kOrthogonal16;
+    modem.bandwidth_hz = 8'000;
+  };
+  for (const int sea : {1, 2}) {
+    all.push_back({"micromodem-psk-1", sea, equaliser, "_with_equaliser"});
+    all.push_back({"nm3", sea, strongest_path, "_of_strongest_path"});
+  }
   return all;
 }
 
 INSTANTIATE_TEST_SUITE_P(Seas, PredictedLink, ::testing::ValuesIn(cases()), [](const auto& parameter) {
-  std::string name = std::string(parameter.param.profile) + "_sea" + std::to_string(parameter.param.sea);
+  std::string name = std::string(parameter.param.profile) + parameter.param.turned + "_sea" +
+                     std::to_string(parameter.param.sea);
   for (char& c : name) c = c == '-' ? '_' : c;
   return name;
 });

@@ -46,12 +46,38 @@ TEST(Sentence, OwnEchoesAreDistinguishedFromNoiseAndFromOthers) {
   packet_outcome_t o = with_numbers(packet_outcome_t::BIT_ERRORS);
   EXPECT_THAT(sentence(o, name), HasSubstr("noise of 90.0 dB"));
   o.interference_level_db = 97;
-  EXPECT_THAT(sentence(o, name),
-              HasSubstr("its own late echoes (97.0 dB) were louder than the noise (90.0 dB)"));
+  EXPECT_THAT(sentence(o, name), HasSubstr("noise of 90.0 dB"));  // interference alone is no late echo
+  o.loss_reason = packet_outcome_t::REASON_LATE_ECHOES;
+  o.late_echo_db = -3.2;
+  EXPECT_THAT(sentence(o, name), HasSubstr("its own late echoes, 3.2 dB below its signal"));
   EXPECT_THAT(sentence(o, name), HasSubstr("SINR 2.7 dB; 60 % of such packets survive"));
   o.num_colliders = 1;
   o.colliders.push_back({2, 0, 7, 5, 0});
+  o.loss_reason = packet_outcome_t::REASON_OTHER_PACKETS;
   EXPECT_THAT(sentence(o, name), HasSubstr("disturbed by auv-2:5"));
+}
+
+TEST(Sentence, LateEchoesAreSaidOfLateEchoesAlone) {
+  packet_outcome_t o = with_numbers(packet_outcome_t::BIT_ERRORS);
+  o.interference_level_db = 120;
+  for (const std::int8_t reason :
+       {packet_outcome_t::REASON_NONE, packet_outcome_t::REASON_NOISE, packet_outcome_t::REASON_FAST_FADING,
+        packet_outcome_t::REASON_OTHER_PACKETS, packet_outcome_t::REASON_IMPULSES}) {
+    o.loss_reason = reason;
+    EXPECT_THAT(sentence(o, name), ::testing::Not(HasSubstr("echo")));
+  }
+}
+
+TEST(Ladder, ALossHasTheFivePowersThatDisturbed) {
+  packet_outcome_t o = with_numbers(packet_outcome_t::BIT_ERRORS);
+  o.loss_reason = packet_outcome_t::REASON_LATE_ECHOES;
+  o.noise_db = -12;
+  o.late_echo_db = -3;
+  o.fast_fading_db = o.interference_db = o.impulse_db = -300;
+  std::vector<std::string> names;
+  for (const LadderStep& step : ladder(o)) names.push_back(step.step);
+  EXPECT_THAT(names, ::testing::IsSupersetOf({"noise_over_signal", "late_echoes"}));
+  EXPECT_THAT(names, ::testing::Not(::testing::Contains("fast_fading")));
 }
 
 TEST(Sentence, ACollisionIsWithAPacketThatWasFollowedOrWithOneThatDisturbed) {
