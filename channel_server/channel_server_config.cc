@@ -247,6 +247,7 @@ ServerRules make_rules(const ChannelServerConfig& config, const bus::Scenario& s
 
 LinkPredictor make_predictor(const ServerRules& rules) {
   LinkPredictor::Rule rule{static_cast<std::size_t>(rules.predicted_payload_bytes), rules.medium.fading, {}};
+  rule.receiver_margin = {rules.receiver_margin_db};
   for (const std::string& name : built_in_modems()) rule.profiles.push_back(built_in_modem(name));
   return LinkPredictor(std::move(rule));
 }

@@ -16,6 +16,7 @@
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
+#include "acoustics/sea/profile_modes.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/config/config.h"
 #include "bus/config/scenario.h"
@@ -68,6 +69,7 @@ struct EnvironmentConfig {
   std::string absorption_model = "francois-garrison";
   acoustics::NoiseSources noise{.wind_mps = 5};
   FilePath noise_file;  // a table of noise spectra that replaces `noise`
+  acoustics::ProfileModes profile_modes;  // drawn for members of ensembles, not read from a file
   acoustics::NoiseVariation noise_variation;
   double spreading_exponent = 1.5;
   double ph = 8.0;
@@ -112,6 +114,9 @@ struct ServerRules {
   SeabedRule seabed;
   int threads = 1;                   // threads that compute link tables and the paths of packets
   int predicted_payload_bytes = 32;  // payload of the packets whose delivery link tables predict
+  // Noise by which receivers do worse than their profiles in forecasts, dB; negative: better. Drawn for
+  // members of ensembles, not read from a file.
+  double receiver_margin_db = 0;
 };
 
 // The whole configuration of the channel server.

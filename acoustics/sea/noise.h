@@ -29,10 +29,11 @@ struct NoiseSources {
   double wind_mps = 0;                                   // m/s, 10 m above the sea, 0 to 60
   double rain_mm_per_h = 0;                              // 0 to 500
   std::shared_ptr<const NoiseSpectrum> table = nullptr;  // replaces all other sources
+  double offset_db = 0;  // added to the level of all of them together, such as a calibration found it
 };
 
 // Spectrum levels, dB re 1 uPa^2/Hz, and their total power, uPa^2/Hz. Without rain its level is -300. A table
-// sets the total alone.
+// and the offset set the total alone.
 struct NoiseComponents {
   Decibels turbulence, shipping, wind, thermal, rain, total;
   PowerRatio total_power;

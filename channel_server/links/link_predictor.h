@@ -43,6 +43,7 @@ class LinkPredictor {
     std::size_t payload_bytes = 32;  // or a modem's largest payload, if that is less
     acoustics::FadingModel fading;
     std::vector<acoustics::Modem> profiles;  // the known profiles
+    Decibels receiver_margin{0};             // noise by which receivers do worse than their profiles
   };
   // A rate of a transmitter. Rates lists its own rate first, then the other rates of its family, the fastest
   // first.
