@@ -68,7 +68,7 @@ struct EnvironmentConfig {
   std::string sound_speed_model = "mackenzie";
   std::string absorption_model = "francois-garrison";
   acoustics::NoiseSources noise{.wind_mps = 5};
-  FilePath noise_file;  // a table of noise spectra that replaces `noise`
+  FilePath noise_file;                    // a table of noise spectra that replaces `noise`
   acoustics::ProfileModes profile_modes;  // drawn for members of ensembles, not read from a file
   acoustics::NoiseVariation noise_variation;
   double spreading_exponent = 1.5;

@@ -213,9 +213,10 @@ void add_coverage_command(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber);
   command->add_option("--plot", options->plot, "also a picture, FILE.png (of a track also .svg)");
   command
-      ->add_option("--ensemble", options->members,
-                   "number of seas, drawn from [uncertainty]: three maps in the place of one, 10, 50 and 90 % "
-                   "of each quantity, as FILE.10.tif, FILE.50.tif and FILE.90.tif")
+      ->add_option(
+          "--ensemble", options->members,
+          "number of seas, drawn from [uncertainty]: three maps in the place of one, 10, 50 and 90 % "
+          "of each quantity, as FILE.10.tif, FILE.50.tif and FILE.90.tif")
       ->check(CLI::Range(std::size_t{0}, kMostMembers));
   command->add_option("--threads", options->threads, "default: as many as the machine has")
       ->check(CLI::Range(1, 64));

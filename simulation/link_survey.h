@@ -53,8 +53,8 @@ Vec3 parse_vector(const std::string& text, const std::string& what);
 channel_server::EndPair ends_between(const LinkSurveyEnd& from, const LinkSurveyEnd& to);
 
 // Returns the depth of the water under the middle between two places, m; infinity where it is not known.
-double water_depth_m(const ScenarioConfig& config, const bathymetry::Terrain& terrain,
-                     const Vec3& one_ned_m, const Vec3& other_ned_m);
+double water_depth_m(const ScenarioConfig& config, const bathymetry::Terrain& terrain, const Vec3& one_ned_m,
+                     const Vec3& other_ned_m);
 
 // Computes the link at simulation time 0. Throws InvalidArgument when an end is inside the seabed. A straight
 // path passes through terrain, as in a run: a note says so.

@@ -54,8 +54,7 @@ PowerRatio noise_power_density(double frequency_hz, const NoiseSources& sources)
 
 // Each component is monotonic in frequency or has one maximum: its minimum is at an end of the band.
 PowerRatio least_noise_power_density(double low_hz, double high_hz, const NoiseSources& sources) {
-  if (sources.table)
-    return with_offset(to_power_ratio(sources.table->least_level(low_hz, high_hz)), sources);
+  if (sources.table) return with_offset(to_power_ratio(sources.table->least_level(low_hz, high_hz)), sources);
   const NoiseComponents low = noise_components(low_hz, sources), high = noise_components(high_hz, sources);
   double density = 0;
   for (const auto component : {&NoiseComponents::turbulence, &NoiseComponents::shipping,

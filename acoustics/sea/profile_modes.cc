@@ -13,8 +13,8 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr int kRows = 8;             // over the height
-constexpr double kFadesOut = 1.25;   // depth, in heights, from which the modes are 0
+constexpr int kRows = 8;              // over the height
+constexpr double kFadesOut = 1.25;    // depth, in heights, from which the modes are 0
 constexpr double kSameDepthM = 0.01;  // rows closer than that are one
 
 double change_mps(const ProfileModes& modes, double depth_m) {

@@ -12,13 +12,15 @@
 
 namespace halocline::acoustics {
 
-// Amplitudes, m/s, and the height over which they act, m, 1 to 12 000; both amplitudes 0: the profile as it is.
+// Amplitudes, m/s, and the height over which they act, m, 1 to 12 000; both amplitudes 0: the profile as it
+// is.
 struct ProfileModes {
   double first_mps = 0, second_mps = 0, height_m = 200;
 };
 
 // Returns the profile with these modes. `latitude_rad` is that of its water (-pi/2..pi/2). Temperatures and
 // speeds are held within the ranges of a profile's rows.
-SoundSpeedProfile with_modes(const SoundSpeedProfile& profile, const ProfileModes& modes, double latitude_rad);
+SoundSpeedProfile with_modes(const SoundSpeedProfile& profile, const ProfileModes& modes,
+                             double latitude_rad);
 
 }  // namespace halocline::acoustics

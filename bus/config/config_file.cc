@@ -267,8 +267,7 @@ void include_file(ConfigDocument& document) {
     throw ConfigErrors({document.place_of(*node) + ": include is " + value_text(*node) + "; " + why});
   };
   if (!node->is_string()) refuse("the name of one file in TOML is needed");
-  const std::string place =
-      (std::filesystem::path(document.folder()) / node->as_string()->get()).string();
+  const std::string place = (std::filesystem::path(document.folder()) / node->as_string()->get()).string();
   if (const std::string reason = why_unreadable(place); !reason.empty())
     refuse("cannot read " + place + ": " + reason);
   toml::table included;

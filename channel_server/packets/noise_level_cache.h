@@ -24,8 +24,8 @@ class NoiseLevelCache {
   Decibels level(const acoustics::Band& band, const acoustics::NoiseSources& sources);
 
  private:
-  // Low and high end of the band, Hz; shipping; wind, m/s; rain, mm/h; offset, dB; the table of the sea, which
-  // outlives the cache and never changes.
+  // Low and high end of the band, Hz; shipping; wind, m/s; rain, mm/h; offset, dB; the table of the sea,
+  // which outlives the cache and never changes.
   using Key = std::pair<std::array<double, 6>, const acoustics::NoiseSpectrum*>;
   LruCache<Key, Decibels> levels_{kMaxKept};
   // The last query and its result: most packets repeat it.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Delivery of a link against an offset of its noise, as a calibration interpolates it.
 //
-// Model: seven offsets about the middle, where the delivery is half of that without noise, found by bisection,
-// and the delivery without noise. Between them the normal quantile of the delivery ("score") is interpolated by
-// a monotonic cubic, beyond the last linearly: a curve Phi(x / w) is a straight line of scores, and one with a
-// plateau below 1 (late echoes) keeps it. Stored at steps of 1 dB, linear between.
+// Model: seven offsets about the middle, where the delivery is half of that without noise, found by
+// bisection, and the delivery without noise. Between them the normal quantile of the delivery ("score") is
+// interpolated by a monotonic cubic, beyond the last linearly: a curve Phi(x / w) is a straight line of
+// scores, and one with a plateau below 1 (late echoes) keeps it. Stored at steps of 1 dB, linear between.
 #pragma once
 
 #include <array>

@@ -11,7 +11,8 @@ namespace halocline::clients {
 using FunctionOfVector = std::function<double(const Eigen::VectorXd&)>;
 
 // Returns where the function is least, by the simplex of Nelder and Mead 1965 (Computer Journal 7, 308) from
-// `start` with edges `steps` (none 0), until its corners agree within 1e-7 or after `most_values` evaluations.
+// `start` with edges `steps` (none 0), until its corners agree within 1e-7 or after `most_values`
+// evaluations.
 Eigen::VectorXd minimum_of(const FunctionOfVector& f, const Eigen::VectorXd& start,
                            const Eigen::VectorXd& steps, int most_values);
 

@@ -56,7 +56,8 @@ class RowReader {
     if (!has(line, columns_.sent) && !has(line, columns_.received)) return;
     if (!has(line, columns_.sent))
       return refuse(line, *columns_.received, "packets received need the number sent");
-    if (!has(line, columns_.received)) return refuse(line, *columns_.sent, "packets sent need the number received");
+    if (!has(line, columns_.received))
+      return refuse(line, *columns_.sent, "packets sent need the number received");
     const auto sent = parse_number<std::int64_t>(line.cells[*columns_.sent], 0, kMaxPackets);
     const auto received = parse_number<std::int64_t>(line.cells[*columns_.received], 0, kMaxPackets);
     if (!sent) return refuse(line, *columns_.sent, "a whole number from 0 is needed");
@@ -82,7 +83,7 @@ Columns columns_of(const CsvTable& table, const std::string& file, std::vector<s
     const auto found = table.column(one);
     return found ? found : table.column(other);
   };
-  const Columns columns{either("time", "time_s"), table.column("from"),    table.column("to"),
+  const Columns columns{either("time", "time_s"), table.column("from"),     table.column("to"),
                         table.column("sent"),     table.column("received"), either("level_db", "level"),
                         either("snr_db", "snr")};
   const std::string at = file + ":" + std::to_string(table.header.number) + ":1: ";
@@ -171,16 +172,17 @@ std::vector<TrialRow> read_trial_csv(std::istream& in, const std::string& file) 
     const bool has_line = problem.starts_with("line ");  // "line 7: what"
     errors.push_back(file + ":" + (has_line ? problem.substr(5) : "1: " + problem));
   }
-  const Columns columns = problems.empty() || !table.header.cells.empty()
-                              ? columns_of(table, file, errors)
-                              : Columns();
+  const Columns columns =
+      problems.empty() || !table.header.cells.empty() ? columns_of(table, file, errors) : Columns();
   std::vector<TrialRow> rows;
   std::size_t dates = 0;
-  if (columns.time && columns.from && columns.to && columns.sent.has_value() == columns.received.has_value()) {
+  if (columns.time && columns.from && columns.to &&
+      columns.sent.has_value() == columns.received.has_value()) {
     RowReader reader(file, columns, errors);
     for (const CsvLine& line : table.rows) {
       const std::string& time = line.cells[*columns.time];
-      const auto number = parse_number(time, -1e12, 1e12), date = number ? std::nullopt : seconds_of_date(time);
+      const auto number = parse_number(time, -1e12, 1e12),
+                 date = number ? std::nullopt : seconds_of_date(time);
       if (!number && !date)
         reader.refuse(line, *columns.time, "a number of seconds or a date as 2026-05-03T14:00:00Z is needed");
       auto row = reader.read(line);
@@ -225,7 +227,8 @@ std::vector<TrialPair> pairs_of(const std::vector<TrialRow>& rows, double bin_s)
   for (const TrialRow& row : rows) {
     const auto window = static_cast<std::int64_t>(std::floor(row.time_s / bin_s));
     auto& bins = found[{row.from, row.to}];
-    const auto [at, is_new] = bins.try_emplace(window, TrialBin{.window = window, .first_time_s = row.time_s});
+    const auto [at, is_new] =
+        bins.try_emplace(window, TrialBin{.window = window, .first_time_s = row.time_s});
     TrialBin& bin = at->second;
     bin.first_time_s = std::min(bin.first_time_s, row.time_s);
     bin.sent += row.sent;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measurements at sea: packets sent and received, received levels and signal-to-noise ratios of pairs of places,
-// and the bins of time in which a calibration sees them.
+// Measurements at sea: packets sent and received, received levels and signal-to-noise ratios of pairs of
+// places, and the bins of time in which a calibration sees them.
 //
-// CSV (core/csv_table.h) has the columns time, from, to, and sent and received, level_db, or snr_db, or several
-// of these, with empty cells where nothing was measured; other columns are ignored. `from` and `to` are vehicles
-// of the scenario or places "north,east,down", in quotes. `sent` and `received` count packets since the row
-// before, levels are in dB re 1 uPa. Times are all numbers of seconds, of simulation time, or all dates of ISO
-// 8601 ("2026-05-03T14:00:00Z", also with a blank in the place of T, an offset as +02:00, fractions of seconds,
-// no time of the day), which count from the first of them. A row that cannot be read is named by file, line and
-// column.
+// CSV (core/csv_table.h) has the columns time, from, to, and sent and received, level_db, or snr_db, or
+// several of these, with empty cells where nothing was measured; other columns are ignored. `from` and `to`
+// are vehicles of the scenario or places "north,east,down", in quotes. `sent` and `received` count packets
+// since the row before, levels are in dB re 1 uPa. Times are all numbers of seconds, of simulation time, or
+// all dates of ISO 8601 ("2026-05-03T14:00:00Z", also with a blank in the place of T, an offset as +02:00,
+// fractions of seconds, no time of the day), which count from the first of them. A row that cannot be read is
+// named by file, line and column.
 #pragma once
 
 #include <cstddef>
@@ -24,8 +24,8 @@ namespace halocline::clients {
 // One measurement.
 struct TrialRow {
   double time_s = 0;
-  std::string from, to;                         // ends of the link, as link_end() takes them
-  std::int64_t sent = 0, received = 0;          // packets; received is at most sent
+  std::string from, to;                              // ends of the link, as link_end() takes them
+  std::int64_t sent = 0, received = 0;               // packets; received is at most sent
   std::optional<double> level_db = {}, snr_db = {};  // of the received signal
 };
 
@@ -40,8 +40,8 @@ struct TrialBin {
   std::int64_t window = 0;
   double first_time_s = 0;  // of the first row
   std::int64_t sent = 0, received = 0;
-  std::size_t levels = 0, snrs = 0;    // numbers of rows
-  double level_db = 0, snr_db = 0;     // their means
+  std::size_t levels = 0, snrs = 0;  // numbers of rows
+  double level_db = 0, snr_db = 0;   // their means
 };
 
 // All measurements of a sender at a receiver, bins in order of time.

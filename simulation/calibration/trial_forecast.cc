@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t kMiddle = kLnFactors.size() / 2;
 const std::string kEchoKey = "modem.late_echo_share";
 
-// Weights of the factors at ln_factor by Catmull and Rom's cubic, whose slope has no steps; beyond the ends of the
-// table it takes the line through the last two.
+// Weights of the factors at ln_factor by Catmull and Rom's cubic, whose slope has no steps; beyond the ends
+// of the table it takes the line through the last two.
 PairForecast::Values weights_at(double ln_factor) {
   constexpr std::size_t kLast = kLnFactors.size() - 1;
   const double step = kLnFactors[1] - kLnFactors[0];

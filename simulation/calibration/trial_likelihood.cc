@@ -38,7 +38,10 @@ const std::array<SlowPoint, kPoints>& slow_points() {
 class BinLikelihood {
  public:
   BinLikelihood(const ForecastPair& pair, const SeaNumbers& numbers)
-      : pair_(pair), numbers_(numbers), slow_db_(elementary::exp(numbers[kLnSlowDb])), seas_(pair.forecasts.size()) {}
+      : pair_(pair),
+        numbers_(numbers),
+        slow_db_(elementary::exp(numbers[kLnSlowDb])),
+        seas_(pair.forecasts.size()) {}
 
   double of(std::size_t bin_index) {
     const TrialBin& bin = pair_.trial.bins[bin_index];
@@ -93,8 +96,7 @@ class BinLikelihood {
   }
 
   double of_level(double error_db, std::size_t rows) const {
-    const double variance =
-        slow_db_ * slow_db_ + kLevelSpreadDb * kLevelSpreadDb / static_cast<double>(rows);
+    const double variance = slow_db_ * slow_db_ + kLevelSpreadDb * kLevelSpreadDb / static_cast<double>(rows);
     return -0.5 * (error_db * error_db / variance + elementary::log(variance));
   }
 

@@ -3,10 +3,11 @@
 //
 // Model. In a bin of one pair, k of n packets are right with probability
 //   integral of normal(x; 0, slow) binomial(k; n, p(noise + receiver + x)) dx,
-// p the delivery with that much more noise. The integral takes 65 points over four standard deviations to both
-// sides: five points of Gauss and Hermite are 5.7 dB apart for 4.2 dB, while a bin of 20 packets tells the level
-// within 1 dB, so that sum would jump with the offset. The mean of m levels, or of SNRs, is normal with standard
-// deviation sqrt(slow^2 + 3^2 / m); an SNR falls by the noise, a level does not. Bins are independent.
+// p the delivery with that much more noise. The integral takes 65 points over four standard deviations to
+// both sides: five points of Gauss and Hermite are 5.7 dB apart for 4.2 dB, while a bin of 20 packets tells
+// the level within 1 dB, so that sum would jump with the offset. The mean of m levels, or of SNRs, is normal
+// with standard deviation sqrt(slow^2 + 3^2 / m); an SNR falls by the noise, a level does not. Bins are
+// independent.
 #pragma once
 
 #include <array>

@@ -59,10 +59,12 @@ TrialLog read_trial_log(LogReader& log, const ScenarioConfig& config) {
                           .received = outcome.outcome == packet_outcome_t::RECEIVED ? 1 : 0});
   }
   if (moved > 0)
-    trial.notes.push_back(std::to_string(moved) +
-                          " packets are left out: their vehicles had moved from where the scenario starts them");
+    trial.notes.push_back(
+        std::to_string(moved) +
+        " packets are left out: their vehicles had moved from where the scenario starts them");
   if (unknown > 0)
-    trial.notes.push_back(std::to_string(unknown) + " packets are left out: the scenario has no such vehicles");
+    trial.notes.push_back(std::to_string(unknown) +
+                          " packets are left out: the scenario has no such vehicles");
   return trial;
 }
 

@@ -2,11 +2,12 @@
 // Measurements of a log: the outcomes of its packets as rows of trial data.
 //
 // An outcome counts when the sea and the receiver decided it alone: packets lost to other packets, to the
-// receiver's own transmission, sleep, battery or absence, and to [[extra_loss]] are left out, and so are those
-// between modems that never hear each other. Times are those of departure, simulation time.
+// receiver's own transmission, sleep, battery or absence, and to [[extra_loss]] are left out, and so are
+// those between modems that never hear each other. Times are those of departure, simulation time.
 //
 // The forecast of a calibration is between the places where the scenario starts its vehicles, so pairs whose
-// range of an outcome differs from theirs by more than a tenth, and 20 m, are left out there; a note tells how many.
+// range of an outcome differs from theirs by more than a tenth, and 20 m, are left out there; a note tells
+// how many.
 #pragma once
 
 #include <string>

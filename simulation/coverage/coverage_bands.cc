@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/coverage/coverage_bands.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -13,13 +14,13 @@ namespace {
 using Values = std::vector<std::vector<double>>;  // of each depth and cell
 
 // Sets the values of one quantity in the three maps. A cell without water has none in any member.
-void set_bands(CoverageBands& bands, const std::vector<Coverage>& members, Values Coverage::* quantity) {
+void set_bands(CoverageBands& bands, const std::vector<Coverage>& members, Values Coverage::*quantity) {
   for (Coverage& band : bands) band.*quantity = members.front().*quantity;
   std::vector<double> values(members.size());
   for (std::size_t depth = 0; depth < (members.front().*quantity).size(); ++depth) {
     for (std::size_t cell = 0; cell < (members.front().*quantity)[depth].size(); ++cell) {
       for (std::size_t i = 0; i < members.size(); ++i) values[i] = (members[i].*quantity)[depth][cell];
-      if (std::isnan(values.front())) continue;
+      if (std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); })) continue;
       for (std::size_t i = 0; i < bands.size(); ++i)
         (bands[i].*quantity)[depth][cell] = quantile(values, kBandShares[i]);
     }
@@ -49,7 +50,8 @@ CoverageBands coverage_bands(const ScenarioConfig& config, const LinkSurveyEnd& 
     band.area = maps.front().area;
     band.noise_level_db = maps.front().noise_level_db;
   }
-  for (const auto quantity : {&Coverage::delivery, &Coverage::level_db, &Coverage::delay_s, &Coverage::snr_db})
+  for (const auto quantity :
+       {&Coverage::delivery, &Coverage::level_db, &Coverage::delay_s, &Coverage::snr_db})
     set_bands(bands, maps, quantity);
   return bands;
 }

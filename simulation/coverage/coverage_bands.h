@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps of 10, 50 and 90 % over the members of an ensemble (simulation/ensemble/sea_member.h), cell by cell and
-// quantity by quantity: the map of 10 % is no member's.
+// Maps of 10, 50 and 90 % over the members of an ensemble (simulation/ensemble/sea_member.h), cell by cell
+// and quantity by quantity: the map of 10 % is no member's.
 #pragma once
 
 #include <array>

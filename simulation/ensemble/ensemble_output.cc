@@ -7,8 +7,8 @@
 namespace halocline::clients {
 
 std::string to_text(const LinkBands& bands) {
-  std::string text = fmt::format("over {} seas as likely {:>10} {:>10} {:>10}\n", bands.members, "10 %", "50 %",
-                                 "90 %");
+  std::string text =
+      fmt::format("over {} seas as likely {:>10} {:>10} {:>10}\n", bands.members, "10 %", "50 %", "90 %");
   const auto line = [&](const char* name, const ForecastBand& band, int digits, const char* unit) {
     text += fmt::format("  {:<20}{:>11.{}f}{:>11.{}f}{:>11.{}f} {}\n", name, band.low, digits, band.median,
                         digits, band.high, digits, unit);

@@ -21,14 +21,12 @@ class KeyChanger : public bus::ConfigVisitor {
   // `has_modem[i]` is true when the i-th vehicle has a modem of its own.
   KeyChanger(const std::vector<KeyChange>& changes, const std::vector<bool>& has_modem, std::string path = "",
              bool without_modem = false)
-      : changes_(changes),
-        has_modem_(has_modem),
-        path_(std::move(path)),
-        without_modem_(without_modem) {}
+      : changes_(changes), has_modem_(has_modem), path_(std::move(path)), without_modem_(without_modem) {}
 
   void number(std::string_view key, double& value, const bus::NumberRule& rule) override {
     for (const KeyChange& change : changes_)
-      if (change.number && names(change, key)) value = std::clamp(change.number(value), rule.lowest, rule.highest);
+      if (change.number && names(change, key))
+        value = std::clamp(change.number(value), rule.lowest, rule.highest);
   }
   void text(std::string_view key, std::string& value, const std::vector<std::string>& allowed,
             std::string_view /*meaning*/) override {

@@ -35,6 +35,7 @@ KeyChange set_to(const std::string& key, double value);
 void change_keys(channel_server::ChannelServerConfig& config, const std::vector<KeyChange>& changes);
 
 // Returns the number that a key has, at its first place; empty when there is no such key.
-std::optional<double> number_of_key(const channel_server::ChannelServerConfig& config, const std::string& key);
+std::optional<double> number_of_key(const channel_server::ChannelServerConfig& config,
+                                    const std::string& key);
 
 }  // namespace halocline::clients

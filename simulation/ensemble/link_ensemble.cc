@@ -22,8 +22,7 @@ LinkBands link_bands(const ScenarioConfig& config, const LinkSurveyEnd& from, co
   std::vector<double> levels_db, snrs_db, deliveries;
   for (std::size_t i = 0; i < members; ++i) {
     const MemberDraws draws = draws_of(config.scenario.seed, i, members);
-    const ScenarioConfig member =
-        member_of(config, draws, depth_m, from.modem.modem.centre_frequency_hz);
+    const ScenarioConfig member = member_of(config, draws, depth_m, from.modem.modem.centre_frequency_hz);
     LinkSurveyor surveyor(member, terrain, read_water(member.channel_server, member.scenario));
     const auto [reception, forecast] = surveyor.survey(link.from, link.to);
     levels_db.push_back(reception.budget.received_level.value);

@@ -57,8 +57,8 @@ void still_the_hours(channel_server::ChannelServerConfig& config) {
 }
 
 void scale_bottom(channel_server::ChannelServerConfig& config, double factor) {
-  change_keys(config, {scaled("propagation.bottom_roughness_m", factor),
-                       scaled("propagation.bottom_slope", factor)});
+  change_keys(config,
+              {scaled("propagation.bottom_roughness_m", factor), scaled("propagation.bottom_slope", factor)});
 }
 
 ScenarioConfig member_of(const ScenarioConfig& config, const MemberDraws& draws, double depth_m,
@@ -70,11 +70,10 @@ ScenarioConfig member_of(const ScenarioConfig& config, const MemberDraws& draws,
   const double wind = std::max(1 + spread.wind_share * draws.wind, 0.0);
   const double noise_db = spread.noise_db_at(frequency_hz) * draws.noise;
   const int rows = static_cast<int>(std::lround(spread.sediment_rows * draws.sediment));
-  const KeyChange sediment{"propagation.sediment",
-                           {},
-                           [rows](const std::string& name, const std::vector<std::string>& allowed) {
-                             return sediment_beside(name, allowed, rows);
-                           }};
+  const KeyChange sediment{
+      "propagation.sediment", {}, [rows](const std::string& name, const std::vector<std::string>& allowed) {
+        return sediment_beside(name, allowed, rows);
+      }};
   change_keys(sea, {scaled("environment.wind_mps", wind), scaled("environment_change.wind_mps", wind),
                     added("environment.noise_offset_db", noise_db), sediment});
   const double shared = spread.noise_bottom_correlation;

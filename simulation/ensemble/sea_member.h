@@ -3,12 +3,12 @@
 //
 // Each member draws seven normal numbers, with the spreads of [uncertainty] (uncertainty_config.h): two modes
 // of the sound-speed profile, the wind, the noise, a margin of the receivers, one factor of the bottom's
-// roughness and slope, and the sediment's row. They are stratified: the i-th number of N members takes each of
-// N equally likely strata once, in an order that the scenario's seed, the number and N address (a Latin
+// roughness and slope, and the sediment's row. They are stratified: the i-th number of N members takes each
+// of N equally likely strata once, in an order that the scenario's seed, the number and N address (a Latin
 // hypercube), so that medians and quantiles vary little with the seed. Members leave out what changes by the
-// hour: slow fading and the noise's spread, which a table's delivery_low and delivery_high tell, and the drift
-// of the profile, in whose place they have modes of their own.
-// The profile of an [ocean] field stays as it is.
+// hour: slow fading and the noise's spread, which a table's delivery_low and delivery_high tell, and the
+// drift of the profile, in whose place they have modes of their own. The profile of an [ocean] field stays as
+// it is.
 #pragma once
 
 #include <array>
