@@ -317,6 +317,7 @@ LinkPredictor make_predictor(const ServerRules& rules) {
   rule.noise = rules.medium.noise;
   rule.seed = rules.medium.seed;
   rule.impulsive_noise = rules.medium.noise.has_bursts();
+  rule.receiver_margin = {rules.receiver_margin_db};
   for (const std::string& name : built_in_modems()) rule.profiles.push_back(built_in_modem(name));
   return LinkPredictor(std::move(rule));
 }

@@ -18,6 +18,7 @@
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
+#include "acoustics/sea/profile_modes.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "acoustics/sea/water_load.h"
 #include "bus/config/config.h"
@@ -76,6 +77,7 @@ struct EnvironmentConfig {
   std::string noise_place = "open";
   FilePath site_noise_file;  // noise measured at the place, in the place of noise_place: a file, or
   std::vector<std::array<double, 2>> site_noise;  // rows of frequency, kHz, and level, dB re 1 uPa^2/Hz
+  acoustics::ProfileModes profile_modes;          // drawn for members of ensembles, not read from a file
   acoustics::NoiseVariation noise_variation;
   double profile_spread_mps = 0;  // of ProfileDrift
   acoustics::WaterLoad load;
@@ -125,6 +127,9 @@ struct ServerRules {
   SeabedRule seabed;
   int threads = 1;                   // threads that compute link tables and the paths of packets
   int predicted_payload_bytes = 32;  // payload of the packets whose delivery link tables predict
+  // Noise by which receivers do worse than their profiles in forecasts, dB; negative: better. Drawn for
+  // members of ensembles, not read from a file.
+  double receiver_margin_db = 0;
 };
 
 // The whole configuration of the channel server.

@@ -17,6 +17,7 @@
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/fine_structure.h"
 #include "acoustics/sea/profile_drift.h"
+#include "acoustics/sea/profile_modes.h"
 #include "acoustics/sea/profile_reader.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
@@ -149,6 +150,8 @@ void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
     v.number("rain_mm_per_h", e.noise.rain_mm_per_h, kRain);
     visit_place(v, e);
   });
+  v.number("noise_offset_db", e.noise.offset_db,
+           {-60, 60, "dB", "level added to the ambient noise, such as halocline calibrate finds it"});
   acoustics::NoiseVariation& n = e.noise_variation;
   v.number("noise_spread_db", n.spread_db,
            {0, 30, "dB", "standard deviation of the ambient noise over time; 0: none"});
@@ -330,9 +333,7 @@ acoustics::SoundSpeedProfile profile_from_file(const EnvironmentConfig& config,
       .profile;
 }
 
-}  // namespace
-
-acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario) {
+acoustics::SoundSpeedProfile stated_profile(const EnvironmentConfig& config, const bus::Scenario& scenario) {
   using Profile = acoustics::SoundSpeedProfile;
   const auto model = acoustics::sound_speed_model_from_name(config.sound_speed_model);
   require(model.has_value(), "no sound-speed model is called " + config.sound_speed_model);
@@ -354,6 +355,13 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
       break;
   }
   return profile_from_file(config, *model, scenario);
+}
+
+}  // namespace
+
+acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario) {
+  return with_modes(stated_profile(config, scenario), config.profile_modes,
+                    to_radians(scenario.origin_latitude_deg));
 }
 
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {

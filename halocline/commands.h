@@ -29,6 +29,7 @@ void add_rotation_options(CLI::App& command, std::vector<std::string>& rotate, i
 void add_run_command(CLI::App& app, int& exit_code);
 void add_link_command(CLI::App& app, int& exit_code);
 void add_coverage_command(CLI::App& app, int& exit_code);
+void add_calibrate_command(CLI::App& app, int& exit_code);
 void add_calc_command(CLI::App& app, int& exit_code);
 void add_arrivals_command(CLI::App& app, int& exit_code);
 void add_report_command(CLI::App& app, int& exit_code);

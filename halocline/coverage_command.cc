@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -10,6 +12,7 @@
 
 #include <fmt/ostream.h>
 
+#include "bathymetry/terrain/terrain.h"
 #include "bus/transport/event_log.h"
 #include "core/atomic_file.h"
 #include "core/check.h"
@@ -21,9 +24,11 @@
 #include "runs/plot/plot.h"
 #include "simulation/composition.h"
 #include "simulation/coverage/coverage.h"
+#include "simulation/coverage/coverage_bands.h"
 #include "simulation/coverage/coverage_files.h"
 #include "simulation/coverage/coverage_links.h"
 #include "simulation/coverage/coverage_track.h"
+#include "simulation/ensemble/link_ensemble.h"
 #include "simulation/link_survey.h"
 #include "simulation/log_estimate.h"
 
@@ -34,6 +39,7 @@ struct CoverageOptions {
   std::string scenario, from, depths, quantities = "delivery", sharing = "none", output, track, plot;
   std::vector<std::string> overrides;
   double cell_m = 0, range_m = 0, every_s = 10;
+  std::size_t members = 0;
   int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
   bool force = false;
 };
@@ -79,12 +85,23 @@ void note_terrain(const ScenarioConfig& config, const Coverage& coverage) {
                                                                   : "they have no value (NO_TERRAIN)");
 }
 
+// Writes the three maps of an ensemble and returns that of 50 %.
+Coverage write_bands(const CoverageOptions& options, const ScenarioConfig& config, const LinkSurveyEnd& from,
+                     const bathymetry::Terrain& terrain, const CoverageFile& file,
+                     const std::function<Coverage(const ScenarioConfig&)>& computed) {
+  const CoverageBands bands = coverage_bands(config, from, terrain, options.members, computed);
+  for (std::size_t i = 0; i < bands.size(); ++i)
+    write_coverage(bands[i], file, name_of_band(options.output, i));
+  return bands[1];
+}
+
 int map(const CoverageOptions& options, const ScenarioConfig& config, const LinkSurveyEnd& from) {
   const CoverageArea area = area_of(options, from);
   const auto quantities = quantities_of(options.quantities);
   constexpr double kBytesACell =
       8 * sizeof(double);  // six quantities, and two values while writing
-  require_memory(static_cast<double>(area.side * area.side * area.depths_m.size()) * kBytesACell +
+  require_memory(static_cast<double>(area.side * area.side * area.depths_m.size() * (options.members + 1)) *
+                         kBytesACell +
                      estimated_memory_bytes(config),
                  "the map", "take larger cells, a shorter range or fewer depths");
   note_what_is_left_out(config);
@@ -100,9 +117,12 @@ int map(const CoverageOptions& options, const ScenarioConfig& config, const Link
         "{} links over terrain are searched one by one; --share-rays depths takes a third of the time, "
         "--share-rays ranges a twentieth\n",
         links);
+  const auto computed = [&](const ScenarioConfig& sea) {
+    return compute_coverage(sea, terrain, from, area, quantities, options.threads, sharing_of(options));
+  };
   const Coverage coverage =
-      compute_coverage(config, terrain, from, area, quantities, options.threads, sharing_of(options));
-  write_coverage(coverage, file, options.output);
+      options.members > 0 ? write_bands(options, config, from, *terrain, file, computed) : computed(config);
+  if (options.members == 0) write_coverage(coverage, file, options.output);
   note_terrain(config, coverage);
   if (!options.plot.empty()) write_coverage_picture(coverage, file, options.plot);
   const auto best = coverage.best_depth();
@@ -153,7 +173,14 @@ int coverage(const CoverageOptions& options) {
     require_coverage_file(options.output);
   }
   if (!options.plot.empty()) require_plot_file(options.plot);
-  require_free({{options.output, options.plot}, options.force}, {options.scenario, options.track});
+  require(!is_track || options.members == 0, "--ensemble goes with a map, not with --track");
+  std::vector<std::string> outputs{options.output, options.plot};
+  if (options.members > 0) {
+    outputs.front() = name_of_band(options.output, 1);
+    outputs.push_back(name_of_band(options.output, 0));
+    outputs.push_back(name_of_band(options.output, 2));
+  }
+  require_free({outputs, options.force}, {options.scenario, options.track});
   const ScenarioConfig config =
       load_scenario(options.scenario, options.overrides, is_track ? ScenarioUse::kRun : ScenarioUse::kWater);
   const LinkSurveyEnd from = link_end(config, options.from);
@@ -197,6 +224,12 @@ void add_coverage_command(CLI::App& app, int& exit_code) {
   command->add_option("--every", options->every_s, "with --track VEHICLE: seconds between places; default 10")
       ->check(CLI::PositiveNumber);
   command->add_option("--plot", options->plot, "also a picture, FILE.png (of a track also .svg)");
+  command
+      ->add_option(
+          "--ensemble", options->members,
+          "number of seas, drawn from [uncertainty]: three maps in the place of one, 10, 50 and 90 % "
+          "of each quantity, as FILE.10.tif, FILE.50.tif and FILE.90.tif")
+      ->check(CLI::Range(std::size_t{0}, kMostMembers));
   command->add_option("--threads", options->threads, "default: as many as the machine has")
       ->check(CLI::Range(1, 64));
   command->add_option("--set", options->overrides, "change a key: section.key=value (repeatable)")

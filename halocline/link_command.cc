@@ -18,6 +18,8 @@
 #include "simulation/arrivals/arrival_output.h"
 #include "simulation/arrivals/arrival_plot.h"
 #include "simulation/composition.h"
+#include "simulation/ensemble/ensemble_output.h"
+#include "simulation/ensemble/link_ensemble.h"
 #include "simulation/link_output.h"
 #include "simulation/link_survey.h"
 
@@ -30,6 +32,7 @@ struct LinkOptions {
   std::optional<double> source_level_db, cutoff_level_db, center_frequency_hz, bandwidth_hz;
   std::string from_velocity, to_velocity, format = "table", plot;
   double impulse_rate_hz = 0;
+  std::size_t members = 0;
   bool json = false, arrivals = false, force = false;
 };
 
@@ -126,12 +129,18 @@ int link(const LinkOptions& options) {
   if (!options.to_velocity.empty()) to.velocity_ned_mps = parse_vector(options.to_velocity, "--to-velocity");
   const LinkSurvey answer = survey_link(config, from, to);
   for (const std::string& note : answer.notes) std::cerr << "note: " << note << "\n";
-  if (options.arrivals)
+  if (options.arrivals) {
     print_paths(options, from, answer.arrivals);
-  else if (options.json || options.format == "json")
-    std::cout << to_json(from, to, answer) << "\n";
-  else
+    return kDone;
+  }
+  LinkBands bands;
+  if (options.members > 0) bands = link_bands(config, from, to, options.members);
+  if (options.json || options.format == "json") {
+    std::cout << with_bands(to_json(from, to, answer), bands) << "\n";
+  } else {
     print_table(from, to, answer);
+    if (options.members > 0) std::cout << to_text(bands);
+  }
   return kDone;
 }
 
@@ -148,6 +157,11 @@ void add_link_command(CLI::App& app, int& exit_code) {
   command->add_option("--cutoff-level-db", options->cutoff_level_db, "of the modems, dB re 1 uPa");
   command->add_option("--center-frequency-hz", options->center_frequency_hz, "of the modems, hertz");
   command->add_option("--bandwidth-hz", options->bandwidth_hz, "of the modems, hertz");
+  command
+      ->add_option("--ensemble", options->members,
+                   "number of seas, drawn from [uncertainty], of which the band is told: 10, 50 and 90 % of "
+                   "level, SNR and delivery; 0: none, the default")
+      ->check(CLI::Range(std::size_t{0}, kMostMembers));
   command->add_option("--set", options->overrides, "change a key: section.key=value (repeatable)")
       ->take_all()
       ->allow_extra_args(false);

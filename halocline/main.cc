@@ -49,7 +49,8 @@ void describe(CLI::App& app, int& exit_code) {
        {hc::add_run_command, hc::add_link_command, hc::add_coverage_command, hc::add_arrivals_command,
         hc::add_calc_command, hc::add_report_command, hc::add_outcomes_command, hc::add_log_command,
         hc::add_replay_command, hc::add_compare_command, hc::add_sweep_command, hc::add_vehicle_command,
-        hc::add_waveform_command, hc::add_view_command, hc::add_config_command, hc::add_completion_command}) {
+        hc::add_calibrate_command, hc::add_waveform_command, hc::add_view_command, hc::add_config_command,
+        hc::add_completion_command}) {
     add(app, exit_code);
   }
   add_any_raster_option(app);

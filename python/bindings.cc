@@ -28,6 +28,8 @@
 #include "simulation/arrivals/arrival_output.h"
 #include "simulation/arrivals/sea_files.h"
 #include "simulation/composition.h"
+#include "simulation/ensemble/ensemble_output.h"
+#include "simulation/ensemble/link_ensemble.h"
 #include "simulation/link_output.h"
 #include "simulation/link_survey.h"
 
@@ -95,7 +97,8 @@ py::tuple read_log(const std::vector<std::string>& paths, const std::string& cha
 // Returns the budget in JSON, the paths in JSON, and notes.
 std::tuple<std::string, std::string, std::vector<std::string>> link(
     const std::string& scenario, const std::string& from_text, const std::string& to_text,
-    const std::vector<std::string>& overrides, const Vec3& from_velocity, const Vec3& to_velocity) {
+    const std::vector<std::string>& overrides, const Vec3& from_velocity, const Vec3& to_velocity,
+    std::size_t members) {
   const ScenarioConfig config = load_scenario(scenario, overrides, ScenarioUse::kWater);
   LinkSurveyEnd from = link_end(config, from_text), to = link_end(config, to_text);
   from.velocity_ned_mps = from_velocity;
@@ -103,7 +106,9 @@ std::tuple<std::string, std::string, std::vector<std::string>> link(
   const LinkSurvey answer = survey_link(config, from, to);
   std::ostringstream paths;
   print_arrivals(paths, {answer.arrivals}, OutputFormat::kJson);
-  return {to_json(from, to, answer), paths.str(), answer.notes};
+  LinkBands bands;
+  if (members > 0) bands = link_bands(config, from, to, members);
+  return {with_bands(to_json(from, to, answer), bands), paths.str(), answer.notes};
 }
 
 // Sets an option of the sea; names and meanings are those of `halocline arrivals`.
@@ -170,11 +175,13 @@ PYBIND11_MODULE(_halocline, m) {
       "link",
       [](const std::string& scenario, const std::string& from, const std::string& to,
          const std::vector<std::string>& overrides, const std::array<double, 3>& from_velocity,
-         const std::array<double, 3>& to_velocity) {
-        return link(scenario, from, to, overrides, Vec3(from_velocity.data()), Vec3(to_velocity.data()));
+         const std::array<double, 3>& to_velocity, std::size_t members) {
+        return link(scenario, from, to, overrides, Vec3(from_velocity.data()), Vec3(to_velocity.data()),
+                    members);
       },
       py::arg("scenario"), py::arg("source"), py::arg("receiver"), py::arg("overrides"),
-      py::arg("source_velocity"), py::arg("receiver_velocity"), py::call_guard<py::gil_scoped_release>());
+      py::arg("source_velocity"), py::arg("receiver_velocity"), py::arg("ensemble"),
+      py::call_guard<py::gil_scoped_release>());
   m.def(
       "arrivals",
       [](double source_depth_m, double receiver_depth_m, double range_m, const std::string& solver,

@@ -33,6 +33,7 @@ void visit(bus::ConfigVisitor& v, ScenarioConfig& config) {
   visit(v, config.localiser);
   networks::visit(v, config.network);
   modem_gateway::visit(v, config.gateway);
+  visit(v, config.uncertainty);
 }
 
 namespace {
@@ -134,6 +135,7 @@ std::string key_list(bus::KeyClass key_class) {
   config.localiser.vehicles.resize(1);
   config.network.members.resize(1);
   config.gateway.interfaces.resize(1);
+  config.uncertainty.noise_db = Uncertainty::kNoiseDb;
   config.gateway.interfaces[0] = {"auv-1", 1, "nm3", modem_gateway::place_of("tcp:9600"), "", ""};
   return bus::to_key_list([&](bus::ConfigVisitor& v) { visit(v, config); }, key_class);
 }

@@ -24,6 +24,7 @@
 #include "clients/onboard/localiser/localiser_config.h"
 #include "clients/onboard/networks/network_config.h"
 #include "clients/onboard/traffic/traffic_config.h"
+#include "simulation/uncertainty_config.h"
 #include "vehicle_sim/vehicle_sim_config.h"
 
 namespace halocline::clients {
@@ -39,6 +40,7 @@ struct ScenarioConfig {
   LocaliserConfig localiser;
   networks::NetworkConfig network;       // an example client; runs when it names a protocol
   modem_gateway::GatewayConfig gateway;  // runs when there are modem interfaces
+  Uncertainty uncertainty;               // of ensembles
 };
 
 void visit(bus::ConfigVisitor& v, ScenarioConfig& config);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <utility>
@@ -237,20 +238,31 @@ void answer_requests(const bathymetry::Terrain& terrain, channel_server::SeabedM
   }
 }
 
-LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to) {
-  const auto terrain = make_terrain(config).terrain;
-  require_above_seabed(*terrain, from);
-  require_above_seabed(*terrain, to);
+channel_server::EndPair ends_between(const LinkSurveyEnd& from, const LinkSurveyEnd& to) {
   const acoustics::Modem &transmitter = from.modem.modem, &receiver = receiving_modem(to.modem, transmitter);
   // The transmitter's id only selects the direction in which paths are searched, so a link to a position has
   // none.
   const channel_server::VehicleId from_id = to.id == 0 ? 0 : from.id;
-  const channel_server::LinkEnd here{from_id, from.position_ned_m, from.velocity_ned_mps, &transmitter};
-  const channel_server::LinkEnd there{to.id, to.position_ned_m, to.velocity_ned_mps, &receiver};
+  return {{from_id, from.position_ned_m, from.velocity_ned_mps, &transmitter},
+          {to.id, to.position_ned_m, to.velocity_ned_mps, &receiver}};
+}
+
+double water_depth_m(const ScenarioConfig& config, const bathymetry::Terrain& terrain, const Vec3& one_ned_m,
+                     const Vec3& other_ned_m) {
+  const auto seabed_m = seabed_z_m(terrain, 0.5 * (one_ned_m + other_ned_m));
+  return seabed_m ? *seabed_m - config.scenario.sea_surface_z_m : std::numeric_limits<double>::infinity();
+}
+
+LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to) {
+  const auto terrain = make_terrain(config).terrain;
+  require_above_seabed(*terrain, from);
+  require_above_seabed(*terrain, to);
+  const channel_server::EndPair link = ends_between(from, to);
+  const acoustics::Modem &transmitter = *link.from.modem, &receiver = *link.to.modem;
   LinkSurveyor surveyor(config, terrain, read_water(config.channel_server, config.scenario));
   LinkSurvey answer;
   answer.notes = notes_of(config, *terrain, from, to, surveyor);
-  auto [reception, forecast] = surveyor.survey(here, there);
+  auto [reception, forecast] = surveyor.survey(link.from, link.to);
   answer.reception = std::move(reception);
   answer.forecast = forecast;
   answer.arrivals = link_arrivals(config, from, to, answer.reception,

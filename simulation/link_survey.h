@@ -48,6 +48,14 @@ LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text);
 // Parses "1,2,3" as three numbers; throws InvalidArgument that names `what` when `text` is anything else.
 Vec3 parse_vector(const std::string& text, const std::string& what);
 
+// Returns the ends as the channel server sees them; they refer to the modems of `from` and `to`, which must
+// outlive them.
+channel_server::EndPair ends_between(const LinkSurveyEnd& from, const LinkSurveyEnd& to);
+
+// Returns the depth of the water under the middle between two places, m; infinity where it is not known.
+double water_depth_m(const ScenarioConfig& config, const bathymetry::Terrain& terrain, const Vec3& one_ned_m,
+                     const Vec3& other_ned_m);
+
 // Computes the link at simulation time 0. Throws InvalidArgument when an end is inside the seabed. A straight
 // path passes through terrain, as in a run: a note says so.
 LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to);

@@ -79,6 +79,15 @@ LinkSurveyor::Answer LinkSurveyor::survey(const LinkEnd& from, const LinkEnd& to
                         : propagation().reception_without_capacity(SimTime(), link.from, link.to));
 }
 
+channel_server::LinkForecast LinkSurveyor::forecast_in_noise(const LinkEnd& from, const LinkEnd& to,
+                                                             const channel_server::Reception& reception,
+                                                             double more_noise_db) {
+  channel_server::Reception noisy = reception;
+  noisy.budget.noise_level = noisy.budget.noise_level + Decibels{more_noise_db};
+  noisy.budget.snr = noisy.budget.snr - Decibels{more_noise_db};
+  return forecast(from, to, std::move(noisy)).forecast;
+}
+
 Decibels LinkSurveyor::noise_level(const acoustics::Modem& transmitter) {
   return sounds_.noise_level(0, transmitter.band(), SimTime(), SimTime());
 }

@@ -53,6 +53,12 @@ class LinkSurveyor {
   // null: the link has a search of its own.
   Answer survey(const channel_server::LinkEnd& from, const channel_server::LinkEnd& to, const Seabed& seabed,
                 channel_server::SharedLine* line);
+  // Returns the forecast of a reception, found by survey() for the same ends, in noise that is louder by
+  // `more_noise_db`; negative: quieter.
+  channel_server::LinkForecast forecast_in_noise(const channel_server::LinkEnd& from,
+                                                 const channel_server::LinkEnd& to,
+                                                 const channel_server::Reception& reception,
+                                                 double more_noise_db);
   // Returns the ambient noise level over the transmitter's band at time 0, with its slow change, dB re 1 uPa.
   Decibels noise_level(const acoustics::Modem& transmitter);
   channel_server::Propagation& propagation() { return *water_.propagation; }

@@ -25,6 +25,12 @@ Decibels place_level(double frequency_hz, const NoiseSources& sources) {
 
 bool has_place(const NoiseSources& sources) { return sources.site || sources.place != NoisePlace::kOpen; }
 
+// Power of all sources together, with their offset.
+PowerRatio with_offset(PowerRatio power, const NoiseSources& sources) {
+  return sources.offset_db == 0 ? power
+                                : PowerRatio{power.value * to_power_ratio(Decibels{sources.offset_db}).value};
+}
+
 }  // namespace
 
 NoiseComponents noise_components(double frequency_hz, const NoiseSources& sources) {
@@ -47,6 +53,7 @@ NoiseComponents noise_components(double frequency_hz, const NoiseSources& source
   if (sources.rain_mm_per_h > 0) n.total_power = n.total_power + to_power_ratio(n.rain);
   if (has_place(sources)) n.total_power = n.total_power + to_power_ratio(n.place);
   if (sources.table) n.total_power = to_power_ratio(sources.table->level(frequency_hz));
+  n.total_power = with_offset(n.total_power, sources);
   n.total = to_decibels(n.total_power);
   return n;
 }
@@ -58,7 +65,7 @@ PowerRatio noise_power_density(double frequency_hz, const NoiseSources& sources)
 // Each component is monotonic in frequency or has one maximum: its minimum is at an end of the band. A
 // spectrum measured at the place may have its least level anywhere.
 PowerRatio least_noise_power_density(double low_hz, double high_hz, const NoiseSources& sources) {
-  if (sources.table) return to_power_ratio(sources.table->least_level(low_hz, high_hz));
+  if (sources.table) return with_offset(to_power_ratio(sources.table->least_level(low_hz, high_hz)), sources);
   const NoiseComponents low = noise_components(low_hz, sources), high = noise_components(high_hz, sources);
   double density = 0;
   for (const auto component : {&NoiseComponents::turbulence, &NoiseComponents::shipping,
@@ -71,7 +78,7 @@ PowerRatio least_noise_power_density(double low_hz, double high_hz, const NoiseS
   } else if (has_place(sources)) {
     density += to_power_ratio(std::min(low.place, high.place)).value;
   }
-  return {density};
+  return with_offset({density}, sources);
 }
 
 PowerRatio noise_power_over_band(double low_hz, double high_hz, const NoiseSources& sources) {

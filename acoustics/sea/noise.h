@@ -34,10 +34,11 @@ struct NoiseSources {
   NoisePlace place = NoisePlace::kOpen;
   // Noise of the place as measured, in the place of that of its kind.
   std::shared_ptr<const NoiseSpectrum> site = nullptr;
+  double offset_db = 0;  // added to the level of all of them together, such as a calibration found it
 };
 
 // Spectrum levels, dB re 1 uPa^2/Hz, and their total power, uPa^2/Hz. A source that is absent (rain, a
-// place in the open sea, wind under ice) has the level -300. A table sets the total alone.
+// place in the open sea, wind under ice) has the level -300. A table and the offset set the total alone.
 struct NoiseComponents {
   Decibels turbulence, shipping, wind, thermal, rain, place, total;
   PowerRatio total_power;

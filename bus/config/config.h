@@ -188,7 +188,9 @@ struct ConfigDocument;  // the parsed TOML and its errors
 class ConfigFile {
  public:
   // Throws ConfigErrors when the file cannot be read or is no TOML. Each override is "section.key=value" with
-  // a TOML value; "vehicle.0.key=value" addresses an array of tables.
+  // a TOML value; "vehicle.0.key=value" addresses an array of tables. A key `include = "file.toml"` before
+  // all sections names a file beside this one whose values replace this file's own, and are replaced by
+  // overrides; such a file includes no other.
   static ConfigFile load(const std::string& path, const std::vector<std::string>& overrides = {});
   // Loads a file that another configuration names. It is carried along together with the files that it names
   // itself, and its warnings are added to those of the other configuration.

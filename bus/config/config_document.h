@@ -42,6 +42,7 @@ struct ConfigDocument {
   };
   std::map<const toml::node*, Files> files;
   std::shared_ptr<UnpackedFiles> unpacked;  // carried by the configuration; null: none
+  std::vector<std::string> included;        // files whose values are in `root` as if it stated them
   // Keys that any read visited, by their table ("vehicle.modem."; items of a list share one).
   std::map<std::string, std::set<std::string, std::less<>>> known;
 
@@ -49,6 +50,8 @@ struct ConfigDocument {
   std::string place_of(const toml::node& node) const;
   [[nodiscard]] bool is_override(const toml::node& node) const;
   std::string folder() const;
+  // Returns the folder of the file that states the node: the document's, or that of an included file.
+  [[nodiscard]] std::string folder_of(const toml::node& node) const;
   // Returns the file that the key of `node` names, with its place. Two calls for one key give the same
   // origin.
   FilePath resolved(const toml::node& node, const std::string& given, FileNames names);

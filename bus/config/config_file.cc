@@ -84,6 +84,20 @@ toml::table parsed_table(const std::string& text, std::string_view name) {
   return toml::parse(text, name);
 }
 
+// Throws ConfigErrors for a file that is too long to be a configuration.
+std::string file_text(const std::string& path) {
+  std::ifstream file(path);
+  constexpr std::size_t kMaxBytes = 64u << 20;  // 16 384 vehicles take 15 MB
+  std::string text;
+  for (std::array<char, 65'536> part; file && text.size() <= kMaxBytes;) {
+    file.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (text.size() > kMaxBytes)
+    throw ConfigErrors({path + ": is longer than 64 MB; a file in TOML is needed"});
+  return text;
+}
+
 // Returns the member of a table by key, or of an array by index; null if there is none.
 toml::node* child_of(toml::node& parent, std::string_view key) {
   if (toml::table* table = parent.as_table()) return table->get(key);
@@ -216,6 +230,7 @@ void add_warnings_of_files(ConfigDocument& document) {
 
 // Adds the files that the document names, and those that they name in turn.
 void add_inputs(const ConfigDocument& document, std::vector<std::string>& inputs) {
+  inputs.insert(inputs.end(), document.included.begin(), document.included.end());
   for (const auto& [node, files] : document.files) {
     for (const FilePath& path : files.paths) {
       if (!names_a_file(path.given(), files.names)) continue;
@@ -224,6 +239,48 @@ void add_inputs(const ConfigDocument& document, std::vector<std::string>& inputs
       if (origin != nullptr && origin->document) add_inputs(*origin->document, inputs);
     }
   }
+}
+
+// Puts the values of an included file in the place of the document's own, key by key; a warning names each
+// value that is replaced by another. `prefix` names the table.
+void include(ConfigDocument& document, toml::table& into, toml::table& from, const std::string& prefix) {
+  for (auto&& [key, value] : from) {
+    const std::string name = prefix + std::string(key.str());
+    toml::node* own = into.get(key.str());
+    if (own != nullptr && own->is_table() && value.is_table()) {
+      include(document, *own->as_table(), *value.as_table(), name + ".");
+      continue;
+    }
+    if (own != nullptr && value_text(*own) != value_text(value))
+      document.add_warning(document.place_of(*own) + ": " + name + " is " + value_text(*own) + "; " +
+                           document.place_of(value) + " replaces it by " + value_text(value));
+    value.visit([&, word = key.str()](auto& given) { into.insert_or_assign(word, std::move(given)); });
+  }
+}
+
+// Reads the file that the key `include` of the document names, whose values replace the document's own, and
+// removes the key. Throws ConfigErrors when that file cannot be used.
+void include_file(ConfigDocument& document) {
+  const toml::node* node = document.root.get("include");
+  if (node == nullptr) return;
+  const auto refuse = [&](const std::string& why) {
+    throw ConfigErrors({document.place_of(*node) + ": include is " + value_text(*node) + "; " + why});
+  };
+  if (!node->is_string()) refuse("the name of one file in TOML is needed");
+  const std::string place = (std::filesystem::path(document.folder()) / node->as_string()->get()).string();
+  if (const std::string reason = why_unreadable(place); !reason.empty())
+    refuse("cannot read " + place + ": " + reason);
+  toml::table included;
+  try {
+    included = parsed_table(file_text(place), place);
+  } catch (const toml::parse_error& error) {
+    throw ConfigErrors({parse_error_text(place, error)});
+  }
+  if (included.contains("include") || included.contains("file"))
+    refuse("the file includes others itself; allowed is one that holds sections and keys alone");
+  document.included.push_back(place);
+  document.root.erase("include");
+  include(document, document.root, included, "");
 }
 
 std::shared_ptr<ConfigDocument> parsed(const std::string& text, const std::string& path,
@@ -236,6 +293,7 @@ std::shared_ptr<ConfigDocument> parsed(const std::string& text, const std::strin
     throw ConfigErrors({parse_error_text(path, error)});
   }
   document->unpack_files();
+  include_file(*document);
   for (const std::string& text_of_override : overrides) apply_override(document->root, text_of_override);
   return document;
 }
@@ -250,16 +308,7 @@ ConfigFile& ConfigFile::operator=(ConfigFile&&) noexcept = default;
 ConfigFile ConfigFile::load(const std::string& path, const std::vector<std::string>& overrides) {
   if (const std::string reason = why_unreadable(path); !reason.empty())
     throw ConfigErrors({path + ": cannot be read: " + reason + "; a file in TOML is needed"});
-  std::ifstream file(path);
-  constexpr std::size_t kMaxBytes = 64u << 20;  // 16 384 vehicles take 15 MB
-  std::string text;
-  for (std::array<char, 65'536> part; file && text.size() <= kMaxBytes;) {
-    file.read(part.data(), part.size());
-    text.append(part.data(), static_cast<std::size_t>(file.gcount()));
-  }
-  if (text.size() > kMaxBytes)
-    throw ConfigErrors({path + ": is longer than 64 MB; a file in TOML is needed"});
-  return ConfigFile(parsed(text, path, overrides));
+  return ConfigFile(parsed(file_text(path), path, overrides));
 }
 
 ConfigFile ConfigFile::load_named(const FilePath& path) {

@@ -59,8 +59,8 @@ std::string value_text(const toml::node& node) {
 std::string ConfigDocument::place_of(const toml::node& node) const {
   const toml::source_region& source = node.source();
   if (source.path == nullptr) return path;  // a section that the file does not have
-  if (*source.path != path) return *source.path;
-  return path + ":" + std::to_string(source.begin.line);
+  if (is_override(node)) return *source.path;
+  return *source.path + ":" + std::to_string(source.begin.line);
 }
 
 bool ConfigDocument::is_override(const toml::node& node) const {
@@ -70,6 +70,13 @@ bool ConfigDocument::is_override(const toml::node& node) const {
 std::string ConfigDocument::folder() const {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
+}
+
+std::string ConfigDocument::folder_of(const toml::node& node) const {
+  const toml::source_path_ptr& stated = node.source().path;
+  const bool is_included =
+      stated != nullptr && std::find(included.begin(), included.end(), *stated) != included.end();
+  return is_included ? std::filesystem::path(*stated).parent_path().string() : folder();
 }
 
 void ConfigDocument::unpack_files() {
@@ -102,7 +109,7 @@ FilePath ConfigDocument::resolved(const toml::node& node, const std::string& giv
     return {given, *place, std::make_shared<FileOrigin>(FileOrigin{unpacked, nullptr})};
   }
   const std::filesystem::path place =
-      is_own ? std::filesystem::path(folder()) / given : std::filesystem::path(given);
+      is_own ? std::filesystem::path(folder_of(node)) / given : std::filesystem::path(given);
   return {given, place.string(), std::make_shared<FileOrigin>()};
 }
 

@@ -171,8 +171,8 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
   const std::vector<Arrival>& paths = without_faint(reception.paths, heard);
   const std::vector<acoustics::LikelyWindow> windows = likely_windows(paths, receiver);
   const acoustics::GuardWindow& window = windows.front().window;
-  const Decibels noise =
-      reception.budget.noise_level - receiver.directivity_index + band_loss(transmitter, receiver);
+  const Decibels noise = reception.budget.noise_level - receiver.directivity_index +
+                         band_loss(transmitter, receiver) + rule_.receiver_margin;
   const double coherence_s = coherence_time_s(paths, window);
   LinkForecast forecast;
   forecast.first_path_delay_s = paths[first_significant(paths)].delay_s;

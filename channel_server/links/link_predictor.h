@@ -66,8 +66,9 @@ class LinkPredictor {
     acoustics::FadingModel fading;
     std::vector<acoustics::Modem> profiles;  // the known profiles
     acoustics::NoiseVariation noise = {};
-    std::uint64_t seed = 0;  // of slow fading and noise, as in the packet medium
-    bool impulsive_noise = false;            // true: receivers have their impulse_loss
+    std::uint64_t seed = 0;        // of slow fading and noise, as in the packet medium
+    bool impulsive_noise = false;  // true: receivers have their impulse_loss
+    Decibels receiver_margin{0};   // noise by which receivers do worse than their profiles
   };
   // A rate of a transmitter. Rates lists its own rate first, then the other rates of its family, the fastest
   // first.

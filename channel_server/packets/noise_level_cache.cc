@@ -4,7 +4,8 @@
 namespace halocline::channel_server {
 
 Decibels NoiseLevelCache::level(const acoustics::Band& band, const acoustics::NoiseSources& sources) {
-  const Key key{{band.low_hz, band.high_hz, sources.shipping, sources.wind_mps, sources.rain_mm_per_h},
+  const Key key{{band.low_hz, band.high_hz, sources.shipping, sources.wind_mps, sources.rain_mm_per_h,
+                 sources.offset_db},
                 sources.table.get(),
                 sources.site.get(),
                 sources.place};

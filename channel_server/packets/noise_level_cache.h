@@ -25,9 +25,9 @@ class NoiseLevelCache {
   Decibels level(const acoustics::Band& band, const acoustics::NoiseSources& sources);
 
  private:
-  // Low and high end of the band, Hz; shipping; wind, m/s; rain, mm/h; the spectra of the sea and of the
-  // place, which outlive the cache and never change; the kind of place.
-  using Key = std::tuple<std::array<double, 5>, const acoustics::NoiseSpectrum*,
+  // Low and high end of the band, Hz; shipping; wind, m/s; rain, mm/h; offset, dB; the spectra of the sea and
+  // of the place, which outlive the cache and never change; the kind of place.
+  using Key = std::tuple<std::array<double, 6>, const acoustics::NoiseSpectrum*,
                          const acoustics::NoiseSpectrum*, acoustics::NoisePlace>;
   LruCache<Key, Decibels> levels_{kMaxKept};
   // The last query and its result: most packets repeat it.

@@ -16,6 +16,7 @@ def link(
     overrides: list[str],
     source_velocity: tuple[float, ...],
     receiver_velocity: tuple[float, ...],
+    ensemble: int,
 ) -> tuple[str, str, list[str]]: ...
 
 # JSON of the paths.
