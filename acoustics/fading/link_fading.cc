@@ -171,7 +171,9 @@ LinkFading::LinkFading(const FadingModel& model, const FadingLink& link) : model
 // 10^(X/20); the mean -sigma^2 ln(10) / 20 of X makes the mean power 1.
 double LinkFading::large_scale(SimTime time) const {
   if (!model_.enabled || model_.large_scale_db == 0) return 1;
-  const GaussMarkovProcess process(model_.large_scale_db, model_.large_scale_time_s,
+  const bool is_still = link_.at_rest && model_.large_scale_still_s > 0;
+  const GaussMarkovProcess process(model_.large_scale_db,
+                                   is_still ? model_.large_scale_still_s : model_.large_scale_time_s,
                                    address_of(link_, "fading-large-scale"));
   const double sigma = model_.large_scale_db;
   const double level_db = process.at(time) - sigma * sigma * std::numbers::ln10 / 20;

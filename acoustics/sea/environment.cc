@@ -20,6 +20,7 @@ void validate(const Environment& environment) {
   require_in_range(environment.ph, 7, 9, "pH");
   require_in_range(environment.latitude_rad, -std::numbers::pi / 2, std::numbers::pi / 2, "latitude", "rad");
   require_in_range(environment.sea_surface_z_m, -100, 100, "z of the sea surface", "m");
+  validate(environment.ice);
 }
 
 Environment environment_at(const Environment& environment, double north_m, double east_m) {

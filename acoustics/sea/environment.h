@@ -8,9 +8,11 @@
 #include <memory>
 
 #include "acoustics/sea/absorption.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/noise.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/frames.h"
+#include "core/tide.h"
 #include "ocean/ocean_field.h"
 
 namespace halocline::acoustics {
@@ -38,6 +40,10 @@ struct Environment {
   // Water that varies with position, if there is a field. The profile is then that of the world's origin, and
   // only its formula of sound speed is used elsewhere.
   WaterField field = {};
+  // Ice in the place of waves and bubbles. Under it the wind counts as none.
+  IceCover ice = {};
+  // Tide about sea_surface_z_m; environments of an instant already include it (environment_timeline.h).
+  Tide tide = {};
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
