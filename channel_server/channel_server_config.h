@@ -15,6 +15,7 @@
 #include "acoustics/noise/noise_table_reader.h"
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/noise.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/config/config.h"
@@ -26,6 +27,7 @@
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/reach.h"
 #include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/surface_ends.h"
 #include "channel_server/replay_config.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
@@ -71,6 +73,7 @@ struct EnvironmentConfig {
   acoustics::NoiseVariation noise_variation;
   double spreading_exponent = 1.5;
   double ph = 8.0;
+  acoustics::IceCover ice;
 };
 
 // The model of propagation: eigenrays, or one straight path.
@@ -158,6 +161,14 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
 
 // Returns the configured ray model. Throws InvalidArgument when a parameter is out of range.
 RayModel make_rays(const ChannelServerConfig& config);
+
+// Returns the configured fading, with what the ice changes in it.
+acoustics::FadingModel fading_of(const ChannelServerConfig& config);
+
+// Returns the ends of a scenario's links among its waves; empty where nothing near the surface acts on sound:
+// along straight paths, and without fading.
+std::optional<SurfaceEnds> make_surface_ends(const ChannelServerConfig& config,
+                                             const bus::Scenario& scenario);
 
 // Returns the scenario's modem and those of its vehicles.
 ConfiguredModems make_modems(const ChannelServerConfig& config);

@@ -11,7 +11,8 @@ namespace halocline::channel_server {
 namespace {
 
 acoustics::Environment changed(acoustics::Environment environment, const EnvironmentChange& change) {
-  environment.noise.wind_mps = change.wind_mps.value_or(environment.noise.wind_mps);
+  const double wind_mps = change.wind_mps.value_or(environment.noise.wind_mps);
+  environment.noise.wind_mps = environment.ice.covers() ? 0 : wind_mps;
   environment.noise.shipping = change.shipping.value_or(environment.noise.shipping);
   environment.sea_surface_z_m = change.sea_surface_z_m.value_or(environment.sea_surface_z_m);
   environment.noise.rain_mm_per_h = change.rain_mm_per_h.value_or(environment.noise.rain_mm_per_h);
@@ -71,9 +72,20 @@ const EnvironmentTimeline::Span& EnvironmentTimeline::span_at(SimTime instant) c
   return *std::prev(later);
 }
 
+double EnvironmentTimeline::step_s(const acoustics::Environment& environment) {
+  const acoustics::WaterField& field = environment.field;
+  const bool field_changes = field && !field.ocean->is_steady();
+  const double rate_mps = environment.tide.max_rate_mps();
+  if (!(rate_mps > 0)) return field_changes ? field.period_s : 0;
+  constexpr double kMinStepS = 0.5;
+  double step = field.period_s;
+  while (step > kMinStepS && step * rate_mps > kTideStepM) step /= 2;
+  return step;
+}
+
 std::int64_t EnvironmentTimeline::step_of(const acoustics::Environment& environment, SimTime instant) {
-  if (!environment.field || environment.field.ocean->is_steady()) return 0;
-  return static_cast<std::int64_t>(std::floor(instant.seconds() / environment.field.period_s));
+  const double step = step_s(environment);
+  return step > 0 ? static_cast<std::int64_t>(std::floor(instant.seconds() / step)) : 0;
 }
 
 EnvironmentTimeline::WaterId EnvironmentTimeline::water_at(SimTime instant) const {
@@ -83,13 +95,18 @@ EnvironmentTimeline::WaterId EnvironmentTimeline::water_at(SimTime instant) cons
 
 const acoustics::Environment& EnvironmentTimeline::at(SimTime instant) const {
   const Span& span = span_at(instant);
-  const acoustics::WaterField& field = span.environment.field;
-  if (!field || field.ocean->is_steady()) return span.environment;
+  const double length_s = step_s(span.environment);
+  if (!(length_s > 0)) return span.environment;
   const std::int64_t step = step_of(span.environment, instant);
-  const auto [known, is_new] = field_waters_.try_emplace(span.id + step * kIdsOfAStep, span.environment);
-  acoustics::Environment& there = known->second;
+  const auto [known, is_new] =
+      field_waters_.try_emplace(span.id + step * kIdsOfAStep, StepWater{span.environment});
+  acoustics::Environment& there = known->second.environment;
   if (!is_new) return there;
-  there.field.time_s = (static_cast<double>(step) + 0.5) * field.period_s;
+  known->second.end_s = static_cast<double>(step + 1) * length_s;
+  const double middle_s = (static_cast<double>(step) + 0.5) * length_s;
+  there.sea_surface_z_m -= there.tide.height_m(middle_s);
+  if (!there.field || there.field.ocean->is_steady()) return there;
+  there.field.time_s = (std::floor(middle_s / there.field.period_s) + 0.5) * there.field.period_s;
   there.profile = environment_at(there, 0, 0).profile;
   return there;
 }
@@ -102,8 +119,8 @@ SimTime EnvironmentTimeline::next_change_after(SimTime instant) const {
 
 void EnvironmentTimeline::forget_before(SimTime time) {
   std::erase_if(field_waters_, [time](const auto& water) {
-    const acoustics::WaterField& field = water.second.field;
-    return field.time_s + field.period_s < time.seconds();
+    const acoustics::WaterField& field = water.second.environment.field;
+    return water.second.end_s + field.period_s / 2 < time.seconds();
   });
   constexpr std::size_t kForgottenTogether = kAnnouncedKept / 10;  // each removal moves all other spans
   if (changes_kept() < kAnnouncedKept + kForgottenTogether) return;

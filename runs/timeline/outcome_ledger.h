@@ -12,7 +12,7 @@
 
 namespace halocline::clients {
 
-inline constexpr std::size_t kOutcomes = 18;        // packet_outcome_t.RECEIVED to NO_POWER
+inline constexpr std::size_t kOutcomes = 19;        // packet_outcome_t.RECEIVED to OUT_OF_WATER
 inline constexpr std::size_t kReceiptResults = 12;  // modem_receipt_t.ACCEPTED to REFUSED_NO_MODEM
 inline constexpr std::size_t kPropagations = 5;     // packet_outcome_t.STRAIGHT to RAYS_BEYOND_TERRAIN
 // Counts indexed by packet_outcome_t.outcome.

@@ -39,9 +39,10 @@ struct Options {
 
 constexpr double kRadiusM = 100, kSpeedMps = 1.5, kRepeatS = 0.5;
 constexpr const char* kOutcomes[] = {  // indexed by the number in packet_outcome_t
-    "received", "below cutoff", "receiver gone", "shadow",     "blocked",      "out of band",
-    "collided", "half duplex",  "doppler",       "bit errors", "not acquired", "foreign",
-    "too weak", "too steep",    "out of reach",  "asleep",     "extra loss",   "no power"};
+    "received",     "below cutoff", "receiver gone", "shadow",      "blocked",
+    "out of band",  "collided",     "half duplex",   "doppler",     "bit errors",
+    "not acquired", "foreign",      "too weak",      "too steep",   "out of reach",
+    "asleep",       "extra loss",   "no power",      "out of water"};
 constexpr std::int64_t kStatePeriodUs = 100'000, kModemPeriodUs = 10'000'000;
 
 double wall_s() {

@@ -21,7 +21,8 @@ from halocline import (modem_config_t, modem_receipt_t, modem_receive_t, modem_s
 RADIUS_M, SPEED_MPS, REPEAT_S = 100.0, 1.5, 0.5
 OUTCOMES = (  # by the number in packet_outcome_t
     "received", "below cutoff", "receiver gone", "shadow", "blocked", "out of band", "collided", "half duplex", "doppler",
-    "bit errors", "not acquired", "foreign", "too weak", "too steep", "out of reach", "asleep", "extra loss", "no power")
+    "bit errors", "not acquired", "foreign", "too weak", "too steep", "out of reach", "asleep", "extra loss", "no power",
+    "out of water")
 STATE_PERIOD_US, MODEM_PERIOD_US = 100_000, 10_000_000
 
 
