@@ -164,8 +164,7 @@ SurfaceCrossing crossing_of(const NearSurface& surface, const RayWater& water, c
   SurfaceCrossing crossing;
   if (!(surface.waves.rms_height_m > 0)) return crossing;
   const SurfaceIntegral integral(surface);
-  // A turn whose grazing of the surface the solver has taken already (surface_loss_db) counts there.
-  const bool may_turn = path.identity.upper_turns > 0 && !path.diffuse && !(path.surface_loss_db > 0);
+  const bool may_turn = path.identity.upper_turns > 0 && !path.diffuse;
   const bool source_is_upper = link.source_depth_m <= link.receiver_depth_m;
   const double upper_m = std::min(link.source_depth_m, link.receiver_depth_m);
   const double upper_sine = elementary::sin(source_is_upper ? path.launch_angle_rad : path.arrival_angle_rad);
@@ -174,10 +173,11 @@ SurfaceCrossing crossing_of(const NearSurface& surface, const RayWater& water, c
   const double least_m = std::min(upper_m, turn_m.value_or(upper_m));
   if (least_m >= integral.deep_m() && least_m >= kFarBelow * surface.waves.rms_height_m) return crossing;
   const Sums sums = sums_of(integral, water, link, path, turn_m);
-  const double bounces_db = path.surface_loss_db;
-  crossing.bubble_db = std::max(sums.bubble_db, -bounces_db);
-  const double most_db = std::max(kMaxBubblePathDb - bounces_db, 0.0);
-  crossing.bubble_db = std::min(crossing.bubble_db, most_db);
+  // Of a ray that turns close to the surface the solver may have taken a bounce already; the integral has
+  // all.
+  const double taken_db = path.surface_loss_db, bounces_db = path.surface_bounces > 0 ? taken_db : 0;
+  const double all_db = std::clamp(bounces_db + sums.bubble_db, 0.0, std::max(kMaxBubblePathDb, bounces_db));
+  crossing.bubble_db = all_db - taken_db;
   if (path.surface_bounces == 0 && least_m < kFarBelow * surface.waves.rms_height_m)
     crossing.clear_share = surface.waves.clear_share(least_m, std::max(sums.length_m, 0.0));
   return crossing;
