@@ -306,7 +306,8 @@ acoustics::NoiseVariation make_noise_variation(const EnvironmentConfig& config,
 ServerRules make_rules(const ChannelServerConfig& config, const bus::Scenario& scenario) {
   ServerRules rules = config.rules;
   rules.medium.seed = scenario.seed;
-  rules.medium.fading = rules.reach.fading = config.propagation.fading;
+  rules.medium.fading = rules.reach.fading = fading_of(config);
+  rules.medium.near_surface = make_surface_ends(config, scenario);
   rules.medium.noise = make_noise_variation(config.environment, scenario);
   rules.reach.noise_spread_db = config.environment.noise_variation.spread_db;
   return rules;

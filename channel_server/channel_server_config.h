@@ -17,6 +17,7 @@
 #include "acoustics/noise/noise_table_reader.h"
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/noise.h"
 #include "acoustics/sea/profile_modes.h"
 #include "acoustics/sea/sound_speed_profile.h"
@@ -30,6 +31,7 @@
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/reach.h"
 #include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/surface_ends.h"
 #include "channel_server/replay_config.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
@@ -83,6 +85,7 @@ struct EnvironmentConfig {
   acoustics::WaterLoad load;
   double spreading_exponent = 1.5;
   double ph = 8.0;
+  acoustics::IceCover ice;
 };
 
 // The noise place of scenarios that leave it to the depth of their water.
@@ -182,6 +185,14 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
 
 // Returns the configured ray model. Throws InvalidArgument when a parameter is out of range.
 RayModel make_rays(const ChannelServerConfig& config);
+
+// Returns the configured fading, with what the ice changes in it.
+acoustics::FadingModel fading_of(const ChannelServerConfig& config);
+
+// Returns the ends of a scenario's links among its waves; empty where nothing near the surface acts on sound:
+// along straight paths, and without fading.
+std::optional<SurfaceEnds> make_surface_ends(const ChannelServerConfig& config,
+                                             const bus::Scenario& scenario);
 
 // Returns the scenario's modem and those of its vehicles.
 ConfiguredModems make_modems(const ChannelServerConfig& config);

@@ -16,6 +16,7 @@
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/fine_structure.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/profile_modes.h"
 #include "acoustics/sea/profile_reader.h"
@@ -178,6 +179,24 @@ void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
   visit_noise(v, e);
   v.number("spreading_exponent", e.spreading_exponent,
            {1, 2, "", "spreading along a straight path: 1 cylindrical, 1.5 practical, 2 spherical"});
+}
+
+const std::vector<std::string> kIceCovers{"none", "fast", "pack"};
+
+void visit_ice(bus::ConfigVisitor& v, acoustics::IceCover& ice) {
+  bus::choice(v, "cover", ice.kind, kIceCovers,
+              "ice in the place of waves and bubbles: none, fast ice that stands still, or drifting pack");
+  bus::when_one_of(
+      v, "cover", ice.kind, kIceCovers, {acoustics::IceKind::kFast, acoustics::IceKind::kPack}, [&] {
+        v.number("roughness_m", ice.roughness_m, {0, 5, "m", "rms height of the ice's lower face"});
+        v.number("slope", ice.slope, {0, 1, "", "rms slope of the ice's lower face in a plane"});
+        v.number("loss_db", ice.loss_db, {0, 20, "dB", "loss of sound to the ice at a bounce"});
+        v.number("loss_per_sine_db", ice.loss_per_sine_db,
+                 {0, 50, "dB", "further loss at a bounce, times the sine of the grazing angle"});
+        v.number("keels_per_km", ice.keels_per_km, {0, 100, "1/km", "keels of the ice along a link"});
+        v.number("keel_draft_m", ice.keel_draft_m,
+                 {0, 60, "m", "draft of a keel, which takes draft / depth of the power that passes"});
+      });
 }
 
 const std::vector<std::string> kPropagationModels{"rays", "straight"};
@@ -369,6 +388,7 @@ void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
             [&](bus::ConfigVisitor& s) { visit_environment(s, config.environment); });
   v.section("water_load", "What the water carries and sound is absorbed by",
             [&](bus::ConfigVisitor& s) { visit_load(s, config.environment.load); });
+  v.section("ice", "Ice on the water", [&](bus::ConfigVisitor& s) { visit_ice(s, config.environment.ice); });
   v.section("propagation", "Propagation of sound",
             [&](bus::ConfigVisitor& s) { visit_propagation(s, config.propagation); });
   v.list(
@@ -404,6 +424,9 @@ acoustics::Environment make_environment(const EnvironmentConfig& config, const b
   environment.load = config.load;
   environment.latitude_rad = to_radians(scenario.origin_latitude_deg);
   environment.sea_surface_z_m = scenario.sea_surface_z_m;
+  environment.tide = scenario.tide;
+  environment.ice = config.ice;
+  if (config.ice.covers()) environment.noise.wind_mps = 0;
   set_field(scenario, environment);
   environment.drift = {.spread_mps = config.profile_spread_mps,
                        .depth_m = drifting_depth_m(environment.profile, scenario),
@@ -435,8 +458,30 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.bottom = named ? *named
                       : acoustics::fluid_bottom(p.bottom_density_ratio, p.bottom_sound_speed_mps,
                                                 p.bottom_attenuation_db);
-  rays.fading = p.fading;
+  rays.fading = fading_of(config);
   return rays;
+}
+
+// Below fast ice the level of links between ends at rest lives for hours.
+acoustics::FadingModel fading_of(const ChannelServerConfig& config) {
+  acoustics::FadingModel fading = config.propagation.fading;
+  if (config.environment.ice.kind == acoustics::IceKind::kFast)
+    fading.large_scale_still_s = acoustics::kIceCoherenceS;
+  return fading;
+}
+
+std::optional<SurfaceEnds> make_surface_ends(const ChannelServerConfig& config,
+                                             const bus::Scenario& scenario) {
+  const PropagationConfig& p = config.propagation;
+  if (!p.rays.near_surface || p.model != PropagationModel::kRays || !p.fading.enabled) return std::nullopt;
+  SurfaceEnds ends{.seed = scenario.seed};
+  for (const bus::VehicleEntry& vehicle : scenario.vehicles) {
+    const bool is_floating = vehicle.mount == bus::Mount::kFloating;
+    if (is_floating) ends.floating.insert(vehicle.id);
+    const bool lies_still = vehicle.model == "fixed" || vehicle.model == "lander";
+    if (is_floating || !lies_still) ends.heaving.insert(vehicle.id);
+  }
+  return ends;
 }
 
 }  // namespace halocline::channel_server

@@ -70,18 +70,26 @@ WaterModel rays_in(std::shared_ptr<EnvironmentTimeline> waters, const RayModel& 
 }  // namespace
 
 WaterSources read_water(const ChannelServerConfig& config, const bus::Scenario& scenario) {
-  WaterSources sources{EnvironmentTimeline(make_environment(config.environment, scenario)), {}};
+  WaterSources sources{EnvironmentTimeline(make_environment(config.environment, scenario)),
+                       {},
+                       make_surface_ends(config, scenario)};
   const ReplayConfig& replay = config.propagation.replay;
   if (replay.is_wanted()) sources.measured = make_measured_links(replay, make_modems(config), scenario);
   schedule_changes(config, scenario, sources.timeline);
   return sources;
 }
 
+RayModel rays_of(const ChannelServerConfig& config, const WaterSources& sources) {
+  RayModel rays = make_rays(config);
+  rays.near_surface = sources.surface_ends;
+  return rays;
+}
+
 WaterModel make_water_model(const ChannelServerConfig& config, const WaterSources& sources) {
   auto waters = std::make_shared<EnvironmentTimeline>(sources.timeline);
   WaterModel water = config.propagation.model == PropagationModel::kRays
-                         ? rays_in(std::move(waters), make_rays(config), config.rules.seabed)
-                         : straight_in(std::move(waters), config.propagation.fading);
+                         ? rays_in(std::move(waters), rays_of(config, sources), config.rules.seabed)
+                         : straight_in(std::move(waters), fading_of(config));
   if (config.propagation.replay.is_wanted()) {
     water.propagation =
         std::make_unique<MeasuredPropagation>(std::move(water.propagation), water.waters, sources.measured);

@@ -118,7 +118,7 @@ acoustics::Eigenrays straight_eigenray(const channel_server::Reception& receptio
 LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to,
                            const channel_server::Reception& reception, acoustics::Eigenrays eigenrays) {
   const Vec3 way = to.position_ned_m - from.position_ned_m;
-  const double surface_z_m = config.scenario.sea_surface_z_m;
+  const double surface_z_m = config.scenario.surface_z_m(0);
   LinkArrivals all{
       .link = {depth_below_surface_m(from.position_ned_m, surface_z_m),
                depth_below_surface_m(to.position_ned_m, surface_z_m), elementary::hypot(way.x(), way.y())},
@@ -202,7 +202,7 @@ LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text) {
   const auto modems = make_modems(config.channel_server);
   LinkSurveyEnd end{.name = text, .modem = modems.standard};
   if (const bus::VehicleEntry* vehicle = config.scenario.find(text)) {
-    end.position_ned_m = vehicle->start_ned_m;
+    end.position_ned_m = config.scenario.start_ned_m(*vehicle);
     end.id = vehicle->id;
     end.modem = modems.of(text);
   } else {
@@ -211,7 +211,7 @@ LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text) {
                 "' is no link end; allowed is the name of a vehicle of the scenario, or "
                 "north,east,down in metres");
   }
-  require(depth_below_surface_m(end.position_ned_m, config.scenario.sea_surface_z_m) >= 0,
+  require(depth_below_surface_m(end.position_ned_m, config.scenario.surface_z_m(0)) >= 0,
           "'" + text + "' lies above the sea surface");
   return end;
 }

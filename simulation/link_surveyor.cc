@@ -39,7 +39,7 @@ LinkSurveyor::LinkSurveyor(const ScenarioConfig& config, std::shared_ptr<const b
       noise_(sounds_),
       predictor_(make_predictor(rules_)) {
   if (config.channel_server.propagation.model == channel_server::PropagationModel::kRays)
-    rays_.emplace(water_.waters, water_.seabed, make_rays(config.channel_server));
+    rays_.emplace(water_.waters, water_.seabed, rays_of(config.channel_server, sources));
   place_vehicles(config);
 }
 
@@ -47,7 +47,7 @@ void LinkSurveyor::place_vehicles(const ScenarioConfig& config) {
   const SimTime before = SimTime() - channel_server::kLongestFlight;
   for (const bus::VehicleEntry& vehicle : config.scenario.vehicles) {
     fleet_.reserve(vehicle.name, vehicle.id);
-    const std::string problem = fleet_.add_state(vehicle.name, vehicle.id, {before, vehicle.start_ned_m});
+    const std::string problem = fleet_.add_state(vehicle.name, vehicle.id, {before, config.scenario.start_ned_m(vehicle)});
     require(problem.empty(), vehicle.name + ": " + problem);
   }
 }

@@ -170,7 +170,8 @@ void Fleet::end_power() {
 }
 
 bool Fleet::water_varies() const {
-  return current_.depends_on_depth() || current_.depends_on_time() || !waves_.calm() || settings_.ocean;
+  return current_.depends_on_depth() || current_.depends_on_time() || !waves_.calm() || settings_.ocean ||
+         settings_.tide.moves();
 }
 
 bool Fleet::rides_waves(std::size_t index) const {
@@ -179,15 +180,15 @@ bool Fleet::rides_waves(std::size_t index) const {
 }
 
 double Fleet::sea_surface_z_m(std::size_t index, const Vec3& point_ned_m, SimTime when) const {
-  const double still = settings_.sea_surface_z_m;
+  const double still = level_z_m(when);
   return rides_waves(index) ? still - waves_.elevation_m(point_ned_m, 0, when) : still;
 }
 
 Water Fleet::water_at(std::size_t index, const Vec3& position_ned_m) const {
   Water water{.current_ned_mps = current_everywhere_.velocity_mps,
-              .sea_surface_z_m = settings_.sea_surface_z_m,
+              .sea_surface_z_m = level_z_m(time_),
               .current_rate_ned_mps2 = current_everywhere_.acceleration_mps2};
-  const double depth = depth_below_surface_m(position_ned_m, settings_.sea_surface_z_m);
+  const double depth = depth_below_surface_m(position_ned_m, water.sea_surface_z_m);
   if (current_.depends_on_depth()) water.current_ned_mps += current_.at_depth(depth);
   if (settings_.ocean) {
     const WaterMotion field =
@@ -210,8 +211,7 @@ Water Fleet::water_at(std::size_t index, const Vec3& position_ned_m) const {
 //   dz/ds = a_s / g,  dz/dt = v_z
 void Fleet::move_surface(std::size_t index, const Vec3& position_ned_m, Water& water) const {
   const ModelParameters& p = members_[index].model->parameters();
-  const double least_depth =
-      depth_below_surface_m(position_ned_m, settings_.sea_surface_z_m) - waves_.highest_m();
+  const double least_depth = depth_below_surface_m(position_ned_m, level_z_m(time_)) - waves_.highest_m();
   if (p.floats.empty() && is_wholly_submerged(p.hull, least_depth)) return;
   const WaterMotion surface = waves_.at(position_ned_m, 0, time_);
   water.surface_slope = surface.acceleration_mps2 / WaveField::kGravity;
@@ -278,8 +278,17 @@ void Fleet::advance(SimTime until) {
   }
 }
 
+VehicleState Fleet::fixed_state_at(const FleetMember& member, SimTime when) const {
+  VehicleState state = member.start;
+  if (!member.floats || !settings_.tide.moves()) return state;
+  const Tide& tide = settings_.tide;
+  state.position_ned_m.z() -= tide.height_m(when.seconds()) - tide.height_m(0);
+  state.velocity_body.head<3>() = state.orientation.conjugate() * Vec3(0, 0, -tide.rate_mps(when.seconds()));
+  return state;
+}
+
 VehicleState Fleet::state_at(std::size_t index, SimTime when) const {
-  if (!moves(index)) return members_[index].start;
+  if (!moves(index)) return fixed_state_at(members_[index], when);
   const VehicleState& state = world_.state(world_index_[index]);
   const SimDuration ahead = when - time_;
   ensure(ahead >= SimDuration() && ahead < settings_.step,
@@ -308,7 +317,7 @@ SensorReading Fleet::reading_at(std::size_t index, SimTime when) const {
   Water water = water_at(index, state.position_ned_m);
   water.current_ned_mps += (when - time_).seconds() * water.current_rate_ned_mps2;
   if (!moves(index)) return measure_fixed(state, water);
-  water.sea_surface_z_m = settings_.sea_surface_z_m;
+  water.sea_surface_z_m = level_z_m(when);
   if (rides_waves(index)) {
     const double depth = depth_below_surface_m(state.position_ned_m, water.sea_surface_z_m);
     water.sea_surface_z_m -= waves_.elevation_m(state.position_ned_m, depth, when);

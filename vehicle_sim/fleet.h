@@ -19,6 +19,7 @@
 #include "core/for_each.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
+#include "core/tide.h"
 #include "ocean/ocean_field.h"
 #include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/currents.h"
@@ -35,9 +36,10 @@ namespace halocline::vehicle_sim {
 
 struct FleetMember {
   std::string name;
-  std::shared_ptr<const Model> model;           // null: a fixed vehicle, whose pose never changes
-  VehicleState start;                           // velocity over ground; zero for a fixed one
+  std::shared_ptr<const Model> model;  // null: a fixed vehicle, whose pose changes with the tide alone
+  VehicleState start;                  // velocity over ground; zero for a fixed one
   std::optional<BatterySettings> battery = {};  // empty: unlimited energy
+  bool floats = false;                          // of a fixed one: its pose follows the tide
 };
 
 // Loss of a vehicle's power with the charge of its battery, or its return.
@@ -59,7 +61,8 @@ struct FleetTether {
 struct FleetSettings {
   SimDuration step = SimDuration::from_milliseconds(10);               // 1 to 20 ms
   SimDuration command_timeout = SimDuration::from_milliseconds(2000);  // above 0
-  double sea_surface_z_m = 0;
+  double sea_surface_z_m = 0;                                          // mean
+  Tide tide;
   CurrentSettings current;
   std::shared_ptr<const ocean::OceanField> ocean;  // field whose currents are added; null: none
   WaveSettings waves;
@@ -148,8 +151,13 @@ class Fleet {
   bool has_released(std::size_t member) const;
   void drop_weights();
   bool water_varies() const;
+  // z of the still surface with the tide, m.
+  double level_z_m(SimTime when) const {
+    return settings_.sea_surface_z_m - settings_.tide.height_m(when.seconds());
+  }
   bool rides_waves(std::size_t index) const;
   Water water_at(std::size_t index, const Vec3& position_ned_m) const;
+  VehicleState fixed_state_at(const FleetMember& member, SimTime when) const;
   void move_surface(std::size_t index, const Vec3& position_ned_m, Water& water) const;
   // Sets the water of every vehicle for the step that starts at time().
   void move_water();

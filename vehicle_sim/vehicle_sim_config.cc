@@ -269,9 +269,9 @@ void check_models(ConfigVisitor& v) {
       });
 }
 
-VehicleState start_of(const bus::VehicleEntry& entry, const Vec3& current_ned) {
+VehicleState start_of(const bus::VehicleEntry& entry, const Vec3& start_ned_m, const Vec3& current_ned) {
   VehicleState start;
-  start.position_ned_m = entry.start_ned_m;
+  start.position_ned_m = start_ned_m;
   start.orientation = to_quaternion({0, 0, entry.heading_rad});
   if (entry.model == kFixed) return start;
   start.velocity_body.head<3>() =
@@ -312,7 +312,8 @@ std::vector<FleetMember> members_of(const bus::Scenario& scenario, const Vehicle
     if (ocean)
       current_there += ocean->current_ned_mps({entry.start_ned_m.x(), entry.start_ned_m.y(), depth}, 0);
     members.push_back({entry.name, is_fixed ? nullptr : models.at(entry.model.place()),
-                       start_of(entry, current_there), to_settings(entry.battery)});
+                       start_of(entry, scenario.start_ned_m(entry), current_there),
+                       to_settings(entry.battery), entry.mount == bus::Mount::kFloating});
   }
   return members;
 }
@@ -322,6 +323,7 @@ FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig&
   settings.step = config.step;
   settings.command_timeout = config.command_timeout;
   settings.sea_surface_z_m = scenario.sea_surface_z_m;
+  settings.tide = scenario.tide;
   settings.current = config.current;
   settings.ocean = moving_ocean(scenario);
   settings.waves = config.waves;

@@ -174,7 +174,9 @@ double LinkFading::large_scale(SimTime time) const {
   const double slow_db =
       slow_level(model_.slow, {link_.seed, link_.lower_id, link_.higher_id}, time).value;
   if (model_.large_scale_db == 0) return slow_db == 0 ? 1 : elementary::exp10(slow_db / 20);
-  const GaussMarkovProcess process(model_.large_scale_db, model_.large_scale_time_s,
+  const bool is_still = link_.at_rest && model_.large_scale_still_s > 0;
+  const GaussMarkovProcess process(model_.large_scale_db,
+                                   is_still ? model_.large_scale_still_s : model_.large_scale_time_s,
                                    address_of(link_, "fading-large-scale"));
   const double sigma = model_.large_scale_db;
   const double level_db = process.at(time) - sigma * sigma * std::numbers::ln10 / 20 + slow_db;

@@ -36,6 +36,7 @@ struct FadingLink {
   std::uint64_t seed = 0;
   std::uint32_t lower_id = 0, higher_id = 0;
   bool reversed = false;
+  bool at_rest = false;  // neither end moves: FadingModel::large_scale_still_s counts
 };
 
 // The modelled responses of a link's paths.

@@ -17,7 +17,6 @@ namespace {
 using std::numbers::pi;
 using std::numbers::sqrt2;
 
-constexpr double kGravity = 9.81;        // m/s2
 constexpr double kSoundSpeedMps = 1500;  // for the wave number, as in Eckart's loss
 
 }  // namespace
@@ -27,6 +26,7 @@ void validate(const FadingModel& model) {
   require_in_range(model.medium_coherence_s, 0.1, 1e6, "coherence time of the medium", "s");
   require_in_range(model.large_scale_db, 0, 20, "standard deviation of large-scale fading", "dB");
   require_in_range(model.large_scale_time_s, 0.1, 1e6, "correlation time of large-scale fading", "s");
+  require_in_range(model.large_scale_still_s, 0, 1e6, "correlation time of large-scale fading at rest", "s");
   require_in_range(model.bottom_roughness_m, 0, 1, "rms roughness of the bottom", "m");
   validate(model.slow);
 }
@@ -39,9 +39,6 @@ double coherence_time_of(double doppler_spread_hz) {
                                : std::numeric_limits<double>::infinity();
 }
 
-// omega_m = omega_p / 0.71, omega_p = 0.877 g / U (Pierson and Moskowitz).
-double mean_wave_frequency_radps(double wind_mps) { return 0.877 * kGravity / wind_mps / 0.71; }
-
 // Gamma^2 = (2 k sigma sin(theta))^2, k = 2 pi f / c.
 double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_squares) {
   const double one = 2 * (2 * pi * frequency_hz / kSoundSpeedMps) * rms_height_m;
@@ -50,8 +47,16 @@ double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_sq
 
 PathFading path_fading(const FadingModel& model, double wind_mps, double frequency_hz,
                        double surface_sine_squares, double bottom_sine_squares, double kept) {
+  const SurfaceBoundary waves{.rms_height_m = rms_wave_height_m(wind_mps),
+                              .mean_frequency_radps = wind_mps > 0 ? mean_wave_frequency_radps(wind_mps) : 0};
+  return path_fading_below(model, waves, frequency_hz, surface_sine_squares, bottom_sine_squares, kept, 0);
+}
+
+PathFading path_fading_below(const FadingModel& model, const SurfaceBoundary& boundary, double frequency_hz,
+                             double surface_sine_squares, double bottom_sine_squares, double kept,
+                             double speed_mps) {
   if (!model.enabled) return {};
-  const double surface = rayleigh_squares(rms_wave_height_m(wind_mps), frequency_hz, surface_sine_squares);
+  const double surface = rayleigh_squares(boundary.rms_height_m, frequency_hz, surface_sine_squares);
   const double bottom = rayleigh_squares(model.bottom_roughness_m, frequency_hz, bottom_sine_squares);
   const double log_kept = elementary::log(kept);
   const double steady = elementary::exp(std::min(-surface - bottom - log_kept, 0.0));  // E / kept
@@ -61,9 +66,13 @@ PathFading path_fading(const FadingModel& model, double wind_mps, double frequen
   fading.coherent = steady * rice / (1 + rice);
   fading.medium = steady / (1 + rice);
   fading.scattered = -elementary::expm1(std::min(-surface - bottom - log_kept, 0.0));
-  const double waves_hz =
-      surface > 0 ? mean_wave_frequency_radps(wind_mps) / (2 * pi) * std::sqrt(surface) : 0;
-  fading.doppler_spread_hz = elementary::hypot(waves_hz, doppler_spread_of(model.medium_coherence_s));
+  const double waves_hz = surface > 0 ? boundary.mean_frequency_radps / (2 * pi) * std::sqrt(surface) : 0;
+  double medium_hz = doppler_spread_of(model.medium_coherence_s);
+  if (boundary.is_still) {
+    const double moving = std::min(speed_mps / kStillSpeedMps, 1.0);
+    medium_hz = std::max(medium_hz * moving, doppler_spread_of(kIceCoherenceS));
+  }
+  fading.doppler_spread_hz = elementary::hypot(waves_hz, medium_hz);
   return fading;
 }
 

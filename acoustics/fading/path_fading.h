@@ -22,6 +22,7 @@
 #pragma once
 
 #include "acoustics/fading/slow_fading.h"
+#include "acoustics/sea/surface_boundary.h"
 
 namespace halocline::acoustics {
 
@@ -36,6 +37,8 @@ struct FadingModel {
   double bottom_roughness_m = 0.02;  // rms height of the bottom, m, 0..1
   bool scattering_loss = false;      // true: with the loss of acoustics/fading/scattering_loss.h
   SlowFading slow = {};              // changes of the level over hours
+  // Correlation time of X between ends at rest, s, 0..1e6; 0: large_scale_time_s. Fast ice sets it.
+  double large_scale_still_s = 0;
   bool operator==(const FadingModel&) const = default;
 };
 
@@ -56,8 +59,8 @@ double doppler_spread_of(double coherence_s);
 // Coherence time of a Doppler spread, s; infinity for 0.
 double coherence_time_of(double doppler_spread_hz);
 
-// Mean angular frequency of the waves under `wind_mps` > 0, rad/s.
-double mean_wave_frequency_radps(double wind_mps);
+// Coherence time of what fast ice scatters between ends at rest, s (a choice: hours).
+inline constexpr double kIceCoherenceS = 3 * 3600.0;
 
 // Sum of the squared Rayleigh parameters of bounces at a boundary of that rms height:
 //   (2 k sigma)^2 sum of sin^2(grazing angle)
@@ -69,5 +72,15 @@ double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_sq
 // leaves everything coherent.
 PathFading path_fading(const FadingModel& model, double wind_mps, double frequency_hz,
                        double surface_sine_squares, double bottom_sine_squares, double kept = 1);
+
+// Fading of a path below a surface that is given as a boundary, by waves or ice. Below fast ice the water
+// stands still for ends at rest, and scattered sound changes within kIceCoherenceS; `speed_mps` is the
+// greater speed of both ends, and from kStillSpeedMps on the medium's own coherence time holds.
+PathFading path_fading_below(const FadingModel& model, const SurfaceBoundary& surface, double frequency_hz,
+                             double surface_sine_squares, double bottom_sine_squares, double kept,
+                             double speed_mps);
+
+// Speed below which an end counts as partly at rest, m/s (a choice).
+inline constexpr double kStillSpeedMps = 0.05;
 
 }  // namespace halocline::acoustics

@@ -77,8 +77,9 @@ double surface_loss_of(const LayeredLink& link, const LegSums& sums, const Bound
                        bool reflects) {
   const RaySurface& surface = link.sea.surface;
   const double frequency = link.sea.options.frequency_hz;
-  if (surface.model == SurfaceModel::kFlat) return 0;
-  if (touch.inverse_sine > 0 && surface.model == SurfaceModel::kAplBubbles)
+  const bool is_open = !surface.ice.covers();
+  if (surface.model == SurfaceModel::kFlat && is_open) return 0;
+  if (touch.inverse_sine > 0 && surface.model == SurfaceModel::kAplBubbles && is_open)
     return SurfaceLoss(surface, frequency).db_at_sine(1) * touch.inverse_sine;
   if (!reflects) return 0;
   const double grazing = elementary::atan2(sums.sine_top, sums.xi * link.surface_speed_mps);

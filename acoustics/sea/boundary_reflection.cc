@@ -227,6 +227,7 @@ double rms_wave_height_m(double wind_mps) { return 0.22 * wind_mps * wind_mps / 
 
 double surface_loss_db(const RaySurface& surface, double grazing_rad, double frequency_hz) {
   const double khz = hz_to_khz(frequency_hz), grazing = std::max(grazing_rad, kMinGrazing);
+  if (surface.ice.covers()) return ice_loss_db(surface.ice, elementary::sin(grazing));
   switch (surface.model) {
     case SurfaceModel::kFlat:
       return 0;
@@ -248,6 +249,7 @@ SurfaceLoss::SurfaceLoss(const RaySurface& surface, double frequency_hz)
       bubbles_db_(apl_bubble_loss_db(surface.wind_mps, pi / 2, hz_to_khz(frequency_hz))) {}
 
 double SurfaceLoss::db_at_sine(double sine) const {
+  if (surface_.ice.covers()) return ice_loss_db(surface_.ice, sine);
   if (surface_.model == SurfaceModel::kFlat) return 0;
   const double loss = surface_.model == SurfaceModel::kAplBubbles
                           ? bubbles_db_ / std::max(sine, kMinGrazing)
@@ -256,6 +258,8 @@ double SurfaceLoss::db_at_sine(double sine) const {
 }
 
 double surface_magnitude(const RaySurface& surface, double grazing_rad, double frequency_hz) {
+  if (surface.ice.covers())
+    return elementary::exp10(-ice_loss_db(surface.ice, elementary::sin(grazing_rad)) / 20);
   if (surface.model == SurfaceModel::kFlat) return 1;
   if (surface.model == SurfaceModel::kAplBubbles && surface.wind_mps <= 0) return 1;
   return elementary::exp10(-std::min(surface_loss_db(surface, grazing_rad, frequency_hz), kMaxLoss) / 20);

@@ -24,6 +24,7 @@
 #include <string_view>
 #include <vector>
 
+#include "acoustics/sea/ice_cover.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {
@@ -97,6 +98,7 @@ double rms_wave_height_m(double wind_mps);
 struct RaySurface {
   SurfaceModel model = SurfaceModel::kAplBubbles;
   double wind_mps = 0;  // 0..60
+  IceCover ice = {};    // where it covers, its loss is that of a bounce, whatever the model
   bool operator==(const RaySurface&) const = default;
 };
 

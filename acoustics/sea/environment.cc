@@ -24,6 +24,7 @@ void validate(const Environment& environment) {
   require_in_range(environment.load.particles_kg_m3, 0, 100, "mass of particles in the water", "kg/m^3");
   require_in_range(environment.load.particle_radius_m, 1e-7, 1e-3, "radius of the particles", "m");
   require_in_range(environment.load.plants_db_per_km, 0, 1000, "absorption by plants", "dB/km");
+  validate(environment.ice);
 }
 
 Environment environment_at(const Environment& environment, double north_m, double east_m) {

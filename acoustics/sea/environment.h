@@ -8,11 +8,13 @@
 #include <memory>
 
 #include "acoustics/sea/absorption.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/noise.h"
 #include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "acoustics/sea/water_load.h"
 #include "core/frames.h"
+#include "core/tide.h"
 #include "ocean/ocean_field.h"
 
 namespace halocline::acoustics {
@@ -44,6 +46,10 @@ struct Environment {
   // that of one block in what EnvironmentTimeline (channel_server/propagation) returns.
   ProfileDrift drift = {};
   WaterLoad load = {};
+  // Ice in the place of waves and bubbles. Under it the wind counts as none.
+  IceCover ice = {};
+  // Tide about sea_surface_z_m; environments of an instant already include it (environment_timeline.h).
+  Tide tide = {};
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.

@@ -47,6 +47,9 @@ void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   v.when(is_moved, "a model that moves", [&] {
     v.number("speed_mps", vehicle.speed_mps, {-5, 5, "m/s", "speed at the start, forward through the water"});
   });
+  choice(v, "mount", vehicle.mount, {"fixed", "floating"},
+         "how the modem is held: fixed at its depth, where waves may leave it out of the water, or floating "
+         "with the surface and its tide");
   if (v.writing() ? !vehicle.battery.has_value() : !v.given("battery")) return;
   VehicleBattery battery = vehicle.battery.value_or(VehicleBattery());
   v.section("battery", "Battery; without this section the vehicle has unlimited energy",
@@ -63,6 +66,14 @@ bool is_valid_scenario_name(std::string_view name) {
   };
   return !name.empty() && name.size() <= kLongest && std::all_of(name.begin(), name.end(), allowed) &&
          name.front() != '.' && name.front() != '-' && name.front() != ' ' && name.back() != ' ';
+}
+
+void visit_tide(ConfigVisitor& v, TideConstituent& tide) {
+  v.number("amplitude_m", tide.amplitude_m, {0, 20, "m", "amplitude of this constituent of the tide"});
+  v.number("period_s", tide.period_s, {600, 1e8, "s", "period of the constituent; M2 has 44714.16 s"});
+  degrees(
+      v, "phase_deg", tide.phase_rad,
+      {-360, 360, "deg", "phase of the constituent at simulation time 0, by which its high water is later"});
 }
 
 void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {
@@ -142,6 +153,11 @@ const VehicleEntry* Scenario::find(std::string_view vehicle_name) const {
   return found == vehicles.end() ? nullptr : &*found;
 }
 
+Vec3 Scenario::start_ned_m(const VehicleEntry& vehicle) const {
+  const double height_m = vehicle.mount == Mount::kFloating ? tide.height_m(0) : 0;
+  return vehicle.start_ned_m - Vec3(0, 0, height_m);
+}
+
 void visit(ConfigVisitor& v, Scenario& s) {
   v.section("scenario", "Name, place and duration of the run", [&](ConfigVisitor& section) {
     section.text("name", s.name, {}, "short name, also of the run's folder and files");
@@ -185,6 +201,11 @@ void visit(ConfigVisitor& v, Scenario& s) {
   });
   v.section("ocean", "Ocean model: currents, temperature and salinity by place and time",
             [&](ConfigVisitor& section) { visit_ocean(section, s.ocean); });
+  std::vector<TideConstituent>& tide = s.tide.constituents;
+  v.list(
+      "tide", "A constituent of the tide, which moves the sea surface about sea_surface_z_m", tide.size(),
+      [&](std::size_t n) { tide.resize(n); },
+      [&](ConfigVisitor& item, std::size_t i) { visit_tide(item, tide[i]); });
   if (!v.writing()) {
     visit_terrain_of(v, s);
     // The key belongs to the channel server.

@@ -3,7 +3,8 @@
 //
 // A scenario is one TOML file. Each program reads this part and its own sections; `halocline run` reads all
 // sections, so that it finds every error at once. The sections are read by:
-//   [scenario] [time] [bus] [ocean] [[vehicle]] [vehicle.battery]      this file
+//   [scenario] [time] [bus] [ocean] [[tide]] [[vehicle]]               this file
+//   [vehicle.battery]                                                  this file
 //   [terrain]                                                          bathymetry/bathymetry_config.h
 //   [environment] [water_load] [modem] [channel_server]                channel_server/channel_server_config.h
 //   [vehicle.modem] [vehicle.clock] [vehicle.noise]                    channel_server/channel_server_config.h
@@ -21,6 +22,7 @@
 #include "core/files/file_path.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
+#include "core/tide.h"
 
 namespace halocline::bus {
 
@@ -37,6 +39,12 @@ struct VehicleBattery {
   bool operator==(const VehicleBattery&) const = default;
 };
 
+// How a vehicle's modem is held below the sea surface.
+enum class Mount {
+  kFixed,     // at its depth: waves may leave it out of the water
+  kFloating,  // follows the surface, tide included
+};
+
 // Vehicle data known to all programs.
 struct VehicleEntry {
   std::string name;     // channel suffix (is_valid_name); unique
@@ -44,9 +52,10 @@ struct VehicleEntry {
   // Model that moves it: a model of the vehicle simulator, by name or as a file (docs/vehicles.md), "fixed"
   // (the vehicle simulator publishes a constant pose), or "external" (another process moves it).
   FilePath model = "torpedo";
-  Vec3 start_ned_m = Vec3::Zero();             // world NED, m
-  double heading_rad = 0;                      // at the start, clockwise from north
-  double speed_mps = 0;                        // at the start, forward through the water
+  Vec3 start_ned_m = Vec3::Zero();  // world NED, m
+  double heading_rad = 0;           // at the start, clockwise from north
+  double speed_mps = 0;             // at the start, forward through the water
+  Mount mount = Mount::kFixed;
   std::optional<VehicleBattery> battery = {};  // unlimited energy if not set
 };
 
@@ -67,6 +76,7 @@ struct Scenario {
   double origin_longitude_deg = 0;  // -180 to 360
   bool origin_given = true;         // false: the file has no origin, and the values above are 0
   double sea_surface_z_m = 0;  // z of the surface in the world frame, m: negative if it lies above the datum
+  Tide tide = {};              // about that z
   // Depth of the water of a terrain that is a shape, at its origin or far from its height, m; 0: a raster's.
   double water_depth_m = 0;
   double rate = 1;  // simulated seconds per wall second, for processes that keep pace with the wall clock
@@ -80,6 +90,10 @@ struct Scenario {
   std::vector<VehicleEntry> vehicles;
   std::string configuration;  // configuration_of() its file, not a key; empty if there is none
 
+  // Returns the z of the surface at a simulation time, m.
+  double surface_z_m(double time_s) const { return sea_surface_z_m - tide.height_m(time_s); }
+  // Returns where a vehicle starts: a floating one has its depth below the surface of that time, m.
+  Vec3 start_ned_m(const VehicleEntry& vehicle) const;
   // Returns the vehicle of that name; null if the scenario has none.
   const VehicleEntry* find(std::string_view vehicle_name) const;
 };

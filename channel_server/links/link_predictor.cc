@@ -199,12 +199,14 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
     if (!own && rate_bps <= best) break;  // the rates that follow are slower still
     // For the other rates only the best window is evaluated.
     const auto from_table = one_path.at(paths, noise_factor(receiver) * noise_power);
-    const acoustics::LinkPrediction predicted =
+    acoustics::LinkPrediction predicted =
         from_table ? *from_table
         : own
             ? predict_link(rule_.fading, paths, receiver, windows, transmitter.band(), noise_power, curves,
                            shifts)
             : predict_link(rule_.fading, paths, {&receiver, window}, transmitter.band(), noise_power, curves);
+    predicted.acquisition_probability *= reception.share_under_water;
+    predicted.delivery_probability *= reception.share_under_water;
     if (own) {
       forecast.sinr_db = level_of(predicted.sinr).value;
       forecast.acquisition_probability = predicted.acquisition_probability;

@@ -75,8 +75,10 @@ SimTime begin_of(const Flight& flight, const Arrival& path) {
 
 acoustics::FadingLink fading_link(const Flight& flight, std::uint64_t seed) {
   const VehicleId from = flight.packet->request.source_id, to = flight.receiver_id;
+  const double speed_mps =
+      std::max(flight.packet->velocity_ned_mps.norm(), flight.place.velocity_ned_mps.norm());
   return {seed, static_cast<std::uint32_t>(std::min(from, to)),
-          static_cast<std::uint32_t>(std::max(from, to)), from > to};
+          static_cast<std::uint32_t>(std::max(from, to)), from > to, speed_mps < acoustics::kStillSpeedMps};
 }
 
 // Returns the instant at which the receiver's position is predicted. Before the first reception it is the
@@ -183,7 +185,8 @@ AudiblePacket disturbing_sound(const Flight& flight, const ReachModel* reach) {
   AudiblePacket audible = audible_packet(flight);
   double power = 0;
   for (const AudiblePath& path : audible.paths) power += path.power;
-  if (reach != nullptr && !reach->disturbs(power, flight.signal.noise)) audible.paths.clear();
+  const bool is_weak = reach != nullptr && !reach->disturbs(power, flight.signal.noise);
+  if (is_weak || flight.packet->out_of_water) audible.paths.clear();
   return audible;
 }
 

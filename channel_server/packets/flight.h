@@ -68,6 +68,7 @@ struct Flight {
   ReceiverState* sounds_at = nullptr;  // the receiver at which this reception is open; null before
   bool conflicts_with_past =
       false;                      // the packet overlaps a reception that was decided before its request came
+  bool out_of_water = false;      // the waves leave the sender or the receiver out of the water
   bool receiver_absent = false;   // the receiver's last state had timed out at the first significant path
   std::vector<NoiseSound> noise;  // noise of other vehicles, constant during the packet
   double large_scale = 1;         // factor on pressures by the link's large-scale fading
@@ -105,7 +106,8 @@ void evaluate_together(const std::vector<Flight*>& begun, const VehicleRegistry&
 // Returns the paths of an arrived flight as they sound at the receiver, with the link's large-scale fading.
 AudiblePacket audible_packet(const Flight& flight);
 // Returns audible_packet(), without its paths when they are too weak to disturb other receptions; such a
-// packet may still be acquired. Without `reach` every packet disturbs.
+// packet may still be acquired. Without `reach` every packet disturbs, except that of a sender out of the
+// water.
 AudiblePacket disturbing_sound(const Flight& flight, const ReachModel* reach);
 // Returns the times of the packet at the receiver, without the history of its signal. `noise` is in uPa^2
 // over the packet's band, less the receiver's directivity.

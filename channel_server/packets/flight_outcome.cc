@@ -98,6 +98,7 @@ OutcomeKind outcome_before_acquisition(const Flight& flight) {
   if (flight.receiver_absent) return OutcomeKind::kReceiverGone;
   if (!same_family(flight.packet->modem, flight.modem)) return OutcomeKind::kForeign;
   if (band_share(flight.packet->modem.band(), flight.modem.band()) == 0) return OutcomeKind::kOutOfBand;
+  if (flight.out_of_water) return OutcomeKind::kOutOfWater;
   if (reception.paths.empty()) return outcome_without_path(reception.state);
   if (reception.budget.received_level < flight.modem.min_receivable_level) return OutcomeKind::kBelowCutoff;
   return OutcomeKind::kReceived;

@@ -136,6 +136,7 @@ struct Packet {
   std::vector<std::int32_t> frame_bytes = {};  // bytes of the payload in each frame of the format
   bool is_noise = false;                       // not a packet but the noise of a vehicle (platform_noise.h)
   double energy_j = 0;                         // taken from the sender's battery; 0 without a battery
+  bool out_of_water = false;                   // the sender is out of the water and makes no sound
 
   PacketName name() const {
     return {request.source_id, request.packet_sequence, request.kind, request.destination_id,
@@ -169,10 +170,11 @@ enum class OutcomeKind {
   // [0] Beyond the range, at departure, at which the packet can be received or disturb a reception
   // (propagation/reach.h).
   kOutOfReach,
-  kAsleep,          // [6] the receiver's modem slept during part of the packet
-  kExtraLoss,       // [12] otherwise received, but dropped on purpose (extra_loss.h)
-  kNoPower,         // [1] the receiver's battery was empty at the first bit or at the last
-  kNoTerrain = 19,  // [4] the terrain ends or has no data on the way, and its last depth is not held
+  kAsleep,           // [6] the receiver's modem slept during part of the packet
+  kExtraLoss,        // [12] otherwise received, but dropped on purpose (extra_loss.h)
+  kNoPower,          // [1] the receiver's battery was empty at the first bit or at the last
+  kOutOfWater = 18,  // [3] waves had left the sender or the receiver out of the water at the packet's middle
+  kNoTerrain = 19,   // [4] the terrain ends or has no data on the way, and its last depth is not held
 };
 
 // The quantities that decided an outcome, and the random draws.

@@ -172,7 +172,8 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
 }
 
 // Every shard knows all states, so the sender's shard alone counts the receivers out of reach.
-void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>& events) {
+void PacketMedium::launch(const PacketPointer& sent, std::vector<MediumEvent>& events) {
+  const PacketPointer packet = as_it_sounds(sent);
   const SimTime departure = packet->departure;
   const VehicleId source = packet->request.source_id, destination = packet->request.destination_id;
   const bool is_served = rule_.shard.serves(source);
@@ -211,6 +212,26 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   if (is_served && others.receivers > 0) {
     events.push_back({departure, std::move(others)});
   }
+}
+
+PacketPointer PacketMedium::as_it_sounds(PacketPointer packet) const {
+  if (!rule_.near_surface) return packet;
+  const SimTime middle = packet->departure + SimDuration::from_seconds(packet->timing.duration.seconds() / 2);
+  const acoustics::Environment& water = propagation_.environment(packet->departure);
+  if (rule_.near_surface->is_under_water(packet->request.source_id, packet->departure_ned_m.z(), water,
+                                         middle))
+    return packet;
+  Packet unheard = *packet;
+  unheard.out_of_water = true;
+  return std::make_shared<const Packet>(std::move(unheard));
+}
+
+bool PacketMedium::is_receiver_out_of_water(const Flight& flight) const {
+  if (!rule_.near_surface) return false;
+  const ReceivedSignal& signal = flight.signal;
+  const SimTime middle = signal.begin + SimDuration::from_seconds((signal.end - signal.begin).seconds() / 2);
+  return !rule_.near_surface->is_under_water(flight.receiver_id, flight.place.position_ned_m.z(),
+                                             propagation_.environment(flight.packet->departure), middle);
 }
 
 bool PacketMedium::on_flight_event(SimTime at, std::vector<MediumEvent>& events) {
@@ -258,6 +279,7 @@ void PacketMedium::begin_reception(Flight& flight, SimTime at) {
   flight.receiver_absent = !fleet_.is_present(place);
   flight.large_scale = large_scale_of(flight, rule_.fading, rule_.seed);
   flight.signal = received_signal(flight, to_power_ratio(noise).value, rule_.fading);
+  flight.out_of_water = flight.packet->out_of_water || is_receiver_out_of_water(flight);
   if (rule_.noise.has_bursts()) {
     add_bursts(rule_.noise, rule_.seed, flight.receiver_id, flight.signal);
     flight.signal.impulses = (to_power_ratio(flight.modem.impulse_loss).value - 1) * flight.signal.noise;

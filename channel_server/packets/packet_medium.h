@@ -74,6 +74,7 @@
 #include "channel_server/packets/send_register.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/reach.h"
+#include "channel_server/propagation/surface_ends.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/vehicles/vehicle_id.h"
@@ -95,6 +96,7 @@ struct MediumRule {
   acoustics::NoiseVariation noise = {};  // variation of the sea's ambient noise
   Shard shard = {};  // the vehicles that this medium serves, if several media share the water
   std::vector<ExtraLoss> extra_loss = {};
+  std::optional<SurfaceEnds> near_surface = {};  // ends that waves may leave out of the water; empty: none
 };
 
 class PacketMedium {
@@ -155,7 +157,7 @@ class PacketMedium {
   void depart(Departure departure, std::vector<MediumEvent>& events);
   [[nodiscard]] bool must_be_deferred(const Departure& departure) const;
   const VehiclePower& power() const { return fleet_.equipment().power; }
-  void launch(const PacketPointer& packet, std::vector<MediumEvent>& events);
+  void launch(const PacketPointer& sent, std::vector<MediumEvent>& events);
 
   // Handles the next event of the first flight; returns false when it must wait for the propagation.
   bool on_flight_event(SimTime at, std::vector<MediumEvent>& events);
@@ -163,6 +165,10 @@ class PacketMedium {
   // does nothing when it must wait for the propagation.
   [[nodiscard]] bool try_to_arrive(Flight& flight, SimTime at);
   void begin_reception(Flight& flight, SimTime at);
+  // Returns the packet, marked when the waves leave its sender out of the water.
+  PacketPointer as_it_sounds(PacketPointer packet) const;
+  // True when the waves leave the receiver out of the water at the middle of the packet.
+  bool is_receiver_out_of_water(const Flight& flight) const;
   void end_preamble(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   void end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   ReceiverState& state_of(VehicleId id);

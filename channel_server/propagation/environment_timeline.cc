@@ -12,7 +12,8 @@ namespace halocline::channel_server {
 namespace {
 
 acoustics::Environment changed(acoustics::Environment environment, const EnvironmentChange& change) {
-  environment.noise.wind_mps = change.wind_mps.value_or(environment.noise.wind_mps);
+  const double wind_mps = change.wind_mps.value_or(environment.noise.wind_mps);
+  environment.noise.wind_mps = environment.ice.covers() ? 0 : wind_mps;
   environment.noise.shipping = change.shipping.value_or(environment.noise.shipping);
   environment.sea_surface_z_m = change.sea_surface_z_m.value_or(environment.sea_surface_z_m);
   environment.noise.rain_mm_per_h = change.rain_mm_per_h.value_or(environment.noise.rain_mm_per_h);
@@ -84,9 +85,18 @@ const EnvironmentTimeline::Span& EnvironmentTimeline::span_at(SimTime instant) c
   return *std::prev(later);
 }
 
+double EnvironmentTimeline::step_s(const acoustics::Environment& environment) {
+  const double rate_mps = environment.tide.max_rate_mps();
+  if (!(rate_mps > 0)) return changes_by_itself(environment) ? period_of(environment) : 0;
+  constexpr double kMinStepS = 0.5;
+  double step = period_of(environment);
+  while (step > kMinStepS && step * rate_mps > kTideStepM) step /= 2;
+  return step;
+}
+
 std::int64_t EnvironmentTimeline::step_of(const acoustics::Environment& environment, SimTime instant) {
-  if (!changes_by_itself(environment)) return 0;
-  return static_cast<std::int64_t>(std::floor(instant.seconds() / period_of(environment)));
+  const double step = step_s(environment);
+  return step > 0 ? static_cast<std::int64_t>(std::floor(instant.seconds() / step)) : 0;
 }
 
 EnvironmentTimeline::WaterId EnvironmentTimeline::water_at(SimTime instant) const {
@@ -96,15 +106,25 @@ EnvironmentTimeline::WaterId EnvironmentTimeline::water_at(SimTime instant) cons
 
 const acoustics::Environment& EnvironmentTimeline::at(SimTime instant) const {
   const Span& span = span_at(instant);
-  if (!changes_by_itself(span.environment)) return span.environment;
+  const double length_s = step_s(span.environment);
+  if (!(length_s > 0)) return span.environment;
   const std::int64_t step = step_of(span.environment, instant);
-  const auto [known, is_new] = field_waters_.try_emplace(span.id + step * kIdsOfAStep, span.environment);
-  acoustics::Environment& there = known->second;
+  const auto [known, is_new] =
+      field_waters_.try_emplace(span.id + step * kIdsOfAStep, StepWater{span.environment});
+  acoustics::Environment& there = known->second.environment;
   if (!is_new) return there;
-  there.field.time_s = (static_cast<double>(step) + 0.5) * period_of(there);
-  there.profile =
-      drifts(there) ? there.profile.with_change(drift_rows(there.drift, drift_amplitudes(there.drift, step)))
-                    : environment_at(there, 0, 0).profile;
+  known->second.end_s = static_cast<double>(step + 1) * length_s;
+  const double middle_s = (static_cast<double>(step) + 0.5) * length_s;
+  there.sea_surface_z_m -= there.tide.height_m(middle_s);
+  if (!changes_by_itself(there)) return there;
+  const double period_s = period_of(there), block = std::floor(middle_s / period_s);
+  if (drifts(there)) {
+    const auto amplitudes = drift_amplitudes(there.drift, static_cast<std::int64_t>(block));
+    there.profile = there.profile.with_change(drift_rows(there.drift, amplitudes));
+  } else {
+    there.field.time_s = (block + 0.5) * period_s;
+    there.profile = environment_at(there, 0, 0).profile;
+  }
   return there;
 }
 
@@ -116,7 +136,7 @@ SimTime EnvironmentTimeline::next_change_after(SimTime instant) const {
 
 void EnvironmentTimeline::forget_before(SimTime time) {
   std::erase_if(field_waters_, [time](const auto& water) {
-    return water.second.field.time_s + period_of(water.second) < time.seconds();
+    return water.second.end_s + period_of(water.second.environment) / 2 < time.seconds();
   });
   constexpr std::size_t kForgottenTogether = kAnnouncedKept / 10;  // each removal moves all other spans
   if (changes_kept() < kAnnouncedKept + kForgottenTogether) return;

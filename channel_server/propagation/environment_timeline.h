@@ -9,8 +9,9 @@
 // of the order of reception within one step.
 //
 // Where the environment has a field of temperature and salinity that changes with time, sound uses the field
-// at the middle of the span of WaterField::period_s that contains the instant. So many links and packets
-// share their searches, and delays jump at the end of a span by what the field changes in it. Spans begin at
+// at the middle of the span of WaterField::period_s that contains the instant. A tide moves the sea surface
+// in steps of kTideStepM at most: the level is that of the middle of a step. So many links and packets share
+// their searches, and delays jump at the end of a span by what the field changes in it. Spans begin at
 // multiples of the period. A sound-speed profile that is announced replaces the field.
 //
 // A profile that drifts (acoustics/sea/profile_drift.h) is likewise that of the block that contains the instant.
@@ -48,6 +49,7 @@ class EnvironmentTimeline {
  public:
   static constexpr std::size_t kMaxChanges = 10'000;
   static constexpr std::size_t kAnnouncedKept = 1000;
+  static constexpr double kTideStepM = 1e-3;  // rays change by less than a microsecond within half of it
 
   // Session and sequence number of an announcement; session 0 is the scenario.
   struct Origin {
@@ -97,15 +99,21 @@ class EnvironmentTimeline {
     WaterId id = 0;
   };
   const Span& span_at(SimTime instant) const;
-  // Number of the span of a field or block of a drift that contains the instant, counted from time 0; 0 where
-  // neither changes.
+  // Time for which the water is taken as constant, s; 0 where it does not change by itself. A step of a tide
+  // is a power of two of the span of a field or of the block of a drift.
+  static double step_s(const acoustics::Environment& environment);
+  // Number of the step that contains the instant, counted from time 0; 0 where the water does not change.
   static std::int64_t step_of(const acoustics::Environment& environment, SimTime instant);
   void insert(const Order& order, const EnvironmentChange& change);
 
   std::vector<Span> spans_;  // ordered; the first is the initial environment
   WaterId last_id_ = 0;
-  // Environments with the field of other spans, or the profile of a block.
-  mutable std::map<WaterId, acoustics::Environment> field_waters_;
+  // Environments of steps of a field, a drift or a tide, and the ends of these steps, s.
+  struct StepWater {
+    acoustics::Environment environment;
+    double end_s = 0;
+  };
+  mutable std::map<WaterId, StepWater> field_waters_;
 };
 
 }  // namespace halocline::channel_server

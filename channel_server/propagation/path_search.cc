@@ -26,10 +26,6 @@ acoustics::RayOptions options_of(const RayModel& model, const PathQuery& query) 
   return options;
 }
 
-acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environment& environment) {
-  return {model.surface, environment.noise.wind_mps};
-}
-
 std::shared_ptr<const SearchResult> result_over(const RayModel& model, const PathSea& along,
                                                 const PathQuery& query, const SeabedProfile& seabed,
                                                 acoustics::SharedRays* shared) {
@@ -44,6 +40,10 @@ std::shared_ptr<const SearchResult> result_over(const RayModel& model, const Pat
 }
 
 }  // namespace
+
+acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environment& environment) {
+  return {model.surface, environment.noise.wind_mps, environment.ice};
+}
 
 std::uint64_t PathQuery::hash_of_places() const {
   std::array<double, 7> all{

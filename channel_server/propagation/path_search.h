@@ -25,6 +25,7 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/seabed_profile.h"
+#include "channel_server/propagation/surface_ends.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {
@@ -59,10 +60,15 @@ struct RayModel {
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
   int max_searches_per_tick = 0;  // limit for link tables (search_scheduler.h); 0: unlimited
   bool holds_terrain = true;      // beyond the terrain its last depth continues; false: no sound passes there
+  // Bubbles and waves near the surface act on paths that fade, and waves on these ends; empty: on none.
+  std::optional<SurfaceEnds> near_surface = {};
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
 void validate(const RayModel& model);
+
+// Returns the surface for ray tracing.
+acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environment& environment);
 
 // Horizontal positions of the ends of a bottom profile: north and east of the first end, then of the last, m.
 using ProfileEnds = std::array<double, 4>;

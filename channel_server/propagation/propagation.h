@@ -127,6 +127,7 @@ struct Reception {
   // Echoes beside a straight path over a known bottom; kUnknown otherwise, also along rays, among which the
   // echoes are.
   Multipath bottom_echo = Multipath::kUnknown;
+  double share_under_water = 1;  // of the time, for which the waves cover both ends (surface_ends.h)
 };
 
 // Bound on flux-only links, for which only the incoherent energy flux is computed: all links whose level lies

@@ -6,6 +6,8 @@
 #include "acoustics/fading/scattering_loss.h"
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/link/received_field.h"
+#include "acoustics/sea/ice_cover.h"
+#include "acoustics/sea/surface_boundary.h"
 #include "core/elementary.h"
 
 namespace halocline::channel_server {
@@ -47,12 +49,49 @@ std::optional<Arrival> arrival_of(const RoughBoundaries& boundaries,
   const Decibels level = from.modem->source_level + Decibels{20 * elementary::log10(pressure)};
   arrival.level = std::max(level + to_decibels(PowerRatio{kept}), kSilence);
   arrival.doppler_factor = doppler_factor(arrival, moving);
-  arrival.fading = path_fading(boundaries.fading, environment.noise.wind_mps, frequency_hz,
-                               arrival.surface_sine_squares, arrival.bottom_sine_squares, kept);
+  const double speed_mps = std::max(from.velocity_ned_mps.norm(), to.velocity_ned_mps.norm());
+  arrival.fading = path_fading_below(
+      boundaries.fading, surface_boundary(environment.noise.wind_mps, environment.ice, frequency_hz),
+      frequency_hz, arrival.surface_sine_squares, arrival.bottom_sine_squares, kept, speed_mps);
   // Many paths of random phase add to complex Gaussian noise.
   if (arrival.diffuse && boundaries.fading.enabled)
     arrival.fading = {.coherent = 0, .scattered = 1, .doppler_spread_hz = arrival.fading.doppler_spread_hz};
   return arrival;
+}
+
+SurfacePassage::SurfacePassage(const SurfaceEnds& surface, const acoustics::Environment& environment,
+                               const EndPair& ends, double frequency_hz)
+    : surface_(acoustics::near_surface(environment.noise.wind_mps, frequency_hz)),
+      waves_radps_(surface_.waves.mean_frequency_radps) {
+  const auto shift = [&](const LinkEnd& end) {
+    return surface.heave_mps(end.id, end.position_ned_m.z(), environment) * frequency_hz /
+           sound_speed_at(environment, end.position_ned_m);
+  };
+  from_shift_ = shift(ends.from);
+  to_shift_ = shift(ends.to);
+}
+
+acoustics::SurfaceCrossing SurfacePassage::cross(const acoustics::RayWater& water,
+                                                 const acoustics::RayLink& link,
+                                                 acoustics::Eigenray& path) const {
+  const acoustics::SurfaceCrossing crossing = crossing_of(surface_, water, link, path);
+  take_bubbles(crossing, path);
+  return crossing;
+}
+
+void SurfacePassage::set_waves(const acoustics::SurfaceCrossing& crossing, Arrival& arrival) const {
+  if (crossing.clear_share < 1) {
+    arrival.level = std::max(arrival.level + to_decibels(PowerRatio{crossing.clear_share}), kSilence);
+    arrival.fading = behind_crests(arrival.fading, crossing.clear_share, waves_radps_);
+  }
+  if (from_shift_ == 0 && to_shift_ == 0) return;
+  const double from_hz = from_shift_ * elementary::sin(arrival.launch_angle_rad);
+  const double to_hz = to_shift_ * elementary::sin(arrival.arrival_angle_rad);
+  arrival.fading.doppler_spread_hz = elementary::hypot(arrival.fading.doppler_spread_hz, from_hz, to_hz);
+}
+
+Decibels keel_loss(const acoustics::Environment& environment, double depth_m, double range_m) {
+  return Decibels{keel_loss_db_per_km(environment.ice, depth_m) * range_m / 1000};
 }
 
 // Over a bottom that does not scatter, the remaining share is the surface's.

@@ -6,10 +6,13 @@
 #include <optional>
 
 #include "acoustics/fading/arrival.h"
+#include "acoustics/fading/near_surface.h"
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/surface_ends.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {
@@ -28,6 +31,27 @@ acoustics::Eigenray backwards(acoustics::Eigenray path);
 std::optional<Arrival> arrival_of(const RoughBoundaries& boundaries,
                                   const acoustics::Environment& environment, const EndPair& ends,
                                   const acoustics::Eigenray& eigenray, bool reversed);
+
+// Passage of a link's paths by bubbles and waves near the surface. Refers to its arguments.
+class SurfacePassage {
+ public:
+  SurfacePassage(const SurfaceEnds& surface, const acoustics::Environment& environment, const EndPair& ends,
+                 double frequency_hz);
+
+  // Takes the loss by bubbles from an eigenray of `link`, which was traced in `water`.
+  acoustics::SurfaceCrossing cross(const acoustics::RayWater& water, const acoustics::RayLink& link,
+                                   acoustics::Eigenray& path) const;
+  // Sets level and fading of the path as received: behind crests, and with the heave of both ends.
+  void set_waves(const acoustics::SurfaceCrossing& crossing, Arrival& arrival) const;
+
+ private:
+  acoustics::NearSurface surface_;
+  double waves_radps_;            // mean frequency of the waves
+  double from_shift_, to_shift_;  // heave of the ends over the speed of sound, times the frequency, Hz
+};
+
+// Returns the loss by the keels of ice along a path over `range_m` in water of a mean depth, dB.
+Decibels keel_loss(const acoustics::Environment& environment, double depth_m, double range_m);
 
 // Returns the share of the path's power that scattering at the surface leaves in it, dB, 0 or less.
 Decibels kept_at_surface(const RoughBoundaries& boundaries, const acoustics::Environment& environment,

@@ -122,8 +122,8 @@ std::optional<FluxOnlyLinks> RayPropagation::flux_only_links(SimTime at, double 
   const acoustics::RayWater water = ray_water(environment, frequency_hz, model_.speed_tolerance_mps);
   acoustics::RayOptions options = model_.options;
   options.frequency_hz = frequency_hz;
-  const acoustics::EnergyFluxSea sea{
-      water, model_.least_depth_m, model_.bottom, {model_.surface, environment.noise.wind_mps}, options};
+  const acoustics::EnergyFluxSea sea{water, model_.least_depth_m, model_.bottom,
+                                     surface_of(model_, environment), options};
   const Decibels gain = acoustics::kFocusingGain + gain_beyond_powers(model_, environment);
   return FluxOnlyLinks{{sea, {model_.least_depth_m, model_.greatest_depth_m, deepest_end_m}, gain},
                        model_.diffuse_below_noise + model_.weak_below_diffuse};
@@ -159,9 +159,16 @@ Reception RayPropagation::answer(const Task& task, const SearchResult& found,
   const acoustics::Eigenrays& eigenrays = elsewhere ? *elsewhere : found.eigenrays;
   reception.solver = eigenrays.solver;
   reception.paths = with_reverberation(model_.reverberation, {found.mean_depth_m, boundaries_.trapped_share},
-                                       arrivals(task, eigenrays));
+                                       arrivals(task, eigenrays, found.mean_depth_m));
   reception.delay_spread_s = delay_spread_s(reception.paths);
   reception.diffuse_level = diffuse_level(reception.paths);
+  if (model_.near_surface && model_.fading.enabled) {
+    const auto& [from, to] = task.ends;
+    for (const LinkEnd* end : {&from, &to}) {
+      reception.share_under_water *=
+          model_.near_surface->share_under_water(end->id, end->position_ned_m.z(), *task.environment);
+    }
+  }
   if (!reception.paths.empty()) {
     set_open(task, eigenrays, capacity, reception);
   } else {
@@ -179,11 +186,23 @@ PathState RayPropagation::state_without_path(const SearchResult& found) {
   return found.blocked ? PathState::kBlocked : PathState::kShadow;
 }
 
-std::vector<Arrival> RayPropagation::arrivals(const Task& task, const acoustics::Eigenrays& eigenrays) const {
+std::vector<Arrival> RayPropagation::arrivals(const Task& task, const acoustics::Eigenrays& eigenrays,
+                                              double depth_m) const {
+  const RoughBoundaries& boundaries = boundaries_;
+  std::optional<SurfacePassage> passage;
+  if (model_.near_surface && model_.fading.enabled)
+    passage.emplace(*model_.near_surface, *task.environment, task.ends, task.query.frequency_hz);
+  const Decibels keels = keel_loss(*task.environment, depth_m, task.link.range_m);
   std::vector<Arrival> paths;
   for (const acoustics::Eigenray& eigenray : eigenrays.paths) {
-    if (const auto path = arrival_of(boundaries_, *task.environment, task.ends, eigenray, task.reversed))
-      paths.push_back(*path);
+    acoustics::Eigenray path = eigenray;
+    const acoustics::SurfaceCrossing crossing =
+        passage ? passage->cross(*task.water, task.link, path) : acoustics::SurfaceCrossing();
+    auto arrival = arrival_of(boundaries, *task.environment, task.ends, path, task.reversed);
+    if (!arrival) continue;
+    if (passage) passage->set_waves(crossing, *arrival);
+    if (keels.value > 0) arrival->level = std::max(arrival->level - keels, kSilence);
+    paths.push_back(*arrival);
   }
   return paths;
 }
@@ -194,10 +213,10 @@ LinkChart RayPropagation::chart(SimTime at, const LinkEnd& from, const LinkEnd& 
   if (!found) return Propagation::chart(at, from, to);
   const acoustics::BottomProfile bottom =
       bottom_under(*searches_.seabed_of(task.query), task.link, task.environment->sea_surface_z_m);
-  const acoustics::RaySurface surface{model_.surface, task.environment->noise.wind_mps};
+  const acoustics::RaySurface surface = surface_of(model_, *task.environment);
   std::vector<LinkChart::Row> rows;
   std::vector<Arrival> of_paths;
-  if (!lacks_terrain(*found)) of_paths = arrivals(task, found->eigenrays);
+  if (!lacks_terrain(*found)) of_paths = arrivals(task, found->eigenrays, found->mean_depth_m);
   for (const Arrival& arrival : of_paths) {
     const Decibels kept = kept_at_surface(boundaries_, *task.environment, task.query.frequency_hz, arrival);
     rows.push_back({.arrival = arrival, .surface_db = arrival.surface_loss_db - kept.value});

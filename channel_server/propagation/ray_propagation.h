@@ -137,7 +137,8 @@ class RayPropagation : public Propagation {
     return found.beyond_terrain && !model_.holds_terrain;
   }
   static PathState state_without_path(const SearchResult& found);
-  std::vector<Arrival> arrivals(const Task& task, const acoustics::Eigenrays& eigenrays) const;
+  std::vector<Arrival> arrivals(const Task& task, const acoustics::Eigenrays& eigenrays,
+                                double depth_m) const;
   Decibels received_level(const Task& task, const acoustics::Eigenrays& eigenrays,
                           const std::vector<Arrival>& paths) const;
   void set_open(const Task& task, const acoustics::Eigenrays& eigenrays, acoustics::Capacity capacity,

@@ -135,6 +135,8 @@ std::string deciding_reason(const packet_outcome_t& o, const VehicleName& name) 
       return fmt::format("{:.0f} m away, where its sound is too weak to matter", o.range_m);
     case packet_outcome_t::NO_POWER:
       return "the receiver's battery was empty";
+    case packet_outcome_t::OUT_OF_WATER:
+      return "waves had left one of the two ends out of the water";
     case packet_outcome_t::OUT_OF_BAND:
       return "the bands of the two modems do not overlap";
     case packet_outcome_t::FOREIGN:

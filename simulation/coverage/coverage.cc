@@ -47,7 +47,7 @@ class Mapping {
         terrain_(*terrain),
         from_ned_m_(from.position_ned_m),
         level_z_m_(level_z_m(config.terrain, *terrain)),
-        surface_z_m_(config.scenario.sea_surface_z_m),
+        surface_z_m_(config.scenario.surface_z_m(0)),
         area_(area),
         tolerance_(tolerances(wanted)),
         threads_(threads),

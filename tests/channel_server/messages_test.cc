@@ -205,6 +205,7 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(OutcomeKind::kAsleep), packet_outcome_t::ASLEEP);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kExtraLoss), packet_outcome_t::EXTRA_LOSS);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kNoPower), packet_outcome_t::NO_POWER);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kOutOfWater), packet_outcome_t::OUT_OF_WATER);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kNoTerrain), packet_outcome_t::NO_TERRAIN);
   EXPECT_EQ(static_cast<int>(ModemEventKind::kTransmissionBegan), modem_event_t::TRANSMISSION_BEGAN);
   EXPECT_EQ(static_cast<int>(ModemEventKind::kTransmissionEnded), modem_event_t::TRANSMISSION_ENDED);
