@@ -69,6 +69,11 @@ class Bus {
   template <class Message>
   void subscribe(const Family& family, FamilyHandler<Message> handler,
                  Wakeup wakeup = Wakeup::kMayAdvanceDue);
+  // Subscribes a handler that only stores the newest message (newest()).
+  template <class Message>
+  void subscribe_newest(std::string_view channel, Handler<Message> handler) {
+    subscribe<Message>(channel, newest<Message>(std::move(handler)), Wakeup::kStoreOnly);
+  }
 
   // Redirects every published message to `outbox` instead of LCM; the runner of the node delivers it. Returns
   // the previous outbox.

@@ -59,21 +59,15 @@ ModemInterface::ModemInterface(bus::Bus& bus, const ModemInterfaceConfig& config
   if (listens_) modem_.on_event([this](const modem_event_t& event) { happenings_.emplace_back(event); });
   bus.subscribe<vehicle_usbl_t>(bus::channels::kUsbl.of(config.vehicle),
                                 [this](const vehicle_usbl_t& bearing) { happenings_.emplace_back(bearing); });
-  bus.subscribe<vehicle_sensors_t>(
-      bus::channels::kSensors.of(config.vehicle),
-      bus::newest<vehicle_sensors_t>([this](const vehicle_sensors_t& s) { sensors_ = s; }),
-      bus::Wakeup::kStoreOnly);
-  bus.subscribe<vehicle_battery_t>(
-      bus::channels::kBattery.of(config.vehicle),
-      bus::newest<vehicle_battery_t>([this](const vehicle_battery_t& b) { battery_ = b; }),
-      bus::Wakeup::kStoreOnly);
+  bus.subscribe_newest<vehicle_sensors_t>(bus::channels::kSensors.of(config.vehicle),
+                                          [this](const vehicle_sensors_t& s) { sensors_ = s; });
+  bus.subscribe_newest<vehicle_battery_t>(bus::channels::kBattery.of(config.vehicle),
+                                          [this](const vehicle_battery_t& b) { battery_ = b; });
   bus.subscribe<link_reply_t>(bus::channels::kLinkReply.of(client_name_), [this](const link_reply_t& reply) {
     if (reply.request_id == queries_) happenings_.emplace_back(reply);
   });
-  bus.subscribe<vehicle_state_t>(
-      bus::channels::kState.of(config.vehicle),
-      bus::newest<vehicle_state_t>([this](const vehicle_state_t& s) { state_ = s; }),
-      bus::Wakeup::kStoreOnly);
+  bus.subscribe_newest<vehicle_state_t>(bus::channels::kState.of(config.vehicle),
+                                        [this](const vehicle_state_t& s) { state_ = s; });
 }
 
 void ModemInterface::make_modem() {

@@ -57,19 +57,15 @@ void AutopilotNode::subscribe(Pilot& pilot) {
     pilot.attitude.emplace(config.navigator.gyro_bias_radps);
     subscribe_fixes(pilot);
   } else {
-    bus().subscribe<vehicle_state_t>(
-        bus::channels::kState.of(config.vehicle),
-        bus::newest<vehicle_state_t>([&pilot](const vehicle_state_t& state) { pilot.state = state; }),
-        bus::Wakeup::kStoreOnly);
+    bus().subscribe_newest<vehicle_state_t>(bus::channels::kState.of(config.vehicle),
+                                            [&pilot](const vehicle_state_t& state) { pilot.state = state; });
   }
-  bus().subscribe<vehicle_sensors_t>(
-      bus::channels::kSensors.of(config.vehicle),
-      bus::newest<vehicle_sensors_t>([&pilot](const vehicle_sensors_t& sensors) {
-        pilot.sensors = sensors;
-        pilot.altitude_taken = false;
-        if (pilot.navigator) dead_reckon(pilot, sensors);
-      }),
-      bus::Wakeup::kStoreOnly);
+  bus().subscribe_newest<vehicle_sensors_t>(bus::channels::kSensors.of(config.vehicle),
+                                            [&pilot](const vehicle_sensors_t& sensors) {
+                                              pilot.sensors = sensors;
+                                              pilot.altitude_taken = false;
+                                              if (pilot.navigator) dead_reckon(pilot, sensors);
+                                            });
 }
 
 void AutopilotNode::dead_reckon(Pilot& pilot, const vehicle_sensors_t& sensors) {
@@ -83,11 +79,9 @@ void AutopilotNode::subscribe_fixes(Pilot& pilot) {
       bus::channels::kEstimate.of(name),
       [&pilot](const position_estimate_t& estimate) { take_in(estimate, *pilot.navigator); },
       bus::Wakeup::kStoreOnly);
-  bus().subscribe<vehicle_dvl_t>(bus::channels::kDvl.of(name),
-                                 bus::newest<vehicle_dvl_t>([&pilot](const vehicle_dvl_t& ping) {
-                                   if (ping.ground_velocity_valid) pilot.ping = ping;
-                                 }),
-                                 bus::Wakeup::kStoreOnly);
+  bus().subscribe_newest<vehicle_dvl_t>(bus::channels::kDvl.of(name), [&pilot](const vehicle_dvl_t& ping) {
+    if (ping.ground_velocity_valid) pilot.ping = ping;
+  });
   bus().subscribe<vehicle_gps_t>(
       bus::channels::kGps.of(name), [&pilot](const vehicle_gps_t& fix) { take_in(fix, *pilot.navigator); },
       bus::Wakeup::kStoreOnly);

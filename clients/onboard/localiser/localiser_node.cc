@@ -57,10 +57,8 @@ LocaliserNode::LocaliserNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Lo
     if (!vehicle.beacons.empty()) add_vehicle(config, vehicle);
   }
   if (vehicles_.empty()) return;
-  bus().subscribe<environment_t>(
-      bus::channels::kEnvironment,
-      bus::newest<environment_t>([this](const environment_t& message) { take_environment(message); }),
-      bus::Wakeup::kStoreOnly);
+  bus().subscribe_newest<environment_t>(bus::channels::kEnvironment,
+                                        [this](const environment_t& message) { take_environment(message); });
 }
 
 void LocaliserNode::add_vehicle(const LocaliserConfig& config, const VehicleLocaliser& settings) {
