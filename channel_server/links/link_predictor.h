@@ -79,8 +79,8 @@ class LinkPredictor {
   // Returns the mean signal-to-noise ratio, dB, below which no rate of this transmitter delivers one packet
   // in a thousand, however the link fades (acoustics/fading/fading_bounds.h). Not thread-safe.
   double least_sinr_db(const acoustics::Modem& transmitter);
-  // Returns the slow state of the link between two vehicles (0: a position) for sound that leaves at `at`. Not
-  // thread-safe.
+  // Returns the slow state of the link between two vehicles (0: a position) for sound that leaves at `at`.
+  // Not thread-safe.
   SlowState slow_state(VehicleId from, VehicleId to, SimTime at);
   // Returns the forecast of a link whose transmitter has these rates. Thread-safe.
   LinkForecast forecast(const Rates& rates, const acoustics::Modem& transmitter,
@@ -103,7 +103,7 @@ class LinkPredictor {
   std::optional<SimTime> noise_at_;  // when the noise last asked for is noise_db_
   double noise_db_ = 0;
   acoustics::MarginQuantiles hours_;  // of the margin, both 0 without slow fading
-  std::list<Entry> kept_;  // the most recently used first
+  std::list<Entry> kept_;             // the most recently used first
 };
 
 }  // namespace halocline::channel_server

@@ -83,8 +83,8 @@ struct SlowLink {
     EndPair link{link_end(placed[0]), link_end(placed[1])};
     link.to.above_ambient = noise_offset(kNoise, kSeed, at_s(time_s));
     const Reception reception = propagation.reception(at_s(time_s), link.from, link.to);
-    return predictor.forecast(*predictor.rates_of(*link.from.modem), *link.from.modem, *link.to.modem, reception,
-                              predictor.slow_state(1, 2, at_s(time_s)));
+    return predictor.forecast(*predictor.rates_of(*link.from.modem), *link.from.modem, *link.to.modem,
+                              reception, predictor.slow_state(1, 2, at_s(time_s)));
   }
 
   VehicleRegistry fleet;
