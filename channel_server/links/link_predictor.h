@@ -40,12 +40,12 @@ struct LinkForecast {
   double first_path_delay_s = 0;  // along the first significant path
   double sinr_db = 0;  // mean signal in the guard window over noise and own echoes; at least kSilence
   double acquisition_probability = 0, delivery_probability = 0;
-  // Delivery in one hour of ten at most, and in nine of ten: at quantiles of slow fading and noise. Equal to
-  // delivery_probability when neither varies.
-  double delivery_low = 0, delivery_high = 0;
   double coherence_time_s = 0;  // at most 1e6
   double doppler_spread_hz = 0, rms_delay_spread_s = 0;
   double best_rate_bps = 0;  // 0 when no rate delivers
+  // Delivery in one hour of ten at most, and in nine of ten: at quantiles of slow fading and noise. Equal to
+  // delivery_probability when neither varies.
+  double delivery_low = 0, delivery_high = 0;
 };
 
 // State of slow fading and noise on one link, dB: level of the pair, and that level less the change of the
