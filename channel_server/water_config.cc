@@ -331,10 +331,6 @@ acoustics::Environment make_environment(const EnvironmentConfig& config, const b
   environment.drift = {.spread_mps = config.profile_spread_mps,
                        .depth_m = drifting_depth_m(environment.profile, scenario),
                        .seed = scenario.seed};
-  require(
-      !environment.drift.any() || !environment.field,
-      "environment.profile_spread_mps is above 0, but an ocean field carries sound: its water has changes of "
-      "its own");
   validate(environment);
   return environment;
 }

@@ -73,6 +73,8 @@ class SoundSpeedProfile {
   // replaces an earlier change. Throws InvalidArgument when the depths do not rise.
   SoundSpeedProfile with_change(std::vector<SpeedRow> change) const;
   SoundSpeedProfile without_change() const { return with_change({}); }
+  const std::vector<SpeedRow>& change() const { return change_rows_; }  // empty: none
+  double change_mps(double depth_m) const;                              // at 0 m or below
 
   double sound_speed_mps(double depth_m) const;
   WaterSample water(double depth_m) const;

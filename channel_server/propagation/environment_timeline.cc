@@ -26,12 +26,8 @@ acoustics::Environment changed(acoustics::Environment environment, const Environ
 
 constexpr EnvironmentTimeline::WaterId kIdsOfAStep = 1LL << 32;  // more than the ids of all other changes
 
-bool drifts(const acoustics::Environment& environment) {
-  return environment.drift.any() && !environment.field;
-}
-
 bool changes_by_itself(const acoustics::Environment& environment) {
-  return drifts(environment) || (environment.field && !environment.field.ocean->is_steady());
+  return environment.drift.any() || (environment.field && !environment.field.ocean->is_steady());
 }
 
 double period_of(const acoustics::Environment& environment) {
@@ -102,9 +98,9 @@ const acoustics::Environment& EnvironmentTimeline::at(SimTime instant) const {
   acoustics::Environment& there = known->second;
   if (!is_new) return there;
   there.field.time_s = (static_cast<double>(step) + 0.5) * period_of(there);
-  there.profile =
-      drifts(there) ? there.profile.with_change(drift_rows(there.drift, drift_amplitudes(there.drift, step)))
-                    : environment_at(there, 0, 0).profile;
+  if (there.field) there.profile = environment_at(there, 0, 0).profile;
+  if (there.drift.any())
+    there.profile = there.profile.with_change(drift_rows(there.drift, drift_amplitudes(there.drift, step)));
   return there;
 }
 

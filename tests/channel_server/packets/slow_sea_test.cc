@@ -53,7 +53,8 @@ struct SlowLink {
       : fleet({for_s(0.05), for_s(5)}, {coded_modem(source_level_db), {}}),
         propagation(std::make_shared<EnvironmentTimeline>(testing::even_water()), slow_fading()),
         medium(fleet, propagation, {.seed = kSeed, .fading = slow_fading(), .noise = kNoise}),
-        predictor({.payload_bytes = 8, .fading = slow_fading(), .profiles = {}, .noise = kNoise, .seed = kSeed}) {}
+        predictor(
+            {.payload_bytes = 8, .fading = slow_fading(), .profiles = {}, .noise = kNoise, .seed = kSeed}) {}
 
   struct Hour {
     double realised = 0, predicted = 0;
