@@ -247,8 +247,7 @@ void visit_slow_fading(bus::ConfigVisitor& v, acoustics::SlowFading& f) {
   });
   v.number("tidal_fading_db", f.tidal_db,
            {0, 20, "dB", "amplitude of a link's level over the lunar tide of 12.42 h; 0: none"});
-  v.number("daily_fading_db", f.daily_db,
-           {0, 20, "dB", "amplitude of a link's level over the day; 0: none"});
+  v.number("daily_fading_db", f.daily_db, {0, 20, "dB", "amplitude of a link's level over the day; 0: none"});
 }
 
 void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
@@ -431,9 +430,6 @@ acoustics::Environment make_environment(const EnvironmentConfig& config, const b
   environment.drift = {.spread_mps = config.profile_spread_mps,
                        .depth_m = drifting_depth_m(environment.profile, scenario),
                        .seed = scenario.seed};
-  require(!environment.drift.any() || !environment.field,
-          "environment.profile_spread_mps is above 0, but an ocean field carries sound: its water has changes of "
-          "its own");
   validate(environment);
   return environment;
 }

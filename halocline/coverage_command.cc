@@ -98,8 +98,7 @@ Coverage write_bands(const CoverageOptions& options, const ScenarioConfig& confi
 int map(const CoverageOptions& options, const ScenarioConfig& config, const LinkSurveyEnd& from) {
   const CoverageArea area = area_of(options, from);
   const auto quantities = quantities_of(options.quantities);
-  constexpr double kBytesACell =
-      8 * sizeof(double);  // six quantities, and two values while writing
+  constexpr double kBytesACell = 8 * sizeof(double);  // six quantities, and two values while writing
   require_memory(static_cast<double>(area.side * area.side * area.depths_m.size() * (options.members + 1)) *
                          kBytesACell +
                      estimated_memory_bytes(config),
@@ -209,8 +208,9 @@ void add_coverage_command(CLI::App& app, int& exit_code) {
       ->add_option("--range", options->range_m,
                    "how far the map reaches to each side, m; default 100 cells, so 200 x 200")
       ->check(CLI::PositiveNumber);
-  command->add_option("--quantity", options->quantities,
-                      "what is written: delivery, snr, level, delay, delivery_low, delivery_high, with commas between");
+  command->add_option(
+      "--quantity", options->quantities,
+      "what is written: delivery, snr, level, delay, delivery_low, delivery_high, with commas between");
   command
       ->add_option(
           "--share-rays", options->sharing,

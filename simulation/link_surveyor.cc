@@ -96,9 +96,8 @@ LinkSurveyor::Answer LinkSurveyor::forecast(const LinkEnd& from, const LinkEnd& 
                                             channel_server::Reception reception) {
   Answer answer;
   answer.reception = std::move(reception);
-  answer.forecast =
-      predictor_.forecast(*predictor_.rates_of(*from.modem), *from.modem, *to.modem, answer.reception,
-                          predictor_.slow_state(from.id, to.id, SimTime()));
+  answer.forecast = predictor_.forecast(*predictor_.rates_of(*from.modem), *from.modem, *to.modem,
+                                        answer.reception, predictor_.slow_state(from.id, to.id, SimTime()));
   return answer;
 }
 

@@ -171,8 +171,7 @@ LinkFading::LinkFading(const FadingModel& model, const FadingLink& link) : model
 // 10^((X + Y)/20); the mean -sigma^2 ln(10) / 20 of X makes the mean power 1.
 double LinkFading::large_scale(SimTime time) const {
   if (!model_.enabled) return 1;
-  const double slow_db =
-      slow_level(model_.slow, {link_.seed, link_.lower_id, link_.higher_id}, time).value;
+  const double slow_db = slow_level(model_.slow, {link_.seed, link_.lower_id, link_.higher_id}, time).value;
   if (model_.large_scale_db == 0) return slow_db == 0 ? 1 : elementary::exp10(slow_db / 20);
   const bool is_still = link_.at_rest && model_.large_scale_still_s > 0;
   const GaussMarkovProcess process(model_.large_scale_db,

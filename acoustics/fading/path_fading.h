@@ -3,7 +3,8 @@
 // rough boundaries.
 //
 // Model, for a path of mean power P:
-//   h(t) = sqrt(P) 10^((X(t) + Y(t))/20) [sqrt(c) e^(j phi) + sqrt(m) g_m(t) + sqrt(s) g_s(t)],  c + m + s = 1
+//   h(t) = sqrt(P) 10^((X(t) + Y(t))/20) [sqrt(c) e^(j phi) + sqrt(m) g_m(t) + sqrt(s) g_s(t)],  c + m + s =
+//   1
 // - Surface: the Rayleigh parameter of bounce i is Gamma_i = 2 k sigma_h sin(theta_i), with k the wave number
 //   at the centre frequency and sigma_h the rms wave height of Pierson and Moskowitz. The bottom is treated
 //   in the same way with its own rms roughness. After all bounces the share E = exp(-sum Gamma_i^2) of the

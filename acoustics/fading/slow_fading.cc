@@ -46,9 +46,7 @@ DrawAddress address_of(const SlowPair& pair, std::string_view purpose) {
 
 constexpr std::int64_t kStepMs = 1 << 16;  // a power of two, which the halvings of the process meet
 
-std::int64_t step_of(SimTime at) {
-  return std::max<std::int64_t>(at.nanoseconds() / 1'000'000 / kStepMs, 0);
-}
+std::int64_t step_of(SimTime at) { return std::max<std::int64_t>(at.nanoseconds() / 1'000'000 / kStepMs, 0); }
 
 SlowLevels::Draws draws_of(const SlowFading& model, const SlowPair& pair, std::int64_t step) {
   SlowLevels::Draws draws{.step = step};
@@ -112,8 +110,7 @@ MarginQuantiles margin_quantiles(const SlowFading& model, double noise_spread_db
   if (!model.any() && noise_spread_db == 0) return {};
   constexpr int kPhases = 16;         // in half a turn, of each cosine
   constexpr double kNarrowest = 0.1;  // dB, keeps the mean over phases smooth when nothing else varies
-  const double deviation =
-      std::max(elementary::hypot(model.deviation_db, noise_spread_db), kNarrowest);
+  const double deviation = std::max(elementary::hypot(model.deviation_db, noise_spread_db), kNarrowest);
   const double mean = mean_of_normal(model.deviation_db) + mean_of_cosine(model.tidal_db) +
                       mean_of_cosine(model.daily_db) - mean_of_normal(noise_spread_db);
   const auto cosine = [](int i) { return elementary::cos(pi * (i + 0.5) / kPhases); };

@@ -48,8 +48,8 @@ struct SlowPair {
 // Y of a pair at `at`; 0 without slow fading.
 Decibels slow_level(const SlowFading& model, const SlowPair& pair, SimTime at);
 
-// The same for many pairs over time: keeps the draws about the latest instant of each of kMaxPairs pairs, so that
-// an instant near it costs two cosines. Results do not depend on it. Not thread-safe.
+// The same for many pairs over time: keeps the draws about the latest instant of each of kMaxPairs pairs, so
+// that an instant near it costs two cosines. Results do not depend on it. Not thread-safe.
 class SlowLevels {
  public:
   static constexpr std::size_t kMaxPairs = 100'000;

@@ -36,7 +36,8 @@ class FieldColumn {
   double speed_mps(double depth_m) const {
     const auto [depth, temperature, salinity] = at(depth_m);
     return sound_speed_mps(environment_->profile.model(), temperature, salinity, depth,
-                           environment_->latitude_rad);
+                           environment_->latitude_rad) +
+           environment_->profile.change_mps(depth);
   }
   double absorption_db_per_km(double depth_m, double khz_squared) const {
     const auto [depth, temperature, salinity] = at(depth_m);
@@ -87,8 +88,9 @@ std::vector<double> ranges_of(const ocean::OceanField& field, const Vec3& from, 
 }
 
 // Depths of the section's knots, m: the field's levels down to the first below `deepest_m`, then steps that
-// double.
-std::vector<double> knots_of(const ocean::OceanField& field, double deepest_m) {
+// double; and those of the profile's change.
+std::vector<double> knots_of(const ocean::OceanField& field, double deepest_m,
+                             const std::vector<SpeedRow>& change) {
   std::vector<double> depths{0};
   for (const double depth : field.grid().depths_m) {
     if (depth > 0) depths.push_back(depth);
@@ -100,6 +102,10 @@ std::vector<double> knots_of(const ocean::OceanField& field, double deepest_m) {
     depths.push_back(depths.back() + step);
   }
   if (depths.back() < kDeepestProbe) depths.push_back(kDeepestProbe);
+  if (change.empty()) return depths;
+  for (const SpeedRow& row : change) depths.push_back(row.depth_m);
+  std::sort(depths.begin(), depths.end());
+  depths.erase(std::unique(depths.begin(), depths.end()), depths.end());
   return depths;
 }
 
@@ -122,7 +128,7 @@ LinkWater water_between(const Environment& environment, const Vec3& from_ned_m, 
   const Vec3 start(from_ned_m.x(), from_ned_m.y(), 0);
   const ocean::OceanField& field = *environment.field.ocean;
   std::vector<double> ranges = ranges_of(field, start, way);
-  const std::vector<double> depths = knots_of(field, deepest_m);
+  const std::vector<double> depths = knots_of(field, deepest_m, environment.profile.change());
   std::vector<FieldColumn> columns;
   std::vector<std::vector<SpeedRow>> rows;
   for (const double range : ranges) {

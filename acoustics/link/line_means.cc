@@ -28,7 +28,8 @@ Vec3 in_water(const Environment& environment, const Vec3& ned_m) {
 LineMeans water_at(const Environment& environment, const Vec3& place, double khz_squared) {
   const ocean::WaterAtDepth water = environment.field.ocean->water_at(place, environment.field.time_s);
   const double speed_mps = sound_speed_mps(environment.profile.model(), water.temperature_degc,
-                                           water.salinity_psu, place.z(), environment.latitude_rad);
+                                           water.salinity_psu, place.z(), environment.latitude_rad) +
+                           environment.profile.change_mps(place.z());
   const AbsorptionSpectrum absorption = absorption_spectrum_in(
       environment, {.temperature_degc = water.temperature_degc,
                     .salinity_psu = water.salinity_psu,

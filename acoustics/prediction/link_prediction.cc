@@ -98,7 +98,8 @@ std::array<BlockFading, kPatterns> patterns_of(const ReceptionStatistics& sound)
 class PowerSignals {
  public:
   enum Power { kQuiet, kMedian, kLoud };
-  PowerSignals(const PacketLevels& packet, GammaPower block_fading, double fast) : packet_(packet), fast_(fast) {
+  PowerSignals(const PacketLevels& packet, GammaPower block_fading, double fast)
+      : packet_(packet), fast_(fast) {
     alike_ = block_fading.variance < squared(kAlike * (block_fading.mean + fast));
     if (alike_) block_fading = {block_fading.mean};
     powers_ = block_fading.at(block_fading_states().powers);
@@ -306,8 +307,7 @@ void add_few_patterns(const PacketLevels& packet, const std::array<BlockFading, 
   constexpr std::array<std::size_t, 4> kFew{2, 5, 10, 13};
   Level preamble;
   for (const std::size_t i : kFew) {
-    const auto levels =
-        mean.levels([&](std::size_t at) { return packet.bits(patterns[i], mean.noise(at)); });
+    const auto levels = mean.levels([&](std::size_t at) { return packet.bits(patterns[i], mean.noise(at)); });
     if (i == kFew.front() || !mean.finds(preamble)) preamble = packet.preamble(patterns[i].block_power);
     mean.add(preamble, levels, i, 1.0 / kFew.size());
   }
@@ -315,7 +315,7 @@ void add_few_patterns(const PacketLevels& packet, const std::array<BlockFading, 
 
 // States of block fading of a link, which do not depend on the noise.
 struct BlockStates {
-  std::optional<PowerSignals> powers;                             // phase-shift keying
+  std::optional<PowerSignals> powers;                          // phase-shift keying
   std::optional<std::array<BlockFading, kPatterns>> patterns;  // frequency-shift keying
 
   BlockStates(const PacketLevels& packet, const ReceptionStatistics& sound) {

@@ -57,10 +57,11 @@ struct LinkPrediction {
   DisturbingPowers disturbances = {};  // of the mean signal, without other packets and impulses
 };
 
-// Changes of a link's margin, dB, at which delivery is predicted beside that of the link as it is: slow fading
-// at its quantiles (acoustics/fading/slow_fading.h). Both 0: none are. The ratios that decide are those of the
-// link as it is, carried to the other noise (StratifiedAverage::levels_from), so that both together cost about
-// a third of a prediction; they are within 0.03 of a prediction of their own in most places.
+// Changes of a link's margin, dB, at which delivery is predicted beside that of the link as it is: slow
+// fading at its quantiles (acoustics/fading/slow_fading.h). Both 0: none are predicted. The states of block
+// fading are those of the link as it is, in frequency-shift keying four of them: together the two cost a
+// third of a prediction (coded frequency-shift keying) to a whole one (phase-shift keying). They are within
+// 0.01 rms of predictions of their own. Of several windows the best one stands for all.
 struct MarginShifts {
   double low_db = 0, high_db = 0;
   bool any() const { return low_db != 0 || high_db != 0; }

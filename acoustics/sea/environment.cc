@@ -37,6 +37,8 @@ Environment environment_at(const Environment& environment, double north_m, doubl
   }
   there.profile =
       SoundSpeedProfile::from_water(std::move(rows), environment.profile.model(), environment.latitude_rad);
+  const std::vector<SpeedRow>& change = environment.profile.change();
+  if (!change.empty()) there.profile = there.profile.with_change(change);
   there.field = {};
   return there;
 }
@@ -48,7 +50,8 @@ double sound_speed_at(const Environment& environment, const Vec3& position_ned_m
   const ocean::WaterAtDepth water = environment.field.ocean->water_at(
       {position_ned_m.x(), position_ned_m.y(), depth_m}, environment.field.time_s);
   return sound_speed_mps(environment.profile.model(), water.temperature_degc, water.salinity_psu, depth_m,
-                         environment.latitude_rad);
+                         environment.latitude_rad) +
+         environment.profile.change_mps(depth_m);
 }
 
 AbsorbingWater absorbing_water(const Environment& environment, double depth_m) {

@@ -42,8 +42,9 @@ struct Environment {
   // Water that varies with position, if there is a field. The profile is then that of the world's origin, and
   // only its formula of sound speed is used elsewhere.
   WaterField field = {};
-  // Changes of the profile over hours; none where there is a field. The profile here is that without them, or
-  // that of one block in what EnvironmentTimeline (channel_server/propagation) returns.
+  // Changes of the profile over hours. The profile here is that without them, or with the change of one block
+  // in what EnvironmentTimeline (channel_server/propagation) returns; the change holds at all places of a
+  // field.
   ProfileDrift drift = {};
   WaterLoad load = {};
   // Ice in the place of waves and bubbles. Under it the wind counts as none.

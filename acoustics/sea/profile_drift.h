@@ -21,12 +21,12 @@ namespace halocline::acoustics {
 
 // Parameters of the drift.
 struct ProfileDrift {
-  static constexpr double kBlockS = 600;      // duration of a block, s
-  static constexpr double kDeepestM = 200;    // greatest H, m
+  static constexpr double kBlockS = 600;    // duration of a block, s
+  static constexpr double kDeepestM = 200;  // greatest H, m
 
-  double spread_mps = 0;     // standard deviation of each amplitude, 0..10; 0: no drift
-  double time_s = 21600;     // correlation time, 0.1..1e6
-  double depth_m = 200;      // H, 1..kDeepestM
+  double spread_mps = 0;  // standard deviation of each amplitude, 0..10; 0: no drift
+  double time_s = 21600;  // correlation time, 0.1..1e6
+  double depth_m = 200;   // H, 1..kDeepestM
   std::uint64_t seed = 0;
 
   bool any() const { return spread_mps > 0; }

@@ -161,8 +161,12 @@ void SoundSpeedProfile::build_cells() {
 
 double SoundSpeedProfile::sound_speed_mps(double depth_m) const {
   const double z = std::max(depth_m, 0.0), speed = unchanged_speed_mps(z);
-  if (change_rows_.empty() || z >= change_rows_.back().depth_m) return speed;
-  return speed + interpolate(change_rows_, place_of(change_rows_, z), &SpeedRow::sound_speed_mps);
+  return change_rows_.empty() ? speed : speed + change_mps(z);
+}
+
+double SoundSpeedProfile::change_mps(double z) const {
+  if (change_rows_.empty() || z >= change_rows_.back().depth_m) return 0;
+  return interpolate(change_rows_, place_of(change_rows_, z), &SpeedRow::sound_speed_mps);
 }
 
 double SoundSpeedProfile::unchanged_speed_mps(double z) const {

@@ -67,11 +67,13 @@ class SoundSpeedProfile {
   static SoundSpeedProfile munk(WaterSample assumed);
   static SoundSpeedProfile isovelocity(double sound_speed_mps, WaterSample assumed);
 
-  // Return this profile with `change` added to its speeds, and without. `change` holds changes of sound speed,
-  // m/s, by depth, rising, linear between its rows, constant above the first and 0 below the last; it replaces
-  // an earlier change. Throws InvalidArgument when the depths do not rise.
+  // Return this profile with `change` added to its speeds, and without. `change` holds changes of sound
+  // speed, m/s, by depth, rising, linear between its rows, constant above the first and 0 below the last; it
+  // replaces an earlier change. Throws InvalidArgument when the depths do not rise.
   SoundSpeedProfile with_change(std::vector<SpeedRow> change) const;
   SoundSpeedProfile without_change() const { return with_change({}); }
+  const std::vector<SpeedRow>& change() const { return change_rows_; }  // empty: none
+  double change_mps(double depth_m) const;                              // at 0 m or below
 
   double sound_speed_mps(double depth_m) const;
   WaterSample water(double depth_m) const;

@@ -135,8 +135,8 @@ bool BestPlaceService::answer(Waiting& waiting, bool is_overdue) {
   const SlowState slow = predictor_.slow_state(0, 0, at);  // the places hold no vehicles
   std::vector<LinkForecast> forecasts(links.size());
   for_each_(links.size(), [&](std::size_t i) {
-    forecasts[i] = predictor_.forecast(*rates, *links[i].from.modem, *links[i].to.modem, *receptions[i],
-                                       slow);
+    forecasts[i] =
+        predictor_.forecast(*rates, *links[i].from.modem, *links[i].to.modem, *receptions[i], slow);
     if (receptions[i]->paths.empty()) forecasts[i].sinr_db = kSilence.value;
   });
   const std::size_t listeners = waiting.listeners.size();

@@ -44,8 +44,8 @@ Modem of_packets(const Modem& modem) {
 
 // Returns the delivery of one path at a shift of its margin. Below the table nothing is delivered, above it
 // what is delivered there.
-double shifted_delivery(const OnePathForecast& table, const std::vector<Arrival>& paths,
-                        double noise, double shift_db, const acoustics::LinkPrediction& unshifted) {
+double shifted_delivery(const OnePathForecast& table, const std::vector<Arrival>& paths, double noise,
+                        double shift_db, const acoustics::LinkPrediction& unshifted) {
   const auto found = table.at(paths, noise * elementary::exp10(-shift_db / 10));
   if (found) return found->delivery_probability;
   return shift_db < 0 ? 0 : unshifted.delivery_probability;
@@ -84,8 +84,7 @@ LossReason reason_of(const DisturbingPowers& powers, const ReceptionCurves& curv
 }  // namespace
 
 LinkPredictor::LinkPredictor(Rule rule) : rule_(std::move(rule)), levels_(rule_.fading.slow) {
-  if (rule_.fading.enabled)
-    hours_ = acoustics::margin_quantiles(rule_.fading.slow, rule_.noise.spread_db);
+  if (rule_.fading.enabled) hours_ = acoustics::margin_quantiles(rule_.fading.slow, rule_.noise.spread_db);
 }
 
 SlowState LinkPredictor::slow_state(VehicleId from, VehicleId to, SimTime at) {

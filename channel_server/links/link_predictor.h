@@ -41,12 +41,12 @@ struct LinkForecast {
   double first_path_delay_s = 0;  // along the first significant path
   double sinr_db = 0;  // mean signal in the guard window over noise and own echoes; at least kSilence
   double acquisition_probability = 0, delivery_probability = 0;
+  double coherence_time_s = 0;  // at most 1e6
+  double doppler_spread_hz = 0, rms_delay_spread_s = 0;
+  double best_rate_bps = 0;  // 0 when no rate delivers
   // Delivery in one hour of ten at most, and in nine of ten: at quantiles of slow fading and noise. Equal to
   // delivery_probability when neither varies.
   double delivery_low = 0, delivery_high = 0;
-  double coherence_time_s = 0;  // at most 1e6
-  double doppler_spread_hz = 0, rms_delay_spread_s = 0;
-  double best_rate_bps = 0;                 // 0 when no rate delivers
   acoustics::DisturbingPowers powers = {};  // means, without other packets
   // The power without which delivery would rise most; kNone where 999 packets in 1000 arrive, or nothing
   // does.
@@ -86,8 +86,8 @@ class LinkPredictor {
   // Returns the mean signal-to-noise ratio, dB, below which no rate of this transmitter delivers one packet
   // in a thousand, however the link fades (acoustics/fading/fading_bounds.h). Not thread-safe.
   double least_sinr_db(const acoustics::Modem& transmitter);
-  // Returns the slow state of the link between two vehicles (0: a position) for sound that leaves at `at`. Not
-  // thread-safe.
+  // Returns the slow state of the link between two vehicles (0: a position) for sound that leaves at `at`.
+  // Not thread-safe.
   SlowState slow_state(VehicleId from, VehicleId to, SimTime at);
   // Returns the forecast of a link whose transmitter has these rates. Thread-safe.
   LinkForecast forecast(const Rates& rates, const acoustics::Modem& transmitter,
@@ -110,7 +110,7 @@ class LinkPredictor {
   std::optional<SimTime> noise_at_;  // when the noise last asked for is noise_db_
   double noise_db_ = 0;
   acoustics::MarginQuantiles hours_;  // of the margin, both 0 without slow fading
-  std::list<Entry> kept_;  // the most recently used first
+  std::list<Entry> kept_;             // the most recently used first
 };
 
 }  // namespace halocline::channel_server

@@ -176,9 +176,8 @@ void LinkQueryService::set_reception(const ResolvedEnd& from, const ResolvedEnd&
   EndPair link = link_of(from, to);
   noise.set(link);
   const Reception reception = propagation_.reception(at, link.from, link.to);
-  row.set(reception,
-          predictor_.forecast(*predictor_.rates_of(transmitter), transmitter, receiver, reception,
-                              predictor_.slow_state(from.id, to.id, at)));
+  row.set(reception, predictor_.forecast(*predictor_.rates_of(transmitter), transmitter, receiver, reception,
+                                         predictor_.slow_state(from.id, to.id, at)));
   row.multipath = multipath_of(reception, receiver.min_receivable_level);
 }
 

@@ -74,8 +74,7 @@ std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehi
     rates.insert(rates.end(), transmitter.receivers.size(), own);
   }
   std::vector<SlowState> slow;
-  for (const EndPair& link : links)
-    slow.push_back(predictor.slow_state(link.from.id, link.to.id, instant));
+  for (const EndPair& link : links) slow.push_back(predictor.slow_state(link.from.id, link.to.id, instant));
   const std::vector<Reception> receptions = propagation.receptions(instant, links, for_each);
   std::vector<LinkForecast> forecasts(links.size());
   for_each(links.size(), [&](std::size_t i) {

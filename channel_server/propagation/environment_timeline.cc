@@ -27,12 +27,8 @@ acoustics::Environment changed(acoustics::Environment environment, const Environ
 
 constexpr EnvironmentTimeline::WaterId kIdsOfAStep = 1LL << 32;  // more than the ids of all other changes
 
-bool drifts(const acoustics::Environment& environment) {
-  return environment.drift.any() && !environment.field;
-}
-
 bool changes_by_itself(const acoustics::Environment& environment) {
-  return drifts(environment) || (environment.field && !environment.field.ocean->is_steady());
+  return environment.drift.any() || (environment.field && !environment.field.ocean->is_steady());
 }
 
 double period_of(const acoustics::Environment& environment) {
@@ -118,12 +114,11 @@ const acoustics::Environment& EnvironmentTimeline::at(SimTime instant) const {
   there.sea_surface_z_m -= there.tide.height_m(middle_s);
   if (!changes_by_itself(there)) return there;
   const double period_s = period_of(there), block = std::floor(middle_s / period_s);
-  if (drifts(there)) {
+  there.field.time_s = (block + 0.5) * period_s;
+  if (there.field) there.profile = environment_at(there, 0, 0).profile;
+  if (there.drift.any()) {
     const auto amplitudes = drift_amplitudes(there.drift, static_cast<std::int64_t>(block));
     there.profile = there.profile.with_change(drift_rows(there.drift, amplitudes));
-  } else {
-    there.field.time_s = (block + 0.5) * period_s;
-    there.profile = environment_at(there, 0, 0).profile;
   }
   return there;
 }

@@ -14,8 +14,8 @@
 // their searches, and delays jump at the end of a span by what the field changes in it. Spans begin at
 // multiples of the period. A sound-speed profile that is announced replaces the field.
 //
-// A profile that drifts (acoustics/sea/profile_drift.h) is likewise that of the block that contains the instant.
-// An announced profile drifts, too.
+// A profile that drifts (acoustics/sea/profile_drift.h) is likewise that of the block that contains the
+// instant. An announced profile drifts, too.
 //
 // A value in memory. Not thread-safe, not even its const functions: they cache the environments that a field
 // yields.
@@ -74,8 +74,8 @@ class EnvironmentTimeline {
   // change is added.
   const acoustics::Environment& at(SimTime instant) const;
   WaterId water_at(SimTime instant) const;
-  // Returns the instant of the first change after `instant`, except those of a field or a drift; never() when none is
-  // known.
+  // Returns the instant of the first change after `instant`, except those of a field or a drift; never() when
+  // none is known.
   SimTime next_change_after(SimTime instant) const;
 
   // Forgets announced changes that were superseded before `time`, except the latest kAnnouncedKept, which may

@@ -31,7 +31,8 @@ Sample tolerances(const std::vector<CoverageQuantity>& wanted) {
     return std::find(wanted.begin(), wanted.end(), quantity) != wanted.end();
   };
   const bool level = asks(CoverageQuantity::kLevel) || asks(CoverageQuantity::kSnr);
-  return {kDeliveryTolerance, level ? kLevelToleranceDb : kNotLooked,
+  return {kDeliveryTolerance,
+          level ? kLevelToleranceDb : kNotLooked,
           asks(CoverageQuantity::kDelay) ? kDelayToleranceS : kNotLooked,
           asks(CoverageQuantity::kSnr) ? kLevelToleranceDb : kNotLooked,
           asks(CoverageQuantity::kDeliveryLow) ? kDeliveryTolerance : kNotLooked,

@@ -33,8 +33,8 @@
 
 namespace halocline::clients {
 
-// Quantities of a map: delivery probability, SNR in dB, level in dB re 1 uPa, delay in s, delivery in one hour
-// of ten and in nine (channel_server::LinkForecast).
+// Quantities of a map: delivery probability, SNR in dB, level in dB re 1 uPa, delay in s, delivery in one
+// hour of ten and in nine (channel_server::LinkForecast).
 enum class CoverageQuantity { kDelivery, kSnr, kLevel, kDelay, kDeliveryLow, kDeliveryHigh };
 
 // Description of a quantity for files and pictures.

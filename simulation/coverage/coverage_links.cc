@@ -85,8 +85,8 @@ Sample CoverageLinks::sample(LinkSurveyor& surveyor, const Vec3& to_ned_m, const
   const channel_server::LinkEnd there{0, to_ned_m, Vec3::Zero(), &receiving_modem(to_, transmitter)};
   const LinkSurveyor::Answer answer = surveyor.survey(here, there, seabed, line);
   return {answer.forecast.delivery_probability, answer.reception.budget.received_level.value,
-          answer.reception.budget.delay_s, answer.reception.budget.snr.value,
-          answer.forecast.delivery_low, answer.forecast.delivery_high};
+          answer.reception.budget.delay_s,      answer.reception.budget.snr.value,
+          answer.forecast.delivery_low,         answer.forecast.delivery_high};
 }
 
 std::vector<Sample> CoverageLinks::links(LinkSurveyor& surveyor, const Vec3& place_ned_m,

@@ -40,8 +40,9 @@ const QuantityMeaning& meaning_of(CoverageQuantity quantity) {
 }
 
 std::vector<CoverageQuantity> quantities_of(const std::string& names) {
-  const std::string allowed = "; allowed are delivery, snr, level, delay, delivery_low and "
-                              "delivery_high, each once, with commas between";
+  const std::string allowed =
+      "; allowed are delivery, snr, level, delay, delivery_low and "
+      "delivery_high, each once, with commas between";
   std::vector<CoverageQuantity> quantities;
   for (const std::string& name : parts_of(names, ',')) {
     const auto known = std::find_if(kMeanings.begin(), kMeanings.end(),

@@ -18,8 +18,8 @@
 
 namespace halocline::clients {
 
-// Values of the function: delivery probability, level in dB, delay in s, SNR in dB, and delivery in one hour of
-// ten and in nine (coverage.h).
+// Values of the function: delivery probability, level in dB, delay in s, SNR in dB, and delivery in one hour
+// of ten and in nine (coverage.h).
 using Sample = std::array<double, 6>;
 
 // Returns the function at each of `places`, which ascend, from calls of `compute` at some of them. Each value

@@ -300,7 +300,8 @@ TEST(ChannelServerConfig, FadingIsTaken) {
 TEST(ChannelServerConfig, ASlowSeaIsTaken) {
   const ChannelServerConfig config = read(
       "[environment]\nnoise_spread_db = 2\nnoise_spread_s = 1200\nprofile_spread_mps = 0.4\n"
-      "[propagation]\nslow_fading_db = 2.5\nslow_fading_s = 9000\ntidal_fading_db = 0.5\ndaily_fading_db = 0.7");
+      "[propagation]\nslow_fading_db = 2.5\nslow_fading_s = 9000\ntidal_fading_db = 0.5\ndaily_fading_db = "
+      "0.7");
   EXPECT_EQ(config.propagation.fading.slow, (acoustics::SlowFading{2.5, 9000, 0.5, 0.7}));
   EXPECT_EQ(config.environment.noise_variation,
             (acoustics::NoiseVariation{.spread_db = 2, .spread_time_s = 1200}));

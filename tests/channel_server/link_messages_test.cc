@@ -25,7 +25,7 @@ TEST(LinkMessages, ALinkTableHoldsEveryFieldOfItsRows) {
   row.multipath = Multipath::kLikely;
   row.transmitter_age = for_s(0.5);
   row.receiver_age = for_s(0.25);
-  row.forecast = {0.5, -3, 0.75, 0.5, 0.125, 2, 0.0625, 80};
+  row.forecast = {0.5, -3, 0.75, 0.5, 0.125, 2, 0.0625, 80, 0.25, 0.875};
   const std::vector<link_table_t> messages = to_messages(LinkTable{1, {row}}, at_s(4));
   ASSERT_EQ(messages.size(), 1u);
   const link_table_t& message = messages.front();
@@ -49,6 +49,8 @@ TEST(LinkMessages, ALinkTableHoldsEveryFieldOfItsRows) {
   EXPECT_EQ(link.sinr_db, -3);
   EXPECT_EQ(link.acquisition_probability, 0.75);
   EXPECT_EQ(link.delivery_probability, 0.5);
+  EXPECT_EQ(link.delivery_low, 0.25);
+  EXPECT_EQ(link.delivery_high, 0.875);
   EXPECT_EQ(link.coherence_time_s, 0.125);
   EXPECT_EQ(link.doppler_spread_hz, 2);
   EXPECT_EQ(link.rms_delay_spread_s, 0.0625);

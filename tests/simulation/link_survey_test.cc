@@ -145,6 +145,33 @@ TEST(LinkSurvey, ForecastIsThatOfTheChannelServersPredictor) {
   }
 }
 
+// Between vehicles the forecast has the pair's slow fading at time 0, as the run's first table and packets; a
+// position has none.
+TEST(LinkSurvey, VehiclesHaveTheSlowFadingOfARunsStart) {
+  ScenarioConfig config = two_vehicles();
+  config.scenario.vehicles.resize(2);
+  config.scenario.vehicles[1].name = "auv-2";
+  config.scenario.vehicles[1].id = 2;
+  config.scenario.vehicles[1].start_ned_m = {500, 0, 60};
+  config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
+  config.channel_server.propagation.fading.slow = {.deviation_db = 3, .tidal_db = 1};
+  const LinkSurveyEnd from = link_end(config, "auv-1"), to = link_end(config, "auv-2");
+  const acoustics::Modem& modem = from.modem.modem;
+  channel_server::LinkPredictor predictor =
+      make_predictor(make_rules(config.channel_server, config.scenario));
+  const auto slow = predictor.slow_state(1, 2, SimTime());
+  EXPECT_NE(slow.level_db, 0);
+  const LinkSurvey pair = survey_link(config, from, to);
+  const auto forecast = [&](const LinkSurvey& survey, const channel_server::SlowState& state) {
+    return predictor.forecast(*predictor.rates_of(modem), modem, modem, survey.reception, state);
+  };
+  EXPECT_EQ(pair.forecast.sinr_db, forecast(pair, slow).sinr_db);
+  EXPECT_EQ(pair.forecast.delivery_low, forecast(pair, slow).delivery_low);
+  const LinkSurvey place = survey_link(config, from, link_end(config, "500,0,60"));
+  EXPECT_EQ(place.forecast.sinr_db, forecast(place, {}).sinr_db);
+  EXPECT_EQ(place.reception.budget.received_level, pair.reception.budget.received_level);
+}
+
 // A receiver that comes closer at 2 m/s along a straight horizontal way receives 1 + v / c.
 TEST(LinkSurvey, DopplerIsThatOfTheGivenVelocities) {
   ScenarioConfig config = two_vehicles();

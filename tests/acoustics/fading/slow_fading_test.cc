@@ -145,8 +145,7 @@ TEST(SlowSea, OutcomesTwoHoursApartCorrelateAsTheirClosedForm) {
 TEST(SlowSea, BinsOfTwentyPacketsVaryAsTheirClosedForm) {
   constexpr int kPackets = 20, kBins = 4000;
   double expected = 1;
-  for (int k = 1; k < kPackets; ++k)
-    expected += 2.0 / kPackets * (kPackets - k) * correlation(360.0 * k);
+  for (int k = 1; k < kPackets; ++k) expected += 2.0 / kPackets * (kPackets - k) * correlation(360.0 * k);
   EXPECT_NEAR(expected, 4.95758950384, tolerance(1e-11));
   double variance = 0;
   for (std::uint64_t seed = 0; seed < kBins; ++seed) {
@@ -237,8 +236,8 @@ TEST(MarginQuantiles, AreThoseOfTheMarginsOverPairsAndTimes) {
   double low = 0, high = 0;
   for (std::uint64_t seed = 0; seed < kPairs; ++seed) {
     const double time_s = 1000.0 * static_cast<double>(seed % 100);
-    const double margin = level_db(model, seed, time_s) -
-                          noise_offset(noise, seed, SimTime::from_seconds(time_s)).value;
+    const double margin =
+        level_db(model, seed, time_s) - noise_offset(noise, seed, SimTime::from_seconds(time_s)).value;
     low += margin < hours.low_db ? 1.0 / kPairs : 0;
     high += margin < hours.high_db ? 1.0 / kPairs : 0;
   }

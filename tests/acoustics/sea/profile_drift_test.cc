@@ -25,7 +25,8 @@ TEST(ProfileDrift, HasTheStatedSpreadAndStepsFromBlockToBlock) {
   constexpr int kSeeds = 4000;
   double first = 0, second = 0, joint = 0, step = 0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-    const DriftAmplitudes now = drift_amplitudes(drift_of(seed), 40), next = drift_amplitudes(drift_of(seed), 41);
+    const DriftAmplitudes now = drift_amplitudes(drift_of(seed), 40),
+                          next = drift_amplitudes(drift_of(seed), 41);
     first += now.first_mps * now.first_mps / kSeeds;
     second += now.second_mps * now.second_mps / kSeeds;
     joint += now.first_mps * now.second_mps / kSeeds;
@@ -52,7 +53,8 @@ TEST(ProfileDrift, ChangesTheUpperWaterByTwoCosinesAndTheWaterBelowByNothing) {
   const auto changed = even.with_change(drift_rows(drift_of(1), amplitudes));
   for (double z = 0; z <= 100; z += 3) {
     const double angle = M_PI * z / 100;
-    EXPECT_NEAR(changed.sound_speed_mps(z) - 1500, 0.3 * std::cos(angle) - 0.2 * std::cos(2 * angle), 0.005) << z;
+    EXPECT_NEAR(changed.sound_speed_mps(z) - 1500, 0.3 * std::cos(angle) - 0.2 * std::cos(2 * angle), 0.005)
+        << z;
   }
   EXPECT_NEAR(changed.sound_speed_mps(150) - 1500, -0.25, tolerance(1e-9));  // half of -0.3 - 0.2
   EXPECT_EQ(changed.sound_speed_mps(200), 1500);
@@ -65,9 +67,8 @@ TEST(ProfileDrift, ChangesTheUpperWaterByTwoCosinesAndTheWaterBelowByNothing) {
 // temperature or Munk's; the delay of a straight path is the integral of the slowness.
 TEST(ProfileDrift, ReachesRaysAndTravelTimesOfEveryKindOfProfile) {
   const std::vector<SpeedRow> rows = drift_rows(drift_of(1), {0.3, 0.2});
-  for (const auto& profile :
-       {SoundSpeedProfile::isovelocity(1500, {10, 35}), SoundSpeedProfile::global_mean(),
-        SoundSpeedProfile::munk({10, 35})}) {
+  for (const auto& profile : {SoundSpeedProfile::isovelocity(1500, {10, 35}),
+                              SoundSpeedProfile::global_mean(), SoundSpeedProfile::munk({10, 35})}) {
     const auto changed = profile.with_change(rows);
     const auto water = RayWater::from_profile(changed, [](double) { return 0.0; });
     for (const double z : {0.0, 20.0, 55.0, 130.0, 900.0}) {
@@ -75,7 +76,8 @@ TEST(ProfileDrift, ReachesRaysAndTravelTimesOfEveryKindOfProfile) {
     }
     double slowness = 0;
     constexpr int kSteps = 20'000;
-    for (int i = 0; i < kSteps; ++i) slowness += 1 / changed.sound_speed_mps(150 * (i + 0.5) / kSteps) / kSteps;
+    for (int i = 0; i < kSteps; ++i)
+      slowness += 1 / changed.sound_speed_mps(150 * (i + 0.5) / kSteps) / kSteps;
     EXPECT_NEAR(changed.travel_time_s(0, 150, 1000), 1000 * slowness, tolerance(1e-9));
   }
 }

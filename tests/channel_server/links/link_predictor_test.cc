@@ -175,8 +175,9 @@ TEST(LinkPredictor, DeliveryOfOneHourInTenIsThatAtTheQuantileOfTheMargin) {
   const auto hours = acoustics::margin_quantiles(slow_sea().fading.slow, 3);
   const double noise_db = 98;
   const auto rates = predictor.rates_of(modem);
-  const double low = forecast_of(still, modem, modem, reception_of(noise_db - hours.low_db)).delivery_probability,
-               high = forecast_of(still, modem, modem, reception_of(noise_db - hours.high_db)).delivery_probability;
+  const double
+      low = forecast_of(still, modem, modem, reception_of(noise_db - hours.low_db)).delivery_probability,
+      high = forecast_of(still, modem, modem, reception_of(noise_db - hours.high_db)).delivery_probability;
   EXPECT_GT(high - low, 0.3);
   for (const double level_db : {-5.0, 0.0, 3.0}) {
     for (const double sea_db : {-2.0, 0.0, 4.0}) {

@@ -53,7 +53,8 @@ struct SlowLink {
       : fleet({for_s(0.05), for_s(5)}, {coded_modem(source_level_db), {}}),
         propagation(std::make_shared<EnvironmentTimeline>(testing::even_water()), slow_fading()),
         medium(fleet, propagation, {.seed = kSeed, .fading = slow_fading(), .noise = kNoise}),
-        predictor({.payload_bytes = 8, .fading = slow_fading(), .noise = kNoise, .seed = kSeed}) {}
+        predictor(
+            {.payload_bytes = 8, .fading = slow_fading(), .profiles = {}, .noise = kNoise, .seed = kSeed}) {}
 
   struct Hour {
     double realised = 0, predicted = 0;
@@ -83,8 +84,8 @@ struct SlowLink {
     EndPair link{link_end(placed[0]), link_end(placed[1])};
     link.to.above_ambient = noise_offset(kNoise, kSeed, at_s(time_s));
     const Reception reception = propagation.reception(at_s(time_s), link.from, link.to);
-    return predictor.forecast(*predictor.rates_of(*link.from.modem), *link.from.modem, *link.to.modem, reception,
-                              predictor.slow_state(1, 2, at_s(time_s)));
+    return predictor.forecast(*predictor.rates_of(*link.from.modem), *link.from.modem, *link.to.modem,
+                              reception, predictor.slow_state(1, 2, at_s(time_s)));
   }
 
   VehicleRegistry fleet;

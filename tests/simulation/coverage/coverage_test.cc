@@ -274,6 +274,8 @@ TEST(Coverage, DepthsAreReadAndRefused) {
 TEST(Coverage, QuantitiesAreReadAndRefused) {
   EXPECT_EQ(quantities_of("snr,delivery"),
             (std::vector<CoverageQuantity>{CoverageQuantity::kSnr, CoverageQuantity::kDelivery}));
+  EXPECT_EQ(quantities_of("delivery_low,delivery_high"),
+            (std::vector<CoverageQuantity>{CoverageQuantity::kDeliveryLow, CoverageQuantity::kDeliveryHigh}));
   for (const char* text : {"", "snr,snr", "loudness", "snr,,level"})
     EXPECT_THROW(quantities_of(text), InvalidArgument) << text;
 }
