@@ -203,6 +203,60 @@ TEST(ChannelServerConfig, TheScenariosSurfaceAndLatitudeEnterTheWater) {
   EXPECT_NEAR(water.latitude_rad, 1.0472, 1e-4);
 }
 
+TEST(ChannelServerConfig, IceIsTakenAndStopsTheWind) {
+  const ChannelServerConfig config = read(R"([environment]
+wind_mps = 12
+[ice]
+cover = "fast"
+roughness_m = 0.1
+slope = 0.05
+loss_db = 1
+loss_per_sine_db = 8
+keels_per_km = 3
+keel_draft_m = 4
+)");
+  const acoustics::IceCover& ice = config.environment.ice;
+  EXPECT_EQ(ice, (acoustics::IceCover{acoustics::IceKind::kFast, 0.1, 0.05, 1, 8, 3, 4}));
+  const acoustics::Environment water = make_environment(config.environment, {});
+  EXPECT_EQ(water.ice, ice);
+  EXPECT_EQ(water.noise.wind_mps, 0);
+  EXPECT_EQ(make_rays(config).fading.large_scale_still_s, acoustics::kIceCoherenceS);
+  EXPECT_EQ(make_rays(read("[ice]\ncover = \"pack\"\n")).fading.large_scale_still_s, 0);
+  EXPECT_FALSE(make_environment({}, {}).ice.covers());
+  EXPECT_THAT(errors_of("[ice]\ncover = \"thin\"\n"), HasSubstr("ice.cover"));
+}
+
+TEST(ChannelServerConfig, EndsNearTheSurfaceAreThoseOfTheScenario) {
+  ChannelServerConfig config;
+  config.propagation.rays.near_surface.emplace();
+  bus::Scenario scenario;
+  scenario.seed = 9;
+  const auto add = [&](std::int32_t id, const char* model, bus::Mount mount) {
+    scenario.vehicles.push_back({.name = "v" + std::to_string(id), .id = id, .model = model, .mount = mount});
+  };
+  add(1, "torpedo", bus::Mount::kFixed);
+  add(2, "fixed", bus::Mount::kFixed);
+  add(3, "fixed", bus::Mount::kFloating);
+  add(4, "lander", bus::Mount::kFixed);
+  const auto ends = make_surface_ends(config, scenario);
+  ASSERT_TRUE(ends);
+  EXPECT_EQ(ends->seed, 9u);
+  EXPECT_THAT(ends->floating, ::testing::ElementsAre(3));
+  EXPECT_THAT(ends->heaving, ::testing::ElementsAre(1, 3));
+  EXPECT_TRUE(make_rules(config, scenario).medium.near_surface);
+  config.propagation.fading.enabled = false;
+  EXPECT_FALSE(make_surface_ends(config, scenario));
+  config.propagation.fading.enabled = true;
+  config.propagation.model = PropagationModel::kStraight;
+  EXPECT_FALSE(make_surface_ends(config, scenario));
+}
+
+TEST(ChannelServerConfig, TheScenariosTideEntersTheWater) {
+  bus::Scenario scenario;
+  scenario.tide.constituents = {{.amplitude_m = 2}};
+  EXPECT_EQ(make_environment({}, scenario).tide, scenario.tide);
+}
+
 TEST(ChannelServerConfig, RatesAndTimesAreTaken) {
   const auto rules =
       read("[channel_server]\nlink_rate_hz = 4\nstate_lag_s = 0.1\nstate_timeout_s = 3\n").rules;

@@ -102,6 +102,22 @@ TEST(Fleet, AFixedMemberStaysWhereItIs) {
   EXPECT_FALSE(fleet.on_seabed(0));
 }
 
+TEST(Fleet, AFixedMemberThatFloatsFollowsTheTideAndAMooredOneFeelsItsDepthChange) {
+  FleetSettings settings;
+  settings.tide = {{{.amplitude_m = 2, .period_s = 600}}};
+  std::vector<FleetMember> members{{"moored", nullptr, deep(5)}, {"buoy", nullptr, deep(5)}};
+  members[1].floats = true;
+  Fleet fleet(settings, members, nullptr, SimTime());
+  for (const int s : {0, 100, 250}) {
+    fleet.advance(at_ms(1000 * s));
+    const double height = settings.tide.height_m(s);
+    EXPECT_NEAR(fleet.sea_surface_z_m(0, Vec3::Zero(), at_ms(1000 * s)), -height, tolerance(1e-12));
+    EXPECT_EQ(fleet.state_at(0, at_ms(1000 * s)).position_ned_m.z(), 5);
+    EXPECT_NEAR(fleet.state_at(1, at_ms(1000 * s)).position_ned_m.z(), 5 - (height - 2), tolerance(1e-12));
+    EXPECT_NEAR(fleet.reading_at(0, at_ms(1000 * s)).depth_m, 5 + height, tolerance(1e-3));
+  }
+}
+
 TEST(Fleet, TheCurrentCarriesAVehicleThatDrifts) {
   FleetSettings settings;
   settings.current.uniform_ned_mps = {0.5, 0, 0};

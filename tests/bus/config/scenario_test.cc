@@ -100,6 +100,40 @@ TEST(Scenario, AnEmptyRunAndAStandingClockAreErrors) {
   EXPECT_THAT(errors_of("[scenario]\nseed = -1"), HasSubstr("scenario.seed is -1"));
 }
 
+TEST(Scenario, ReadsItsTideAndHowModemsAreHeld) {
+  const Scenario scenario = read(R"(
+    [scenario]
+    sea_surface_z_m = -0.5
+    [[tide]]
+    amplitude_m = 1.5
+    phase_deg = 180
+    [[tide]]
+    amplitude_m = 0.2
+    period_s = 86400
+    [[vehicle]]
+    name = "alpha"
+    id = 1
+    start_ned_m = [0, 0, 3]
+    mount = "floating"
+    [[vehicle]]
+    name = "bravo"
+    id = 2
+    model = "fixed"
+    start_ned_m = [0, 0, 3]
+    mount = "fixed"
+  )");
+  ASSERT_EQ(scenario.tide.constituents.size(), 2u);
+  EXPECT_EQ(scenario.tide.constituents[0].period_s, kLunarSemidiurnalS);
+  EXPECT_NEAR(scenario.tide.constituents[0].phase_rad, 3.14159265, 1e-8);
+  EXPECT_EQ(scenario.tide.constituents[1].period_s, 86'400);
+  EXPECT_NEAR(scenario.surface_z_m(0), -0.5 + 1.5 - 0.2, 1e-12);  // low water of M2
+  EXPECT_EQ(scenario.vehicles[0].mount, Mount::kFloating);
+  EXPECT_EQ(scenario.vehicles[1].mount, Mount::kFixed);
+  EXPECT_NEAR(scenario.start_ned_m(scenario.vehicles[0]).z(), 3 + 1.3, 1e-12);
+  EXPECT_EQ(scenario.start_ned_m(scenario.vehicles[1]).z(), 3);
+  EXPECT_THAT(errors_of("[[tide]]\namplitude_m = 30\n"), HasSubstr("amplitude_m"));
+}
+
 TEST(Scenario, WhatIsWrittenReadsBack) {
   Scenario scenario =
       read("[scenario]\nname='x'\nseed=9000000000000000\n[[vehicle]]\nname='a'\nid=2147483647");

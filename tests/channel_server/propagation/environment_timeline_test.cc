@@ -184,5 +184,40 @@ TEST(EnvironmentTimeline, ForgettingKeepsTheWaterOfLaterInstants) {
   }
 }
 
+// Half a step of at most a millimetre, and the tide's own formula.
+TEST(EnvironmentTimeline, ATideMovesTheSurfaceAboutTheMeanThatHolds) {
+  acoustics::Environment water = even_water();
+  water.sea_surface_z_m = -1;
+  water.tide = {{{.amplitude_m = 2}, {.amplitude_m = 0.3, .period_s = 86'400, .phase_rad = 1}}};
+  EnvironmentTimeline timeline(water);
+  EnvironmentChange change;
+  change.sea_surface_z_m = 3;
+  timeline.schedule(at_s(50'000), change);
+  for (double t = 0; t < 100'000; t += 1234.5) {
+    const double mean = t < 50'000 ? -1 : 3;
+    EXPECT_NEAR(timeline.at(at_s(t)).sea_surface_z_m, mean - water.tide.height_m(t),
+                EnvironmentTimeline::kTideStepM / 2 + 1e-9)
+        << t;
+  }
+  EXPECT_NE(timeline.water_at(at_s(1000)), timeline.water_at(at_s(2000)));
+  EXPECT_EQ(timeline.water_at(at_s(1000)), timeline.water_at(at_s(1000.01)));
+  const double there = timeline.at(at_s(1000)).sea_surface_z_m;
+  timeline.forget_before(at_s(90'000));
+  EXPECT_EQ(timeline.at(at_s(1000)).sea_surface_z_m, there);
+}
+
+TEST(EnvironmentTimeline, WithoutATideTheWaterIsOne) {
+  const EnvironmentTimeline timeline(even_water());
+  EXPECT_EQ(timeline.water_at(at_s(0)), timeline.water_at(at_s(1e6)));
+}
+
+TEST(EnvironmentTimeline, UnderIceAnnouncedWindDoesNothing) {
+  acoustics::Environment water = even_water();
+  water.ice.kind = acoustics::IceKind::kFast;
+  EnvironmentTimeline timeline(water);
+  EXPECT_EQ(timeline.announce(at_s(10), at_s(5), {kSession, 0}, wind(7)), "");
+  EXPECT_EQ(wind_at(timeline, 20), 0);
+}
+
 }  // namespace
 }  // namespace halocline::channel_server
