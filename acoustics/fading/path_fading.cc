@@ -28,6 +28,7 @@ void validate(const FadingModel& model) {
   require_in_range(model.large_scale_db, 0, 20, "standard deviation of large-scale fading", "dB");
   require_in_range(model.large_scale_time_s, 0.1, 1e6, "correlation time of large-scale fading", "s");
   require_in_range(model.bottom_roughness_m, 0, 1, "rms roughness of the bottom", "m");
+  require_in_range(model.platform_jitter_m, 0, 5, "vertical movement of the ends", "m");
 }
 
 // Solves exp(-(2 pi B T)^2 / 2) = 1/e for B.

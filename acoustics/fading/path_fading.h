@@ -33,6 +33,8 @@ struct FadingModel {
   double large_scale_time_s = 120;   // correlation time of X, s, 0.1..1e6
   double bottom_roughness_m = 0.02;  // rms height of the bottom, m, 0..1
   bool scattering_loss = false;      // true: with the loss of acoustics/fading/scattering_loss.h
+  // Vertical movement of each end from packet to packet, m rms, 0..5: mean levels are means over it, too.
+  double platform_jitter_m = 0;
   bool operator==(const FadingModel&) const = default;
 };
 
