@@ -250,6 +250,15 @@ void visit_slow_fading(bus::ConfigVisitor& v, acoustics::SlowFading& f) {
   v.number("daily_fading_db", f.daily_db, {0, 20, "dB", "amplitude of a link's level over the day; 0: none"});
 }
 
+// The irregularity of the water that turns rays.
+void visit_fine_structure(bus::ConfigVisitor& v, acoustics::FineStructure& f) {
+  v.number(
+      "fine_structure_mps", f.speed_mps,
+      {0, 5, "m/s", "rms sound speed of the water's fine structure, which blurs focused sound; 0: none"});
+  v.number("internal_wave_m", f.internal_wave_m,
+           {0, 50, "m", "rms height of internal waves, which blur focused sound by the profile; 0: none"});
+}
+
 void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
   acoustics::FadingModel& f = p.fading;
   visit_way_of_adding(v, p);
@@ -265,6 +274,7 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
       v.number("bottom_roughness_m", f.bottom_roughness_m, {0, 1, "m", "rms height of the rough bottom"});
       bus::choice(v, "scattering_loss", f.scattering_loss, kScattering,
                   "loss of the sound that rough boundaries scatter beyond the bottom's critical angle");
+      visit_fine_structure(v, p.rays.options.fine_structure);
     });
   });
   with_rays(v, p, [&] {
@@ -275,22 +285,11 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
     v.problem("reverberation", "\"lambert\" needs fading = \"sea\"");
 }
 
-// The irregularity of the water that turns rays.
-void visit_fine_structure(bus::ConfigVisitor& v, acoustics::FineStructure& f) {
-  v.number(
-      "fine_structure_mps", f.speed_mps,
-      {0, 5, "m/s", "rms sound speed of the water's fine structure, which blurs focused sound; 0: none"});
-  v.number("internal_wave_m", f.internal_wave_m,
-           {0, 50, "m", "rms height of internal waves, which blur focused sound by the profile; 0: none"});
-}
-
 void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
   bus::choice(v, "model", p.model, kPropagationModels,
               "eigenrays where the bottom is known, or one straight path");
   with_rays(v, p, [&] { visit_bottom(v, p); });
-  with_rays(v, p, [&] { visit_fine_structure(v, p.rays.options.fine_structure); });
   with_rays(v, p, [&] {
-    visit_bottom(v, p);
     enum class Beyond { kHold, kNone };
     Beyond beyond = p.rays.holds_terrain ? Beyond::kHold : Beyond::kNone;
     bus::choice(v, "beyond", beyond, {"hold", "none"},
@@ -455,6 +454,8 @@ RayModel make_rays(const ChannelServerConfig& config) {
                       : acoustics::fluid_bottom(p.bottom_density_ratio, p.bottom_sound_speed_mps,
                                                 p.bottom_attenuation_db);
   rays.fading = fading_of(config);
+  // A sea that does not fade is a still one.
+  if (!p.fading.enabled) rays.options.fine_structure = {};
   return rays;
 }
 

@@ -23,6 +23,7 @@ constexpr std::size_t kSines = ComplexNoise::kSines;
 
 constexpr double kAngleScale = to_radians(4);  // rad: paths within 2 degrees cross the same water
 // Share of the mean power below which a component of a path is left out of the sum, an error of 1e-5 dB.
+constexpr double kSoundSpeedMps = 1500;  // for the wave number
 constexpr double kNegligible = 1e-6;
 constexpr double kFarApart = 60;  // squared distance beyond which paths share nothing: e^-30
 
@@ -131,6 +132,7 @@ struct CrossingPath {
   double turns;                 // W (delay - mean delay), with W the band's width
   double cos_half, sin_half;    // cosine and sine of pi times `turns`
   MediumPlace place;
+  double launch_sine = 0, arrival_sine = 0;  // used while the ends move
 };
 
 CrossingPath crossing_path(const Arrival& path, double mean_delay_s, const Band& band) {
@@ -144,7 +146,17 @@ CrossingPath crossing_path(const Arrival& path, double mean_delay_s, const Band&
           turns,
           elementary::cos(pi * turns),
           elementary::sin(pi * turns),
-          place_of(path, mean_delay_s, band, false)};
+          place_of(path, mean_delay_s, band, false),
+          elementary::sin(path.launch_angle_rad),
+          elementary::sin(path.arrival_angle_rad)};
+}
+
+// Share of a cross term that is left in its mean over vertical movements of both ends by J rms:
+//   exp(-(k J)^2 ((sin launch_p - sin launch_q)^2 + (sin arrival_p - sin arrival_q)^2) / 2);
+// `exponent` is -(k J)^2 / 2.
+double left_by_jitter(const CrossingPath& p, const CrossingPath& q, double exponent) {
+  return elementary::exp(exponent *
+                         (squared(p.launch_sine - q.launch_sine) + squared(p.arrival_sine - q.arrival_sine)));
 }
 
 // Cross term of two paths: the real part of the mean of h_p h_q* over the band,
@@ -229,9 +241,15 @@ double mean_power(const FadingModel& model, const std::vector<Arrival>& paths, c
   std::vector<CrossingPath> crossing;
   crossing.reserve(paths.size());
   for (const Arrival& path : paths) crossing.push_back(crossing_path(path, mean_s, band));
+  const double wave_number = 2 * pi * band.centre_hz() / kSoundSpeedMps;
+  const double exponent = -squared(wave_number * model.platform_jitter_m) / 2;
   double crossed = 0;
   for (std::size_t p = 1; p < crossing.size(); ++p) {
-    for (std::size_t q = 0; q < p; ++q) crossed += cross_power(crossing[p], crossing[q], kNegligible * total);
+    for (std::size_t q = 0; q < p; ++q) {
+      const double cross = cross_power(crossing[p], crossing[q], kNegligible * total);
+      crossed +=
+          exponent == 0 || cross == 0 ? cross : cross * left_by_jitter(crossing[p], crossing[q], exponent);
+    }
   }
   return std::max(total + 2 * crossed, 0.0);
 }

@@ -60,7 +60,10 @@ class LinkFading : public PathResponses {
 // Mean over fading and over the band of the power of all paths together, uPa^2:
 //   sum of P_p + sum over pairs p != q of
 //     sqrt(P_p P_q) (sqrt(c_p c_q) + sqrt(m_p m_q) corr_pq)
-//     cos(phase difference at the centre) sinc(B (delay_p - delay_q))
+//     cos(phase difference at the centre) sinc(B (delay_p - delay_q)) g_pq
+// with g the mean over the vertical movement J of both ends (FadingModel::platform_jitter_m),
+//   g = exp(-(k J)^2 ((sin launch_p - sin launch_q)^2 + (sin arrival_p - sin arrival_q)^2) / 2):
+// a level is one of a link, not of a point.
 // A model that is not enabled adds the powers only.
 double mean_power(const FadingModel& model, const std::vector<Arrival>& paths, const Band& band);
 

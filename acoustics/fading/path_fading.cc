@@ -29,6 +29,7 @@ void validate(const FadingModel& model) {
   require_in_range(model.large_scale_still_s, 0, 1e6, "correlation time of large-scale fading at rest", "s");
   require_in_range(model.bottom_roughness_m, 0, 1, "rms roughness of the bottom", "m");
   validate(model.slow);
+  require_in_range(model.platform_jitter_m, 0, 5, "vertical movement of the ends", "m");
 }
 
 // Solves exp(-(2 pi B T)^2 / 2) = 1/e for B.

@@ -40,6 +40,8 @@ struct FadingModel {
   SlowFading slow = {};              // changes of the level over hours
   // Correlation time of X between ends at rest, s, 0..1e6; 0: large_scale_time_s. Fast ice sets it.
   double large_scale_still_s = 0;
+  // Vertical movement of each end from packet to packet, m rms, 0..5: mean levels are means over it, too.
+  double platform_jitter_m = 0;
   bool operator==(const FadingModel&) const = default;
 };
 

@@ -39,9 +39,13 @@ class DiffuseWindows {
   // Sets the power, re 1 m and without absorption, that the strongest path is assumed to have; weak paths are
   // judged relative to it.
   void set_reference(double power) { strongest_ = power; }
+  // Raises the power, re 1 m and without absorption, below which paths are weak whatever the strongest one
+  // has.
+  void raise_least(double power) { least_ = std::max(least_, power); }
   // Takes note of a path that was found, which may be the strongest so far.
   void note(const Eigenray& path);
-  // True when RayOptions::diffuse_below_pressure, and not the strongest path, decides which paths are weak.
+  // True when RayOptions::diffuse_below_pressure or diffuse_below_flux_db, and not the strongest path,
+  // decides which paths are weak.
   bool is_by_pressure() const { return least_ > weak_ * strongest_; }
 
   // True when all paths between two rays of one bounce sequence are weak: more than

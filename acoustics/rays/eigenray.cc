@@ -225,8 +225,12 @@ void validate(const RayOptions& options) {
   if (options.diffuse_below_db != 0)
     require_in_range(options.diffuse_below_db, 10, 100, "level of diffuse sound below the strongest path",
                      "dB");
+  if (options.diffuse_below_flux_db != 0)
+    require_in_range(options.diffuse_below_flux_db, 10, 100, "level of diffuse sound below the energy flux",
+                     "dB");
   require_in_range(options.diffuse_below_pressure, 0, 1e6, "pressure below which sound is diffuse");
   validate(options.fine_structure);
+  require_in_range(options.platform_jitter_m, 0, 5, "vertical movement of the ends", "m");
 }
 
 RayOptions widened(RayOptions options) {

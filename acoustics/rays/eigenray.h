@@ -124,6 +124,9 @@ struct RayOptions {
   // by one: their energy is summed over windows of launch angles, see Eigenray::diffuse. 10..100, dB; 0:
   // every ray is resolved everywhere.
   double diffuse_below_db = 22;
+  // Over a rough bottom, paths more than this below the energy flux of all rays are not resolved one by one
+  // either. Unlike a limit by pressure it gives every source level the same paths. 10..100, dB; 0: no limit.
+  double diffuse_below_flux_db = 0;
   // Received pressure, relative to that at 1 m, below which paths are not resolved one by one either; >= 0.
   double diffuse_below_pressure = 0;
   // True: near caustics the wave field applies, with one path on their shadow side. False: plain ray theory,
@@ -132,6 +135,8 @@ struct RayOptions {
   // Irregularity of the water, which smooths folds and cusps (acoustics/rays/smoothed_folds.h). A perfect
   // medium leaves paths as they are.
   FineStructure fine_structure = {};
+  // Vertical movement of each end from packet to packet, m rms, 0..5; it adds to that smoothing.
+  double platform_jitter_m = 0;
   bool operator==(const RayOptions&) const = default;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "acoustics/rays/traced_eigenray.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -92,6 +93,8 @@ std::vector<Eigenray> ProfileSearch::run(const std::vector<double>& angles, doub
   double flux = 0;
   for (std::size_t i = 1; i < fan.size(); ++i) flux += windows_.energy_flux(fan[i - 1], fan[i]);
   windows_.set_reference(kMinStrongest * flux);
+  if (const double below_db = tracer_.sea().options.diffuse_below_flux_db; below_db > 0)
+    windows_.raise_least(elementary::exp10(-below_db / 10) * flux);
   branch_.give_weak_paths_to(&windows_);
   narrow_window_ = kNarrowWindow * tracer_.bottom_at_receiver_m() / tracer_.range_m();
   search(fan, predicted, core_edge);

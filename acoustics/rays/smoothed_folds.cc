@@ -38,6 +38,10 @@ constexpr double kFoldStays = 1, kFoldGone = 1.5;
 constexpr double kNegligible = 1e-4;  // of the strongest path's power: windows below are left out
 constexpr int kFirstWindow = 8192;    // of identities: those of a rough bottom are fewer
 
+constexpr int kAnyBounces = 1 << 20;
+// Over a bottom that is not level, families of more bounces end at each of its corners.
+constexpr int kUnevenBounces = 1;
+
 // 0 below `low`, 1 above `high`, linear in between.
 double ramp(double x, double low, double high) { return std::clamp((x - low) / (high - low), 0.0, 1.0); }
 
@@ -57,14 +61,16 @@ struct SmoothedLink {
   FineStructure structure;
   double frequency_hz, core_mps;
   double source_m, receiver_m, range_m, bottom_m;
-  double source_mps, receiver_mps;
+  double source_mps, receiver_mps, jitter_m;
+  int most_bottom_bounces = kAnyBounces;  // of paths that are smoothed
 
   double sigma_m(double theta) const {
     const double xi = elementary::cos(theta) / source_mps;
     const double mu = cycle_turning_rate(water, structure, bottom_m, source_m, xi);
     const double turned = std::sqrt(mu * range_m * range_m * range_m / 3);
     const double fresnel = 0.5 * std::sqrt(receiver_mps / frequency_hz * range_m / (2 * pi));
-    return std::min(std::max(turned, fresnel), 0.5 * bottom_m);
+    const double still = std::max(turned, fresnel);
+    return std::min(std::sqrt(still * still + 2 * jitter_m * jitter_m), 0.5 * bottom_m);
   }
   // Launch angle beyond which rays meet both boundaries.
   double steepest_turning() const {
@@ -183,6 +189,7 @@ class FoldSmoother {
   bool may_fold(const Eigenray& path) {
     if (path.diffuse || !(path.amplitude > 0)) return false;
     if (path.surface_bounces > 0 && path.bottom_bounces > 0) return false;
+    if (path.bottom_bounces > link_.most_bottom_bounces) return false;
     if (path.launch_slowness_spm * link_.core_mps > 1 && path.bounce_loss_db() == 0) return false;
     const double steep = std::abs(path.launch_angle_rad) - steepest_;
     return steep < 0 || steep < kReach * step_of(path, sigma_of(path.launch_angle_rad));
@@ -379,6 +386,7 @@ class FoldSmoother {
       const auto &a = fan[i - 1], &b = fan[i], &c = fan[i + 1];
       if (!a || !b || !c || a->second != b->second || b->second != c->second) continue;
       if (b->second.surface > 0 && b->second.bottom > 0) continue;
+      if (b->second.bottom > link_.most_bottom_bounces) continue;
       seek_shadow(a->first, b->first, c->first, b->second);
     }
   }
@@ -468,7 +476,8 @@ void smooth_folds(const FlatSea& sea, const RayLink& link, std::vector<Eigenray>
                           link.range_m,
                           sea.bottom_depth_m,
                           sea.water.speed_at(link.source_depth_m),
-                          sea.water.speed_at(link.receiver_depth_m)};
+                          sea.water.speed_at(link.receiver_depth_m),
+                          options.platform_jitter_m};
   FoldSmoother(LevelRays(sea, link), over, paths).run();
 }
 
@@ -485,7 +494,9 @@ void smooth_folds(const ProfiledSea& sea, const RayLink& link, std::vector<Eigen
                           link.range_m,
                           bottom,
                           sea.water.speed_at(link.source_depth_m),
-                          last.speed_at(link.receiver_depth_m)};
+                          last.speed_at(link.receiver_depth_m),
+                          options.platform_jitter_m,
+                          sea.profile.is_flat_until(link.range_m) ? kAnyBounces : kUnevenBounces};
   FoldSmoother(ProfiledRays(sea, link), over, paths).run();
 }
 

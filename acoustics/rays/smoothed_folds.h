@@ -5,8 +5,9 @@
 // Model. Fine structure turns rays (acoustics/sea/fine_structure.h), so that a ray ends at its depth only
 // within
 //   sigma_z = max(sqrt(mu r^3 / 3), sqrt(lambda r / (2 pi)) / 2),
-// at most half of the depth of the water (our choice), the second term half a Fresnel width. The rays of one
-// sequence of bounces form families. The mean power of a family is the integral over its launch angles
+// the second term half a Fresnel width; the movement of both ends adds its variance, and sigma_z is at most
+// half of the depth of the water (our choice). The rays of one sequence of bounces form families. The mean
+// power of a family is the integral over its launch angles
 //   I = integral of f^2 xi_s / (xi_r r) N(zeta(theta) - z_r; sigma_z) dtheta
 // with f the pressure factor of its bounces, xi = cos(angle) / c at source (s) and receiver (r), zeta the
 // depth of arrival and N the normal density, reflected at surface and bottom so that no power leaves the
@@ -24,8 +25,8 @@
 // (acoustics/math/fold_field.h) is wider then. Rays on the shadow side are sought among kMinShadowRays to
 // kMaxShadowRays launch angles.
 //
-// Accuracy: 0.1 dB of the integral. Left out: the shadows of folds narrower than those launch angles, kinks
-// of the profile.
+// Accuracy: 0.1 dB of the integral. Left out: shadows of folds narrower than those launch angles, kinks of
+// the profile, and paths of more than one bounce on a bottom that is not level.
 //
 // Thread rule: free functions on values, which threads may call at the same time.
 #pragma once

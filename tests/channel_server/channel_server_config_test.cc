@@ -340,6 +340,10 @@ TEST(ChannelServerConfig, FineStructureIsTaken) {
   EXPECT_EQ(options.fine_structure, (acoustics::FineStructure{.speed_mps = 0.1, .internal_wave_m = 2}));
 }
 
+TEST(ChannelServerConfig, ASeaThatDoesNotFadeIsSmoothedNowhere) {
+  EXPECT_TRUE(make_rays(read("[propagation]\nfading = \"none\"")).options.fine_structure.is_perfect());
+}
+
 TEST(ChannelServerConfig, FadingIsTaken) {
   const auto fading = make_rays(read("[propagation]\nlarge_scale_fading_db = 1\nlarge_scale_fading_s = 60\n"
                                      "bottom_roughness_m = 0.1\nscattering_loss = \"lambert\""))

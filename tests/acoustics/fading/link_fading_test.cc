@@ -190,6 +190,46 @@ TEST(MeanPower, OfSteadyPathsIsTheSquareOfTheirPressures) {
   EXPECT_NEAR(mean_power(model, {direct, mirrored}, kBand), expected, 1e-3);
 }
 
+// A movement of 0.2 m leaves exp(-(k J)^2 dsin^2 / 2) of the interference, here of angles 0.03 rad to both sides
+// at the receiver: k J = 20.94.
+TEST(MeanPower, IsTheMeanOverTheMovementOfBothEnds) {
+  FadingModel model{.enabled = true, .rice_factor_db = 60};
+  const PathFading steady = path_fading(model, 0, 25'000, 0, 0);
+  Arrival direct{{.delay_s = 1}, {0}, 1, steady};
+  direct.arrival_angle_rad = 0.03;
+  Arrival mirrored = direct;
+  mirrored.arrival_angle_rad = -0.03;
+  mirrored.phase_rad = pi;
+  EXPECT_NEAR(mean_power(model, {direct, mirrored}, kBand), 0, 1e-5);
+  model.platform_jitter_m = 0.2;
+  const double turned = 2 * pi * 25'000 / 1500 * 0.2 * 2 * std::sin(0.03);
+  const double expected = 2 - 2 * std::exp(-turned * turned / 2);
+  EXPECT_NEAR(mean_power(model, {direct, mirrored}, kBand), expected, 1e-5);
+}
+
+// Near 20 dB within 0.8 m of depth are a few for a link whose ends move by 0.2 m.
+TEST(MeanPower, VariesLittleOverDepthWhereTheEndsMove) {
+  FadingModel model{.enabled = true, .rice_factor_db = 60};
+  const PathFading steady = path_fading(model, 0, 25'000, 0, 0);
+  const auto range_db = [&](double jitter_m) {
+    model.platform_jitter_m = jitter_m;
+    double least = 1e9, most = -1e9;
+    for (double z = 0; z < 0.8; z += 0.01) {
+      Arrival direct{{.delay_s = 1}, {0}, 1, steady}, mirrored = direct;
+      direct.arrival_angle_rad = 0.02;
+      mirrored.arrival_angle_rad = -0.02;
+      mirrored.delay_s += 2 * z * std::sin(0.02) / 1500;
+      mirrored.level = Decibels{-1};
+      const double level_db = 10 * std::log10(mean_power(model, {direct, mirrored}, kBand));
+      least = std::min(least, level_db);
+      most = std::max(most, level_db);
+    }
+    return most - least;
+  };
+  EXPECT_GT(range_db(0), 18);
+  EXPECT_LT(range_db(0.2), 10);
+}
+
 TEST(MeanPower, OfPathsFarApartIsTheSumOfTheirPowers) {
   const FadingModel model{.enabled = true};
   const PathFading fading = path_fading(model, 0, 25'000, 0, 0);
