@@ -147,7 +147,9 @@ const CalibratedNumber* Calibration::told(SeaNumber number) const {
 }
 
 Calibration calibrate_forecasts(const std::vector<ForecastPair>& pairs, double frequency_hz, bool has_bottom,
-                                bool has_echoes, const SlowTimes& times) {
+                                bool has_echoes) {
+  require(!pairs.empty(), "a calibration needs a pair");
+  const SlowTimes& times = pairs.front().times;
   const TrialFacts facts = facts_of(pairs);
   Calibration result;
   result.pairs = pairs.size();
@@ -173,7 +175,7 @@ Calibration calibrate_forecasts(const std::vector<ForecastPair>& pairs, double f
   if (std::max(noise, bottom) < last.fitted.size())
     result.noise_bottom_correlation = last.correlation(noise, bottom);
   if (pairs.size() > 1)
-    result.checks = check_left_out(fit, last, unknown_of(last, has_bottom, has_echoes), pairs, times);
+    result.checks = check_left_out(fit, last, unknown_of(last, has_bottom, has_echoes), pairs);
   return result;
 }
 
@@ -196,14 +198,14 @@ Calibration calibrate(const ScenarioConfig& config, const std::vector<TrialRow>&
   auto forecasts = pair_forecasts(config, trials, changes, wanted);
   std::vector<ForecastPair> pairs;
   for (std::size_t p = 0; p < trials.size(); ++p) {
-    ForecastPair pair{trials[p], std::move(forecasts[p]), {}};
+    ForecastPair pair{trials[p], std::move(forecasts[p]), {}, times};
     for (const TrialBin& bin : trials[p].bins)
       pair.forecast_of.push_back(static_cast<std::size_t>(
           std::lower_bound(wanted[p].begin(), wanted[p].end(), sea_of(bin)) - wanted[p].begin()));
     pairs.push_back(std::move(pair));
   }
   const double frequency_hz = link_end(config, trials.front().from).modem.modem.centre_frequency_hz;
-  return calibrate_forecasts(pairs, frequency_hz, has_bottom_factor(config), has_echo_factor(config), times);
+  return calibrate_forecasts(pairs, frequency_hz, has_bottom_factor(config), has_echo_factor(config));
 }
 
 }  // namespace halocline::clients

@@ -67,6 +67,6 @@ Calibration calibrate(const ScenarioConfig& config, const std::vector<TrialRow>&
 // Fits pairs whose forecasts are known; `frequency_hz` is that of their modems. The forecasts of all pairs
 // have the same numbers: a bottom's factor, and an echoes' factor where `has_echoes`.
 Calibration calibrate_forecasts(const std::vector<ForecastPair>& pairs, double frequency_hz, bool has_bottom,
-                                bool has_echoes, const SlowTimes& times);
+                                bool has_echoes);
 
 }  // namespace halocline::clients

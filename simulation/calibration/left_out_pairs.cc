@@ -19,14 +19,15 @@ constexpr double kNormalFrom = 9;  // variance of a number of packets from which
 // Draws of one pair's forecast.
 class PairDraws {
  public:
-  PairDraws(const ForecastPair& pair, std::size_t index, const SlowTimes& times)
-      : pair_(pair), who_(static_cast<std::uint32_t>(index)), times_(times) {}
+  PairDraws(const ForecastPair& pair, std::size_t index)
+      : pair_(pair), who_(static_cast<std::uint32_t>(index)), times_(pair.times) {}
 
   // Returns draw `j` of the quantity for these numbers.
   double at(const SeaNumbers& numbers, TrialQuantity quantity, std::size_t j) {
     draw_ = j;
     next_ = 0;
-    const double slow_db = elementary::exp(numbers[kLnSlowDb]) / std::sqrt(2.0);
+    const double all_db = elementary::exp(numbers[kLnSlowDb]), kept = times_.kept_in_bins();
+    const double slow_db = all_db * std::sqrt(0.5 * kept), within_db = all_db * std::sqrt(1 - kept);
     std::vector<DeliveryCurve::Scores> scores;
     if (quantity == TrialQuantity::kDelivery)
       for (const PairForecast& forecast : pair_.forecasts)
@@ -42,7 +43,7 @@ class PairDraws {
       const double more_db = slow_db * (fading + noise);
       if (quantity == TrialQuantity::kDelivery) {
         const double noise_db = numbers[kNoiseDb] + numbers[kReceiverDb] + more_db;
-        const double score = DeliveryCurve::score_at(scores[pair_.forecast_of[i]], noise_db);
+        const double score = widened_score(scores[pair_.forecast_of[i]], noise_db, within_db);
         sum += packets(bin.sent, DeliveryCurve::delivery_of(score));
         weight += static_cast<double>(bin.sent);
       } else {
@@ -127,13 +128,13 @@ double measured_of(const TrialPair& pair, TrialQuantity quantity) {
 
 std::vector<PairCheck> check_left_out(const TrialFit& fit, const SeaPosterior& all,
                                       const std::vector<SeaNumber>& unknown,
-                                      const std::vector<ForecastPair>& pairs, const SlowTimes& times) {
+                                      const std::vector<ForecastPair>& pairs) {
   std::vector<PairCheck> checks;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const SeaPosterior others = fit.fit_without(all, p);
     const Eigen::MatrixXd root =
         others.fitted.empty() ? Eigen::MatrixXd() : others.covariance.llt().matrixL();
-    PairDraws draws(pairs[p], p, times);
+    PairDraws draws(pairs[p], p);
     PairCheck check{pairs[p].trial.from, pairs[p].trial.to, quantity_of(pairs[p].trial), 0, {}};
     check.measured = measured_of(pairs[p].trial, check.quantity);
     std::vector<double> values;

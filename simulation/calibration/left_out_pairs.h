@@ -28,14 +28,9 @@ struct PairCheck {
   bool is_inside() const { return measured >= predicted.low && measured <= predicted.high; }
 };
 
-// Time scales of the slow sea, s.
-struct SlowTimes {
-  double bin_s = 7200, fading_s = 21600, noise_s = 3600;
-};
-
 // `unknown` are numbers that vary between seas but are not among the fitted ones of `all`.
 std::vector<PairCheck> check_left_out(const TrialFit& fit, const SeaPosterior& all,
                                       const std::vector<SeaNumber>& unknown,
-                                      const std::vector<ForecastPair>& pairs, const SlowTimes& times);
+                                      const std::vector<ForecastPair>& pairs);
 
 }  // namespace halocline::clients

@@ -2,6 +2,7 @@
 #include "simulation/calibration/trial_forecast.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -22,16 +23,21 @@ namespace {
 constexpr std::size_t kMiddle = kLnFactors.size() / 2;
 const std::string kEchoKey = "modem.late_echo_share";
 
-// Weights of the factors at ln_factor by Catmull and Rom's cubic, whose slope has no steps; beyond the ends
-// of the table it takes the line through the last two.
+// Weights of the factors at ln_factor by Catmull and Rom's cubic, whose slope has no steps. Beyond the ends
+// of the table, and for a factor that the cubic lacks there, the line through the last two holds, so that a
+// likelihood has a curvature there, too.
 PairForecast::Values weights_at(double ln_factor) {
   constexpr std::size_t kLast = kLnFactors.size() - 1;
-  const double step = kLnFactors[1] - kLnFactors[0];
-  const double place = std::clamp((ln_factor - kLnFactors[0]) / step, 0.0, static_cast<double>(kLast));
-  const std::size_t i = std::min(static_cast<std::size_t>(place), kLast - 1);
+  const double place = (ln_factor - kLnFactors[0]) / (kLnFactors[1] - kLnFactors[0]);
+  const auto i = static_cast<std::size_t>(std::clamp(std::floor(place), 0.0, static_cast<double>(kLast - 1)));
   const double t = place - static_cast<double>(i), u = 1 - t;
-  const double before = -0.5 * t * u * u, after = -0.5 * t * t * u;
   PairForecast::Values weights{};
+  if (t < 0 || t > 1) {
+    weights[i] = u;
+    weights[i + 1] = t;
+    return weights;
+  }
+  const double before = -0.5 * t * u * u, after = -0.5 * t * t * u;
   weights[i] = 1 - t * t * (2.5 - 1.5 * t);
   weights[i + 1] = t * (0.5 + t * (2 - 1.5 * t));
   if (i > 0) {

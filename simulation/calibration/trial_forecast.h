@@ -4,8 +4,8 @@
 // of the late echoes' share, and interpolated between.
 //
 // Model: the score of the delivery (delivery_curve.h) at a bottom factor and an echo factor is that of the
-// bottom factor alone plus what the echo factor changes at the scenario's own bottom. A factor beyond the
-// five counts as the last of them. Noise adds to the offset of the curve.
+// bottom factor alone plus what the echo factor changes at the scenario's own bottom. Beyond the five factors
+// the values go on as between the last two. Noise adds to the offset of the curve.
 #pragma once
 
 #include <array>

@@ -70,9 +70,11 @@ class BinLikelihood {
     if (sea.is_made) return sea;
     sea.is_made = true;
     const auto scores = pair_.forecasts[index].scores_at(numbers_[kLnBottom], numbers_[kLnEcho]);
+    const double kept = pair_.times.kept_in_bins();
+    const double of_bins_db = slow_db_ * std::sqrt(kept), within_db = slow_db_ * std::sqrt(1 - kept);
     for (std::size_t i = 0; i < kPoints; ++i) {
-      const double more_db = numbers_[kNoiseDb] + numbers_[kReceiverDb] + slow_db_ * slow_points()[i].at;
-      const double score = DeliveryCurve::score_at(scores, more_db);
+      const double more_db = numbers_[kNoiseDb] + numbers_[kReceiverDb] + of_bins_db * slow_points()[i].at;
+      const double score = widened_score(scores, more_db, within_db);
       sea.log_right[i] = elementary::log(std::max(DeliveryCurve::delivery_of(score), kLeast));
       sea.log_wrong[i] = elementary::log(std::max(DeliveryCurve::delivery_of(-score), kLeast));
     }
@@ -108,6 +110,23 @@ class BinLikelihood {
 };
 
 }  // namespace
+
+double SlowTimes::kept_in_bins() const {
+  const auto kept = [this](double time_s) {
+    const double u = bin_s / time_s;
+    return 2 * (u + elementary::expm1(-u)) / (u * u);
+  };
+  return 0.5 * (kept(fading_s) + kept(noise_s));
+}
+
+double widened_score(const DeliveryCurve::Scores& scores, double more_noise_db, double spread_db) {
+  const double step_db = DeliveryCurve::kStepDb;
+  const double slope = (DeliveryCurve::score_at(scores, more_noise_db + step_db) -
+                        DeliveryCurve::score_at(scores, more_noise_db - step_db)) /
+                       (2 * step_db);
+  const double spread = slope * spread_db;
+  return DeliveryCurve::score_at(scores, more_noise_db) / std::sqrt(1 + spread * spread);
+}
 
 double log_likelihood(const ForecastPair& pair, const SeaNumbers& numbers) {
   BinLikelihood likelihood(pair, numbers);
