@@ -296,7 +296,7 @@ acoustics::NoiseVariation make_noise_variation(const EnvironmentConfig& config,
   const auto place = noise_place(config).value_or(acoustics::NoisePlace::kOpen);
   variation.day_night_db = acoustics::day_night_db(place);
   if (variation.day_night_db > 0) variation.noon_s = noon_s(scenario);
-  if (acoustics::is_impulsive(place) && !variation.is_impulsive()) {
+  if (acoustics::is_impulsive(place) && !variation.has_bursts()) {
     variation.burst_exponent = acoustics::kPlaceBurstExponent;
     variation.bursts_within_level = true;
   }

@@ -30,6 +30,7 @@ class PlatformReceiverNoise final : public ReceiverNoise {
   explicit PlatformReceiverNoise(PlatformNoise& sounds) : sounds_(sounds) {}  // must outlive it
 
   bool differ() const override { return sounds_.differ(); }
+  bool may_wait() const override { return sounds_.any_is_heard(); }
   Decibels above_ambient(const EndPair& link, SimTime at, VehicleId silent) override;
   bool is_ready(const EndPair& link, SimTime at, VehicleId silent) override;
 

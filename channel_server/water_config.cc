@@ -384,7 +384,7 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
   v.section("environment", "Water, weather and ambient noise",
             [&](bus::ConfigVisitor& s) { visit_environment(s, config.environment); });
-  v.section("water_load", "What the water carries and sound is absorbed by",
+  v.section("water_load", "Load of the water that absorbs sound: particles and plants",
             [&](bus::ConfigVisitor& s) { visit_load(s, config.environment.load); });
   v.section("ice", "Ice on the water", [&](bus::ConfigVisitor& s) { visit_ice(s, config.environment.ice); });
   v.section("propagation", "Propagation of sound",

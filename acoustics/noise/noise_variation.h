@@ -43,9 +43,9 @@ struct NoiseVariation {
   double noon_s = 0;                 // simulation time of a noon, s, -1e6..1e6
 
   // True when the noise is far from Gaussian.
-  bool is_impulsive() const { return burst_exponent > 0; }
+  bool has_bursts() const { return burst_exponent > 0; }
   // True when bursts are drawn beside the noise of the spectrum.
-  bool has_bursts() const { return is_impulsive() && !bursts_within_level; }
+  bool draws_bursts() const { return has_bursts() && !bursts_within_level; }
   // True when noise_offset() may differ from 0.
   bool changes_level() const { return spread_db > 0 || day_night_db > 0; }
   bool operator==(const NoiseVariation&) const = default;

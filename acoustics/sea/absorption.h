@@ -91,13 +91,13 @@ struct AbsorptionSpectrum {
   double sulphate, sulphate_khz_squared;
   double water;           // a3, dB/km/kHz^2
   bool low_below_400_hz;  // kThorpPiecewise only
-  WaterLoad load = {};    // what the water carries
+  WaterLoad load = {};    // load of the water
   // Total absorption, dB/km, at `frequency_khz_squared` > 0: the innermost loop of a link budget.
   double db_per_km(double frequency_khz_squared) const {
     const double clear = clear_db_per_km(frequency_khz_squared);
     return load.is_none() ? clear : clear + load.db_per_km(khz_to_hz(std::sqrt(frequency_khz_squared)));
   }
-  // The same without the load.
+  // Absorption of clear water, dB/km.
   double clear_db_per_km(double frequency_khz_squared) const {
     const double f2 = frequency_khz_squared;
     if (low_below_400_hz && f2 < kThorpJoinKhz * kThorpJoinKhz) return thorp_low(f2);

@@ -68,7 +68,7 @@ AbsorbingWater absorbing_water(const Environment& environment, double depth_m);
 // Coefficients of alpha(f) for the environment's model in given water, with what the environment's water
 // carries.
 AbsorptionSpectrum absorption_spectrum_in(const Environment& environment, const AbsorbingWater& water);
-// The same at a depth of the environment's profile.
+// Coefficients for the water of the profile at a depth.
 AbsorptionSpectrum absorption_spectrum_at(const Environment& environment, double depth_m);
 
 }  // namespace halocline::acoustics

@@ -23,7 +23,7 @@ double nepers_per_m(double frequency_hz, double radius_m) {
 
 double WaterLoad::db_per_km(double frequency_hz) const {
   if (particles_kg_m3 == 0) return plants_db_per_km;
-  constexpr double kDbPerKmPerNeper = 1e4 / std::numbers::ln10;  // of power, a metre
+  constexpr double kDbPerKmPerNeper = 1e4 / std::numbers::ln10;  // for nepers of power a metre
   return plants_db_per_km +
          kDbPerKmPerNeper * particles_kg_m3 / kQuartzKgM3 * nepers_per_m(frequency_hz, particle_radius_m);
 }

@@ -16,7 +16,7 @@ NoiseOfLinks::Key NoiseOfLinks::key_of(const EndPair& link) {
 }
 
 bool NoiseOfLinks::are_ready(const std::vector<EndPair>& links) {
-  if (!model_.differ()) return true;
+  if (!model_.may_wait()) return true;
   bool ready = true;
   std::set<Key> asked;
   for (const EndPair& link : links) {

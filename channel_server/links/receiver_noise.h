@@ -23,6 +23,8 @@ class ReceiverNoise {
 
   // True when the noise may differ from the ambient noise of the environment.
   virtual bool differ() const = 0;
+  // False when is_ready() holds for every link, so that none need be asked.
+  virtual bool may_wait() const { return differ(); }
   // Returns by how much the noise exceeds the ambient noise over the transmitter's band, dB, for a link whose
   // sound leaves at `at`. `silent` is a vehicle whose noise is left out; 0 for none.
   virtual Decibels above_ambient(const EndPair& link, SimTime at, VehicleId silent) = 0;

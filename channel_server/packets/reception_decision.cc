@@ -353,6 +353,7 @@ double timing_error_s(const ReceivedSignal& signal, const Interferers& others, d
 
 void add_bursts(const acoustics::NoiseVariation& variation, std::uint64_t seed, VehicleId receiver,
                 ReceivedSignal& signal) {
+  if (!variation.draws_bursts()) return;
   const SimDuration period = variation.burst;
   const double g = signal.noise * to_power_ratio(variation.burst_level).value;
   for (SimTime begin = next_on_grid(signal.begin, period) - period; begin < signal.end;

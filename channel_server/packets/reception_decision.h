@@ -103,7 +103,7 @@ double timing_error_s(const ReceivedSignal& signal, const Interferers& others, d
 
 // Adds the bursts of the sea's noise at the receiver that fall into the packet. A burst has the power g A
 // during its interval: g exceeds `noise` by the stated level, A is the burst's random power. The bursts' grid
-// begins at time 0.
+// begins at time 0. Nothing is added where bursts are a part of the noise's level.
 void add_bursts(const acoustics::NoiseVariation& variation, std::uint64_t seed, VehicleId receiver,
                 ReceivedSignal& signal);
 

@@ -68,7 +68,7 @@ class VehicleNoise {
 
  private:
   std::map<VehicleId, NoiseSource> sources_;
-  std::map<std::string, VehicleId, std::less<>> ids_;  // of the sources, by the vehicle's name
+  std::map<std::string, VehicleId, std::less<>> ids_;  // ids of the sources by name
   std::map<VehicleId, Schedule<double>> rates_;
   SimDuration lag_;
   bool are_heard_ = false;

@@ -98,7 +98,7 @@ void add_sea_noise(const ScenarioConfig& config, const ScenarioLinks& links, con
   const Weight louder =
       in_blocks(sound.rate_hz, [&](SimTime at) { return amplitude_of(noise_offset(variation, seed, at)); });
   add(samples_of(noise_for("waveform-noise"), sound, louder), sound);
-  if (!variation.has_bursts()) return;
+  if (!variation.draws_bursts()) return;
   std::map<std::int64_t, double> bursts;
   const Weight bursting = [&](std::int64_t sample) {
     const double at_s = static_cast<double>(sample) / sound.rate_hz;

@@ -117,7 +117,7 @@ void add_water_of_the_line(std::vector<Turn>& all) {
       "noise of the place", World(), [=](World& w) { w.water.noise.place = harbour.place; },
       Moves{moves_by("noise", harbour_db)} + ratio_by(-harbour_db) + not_acquired());
   acoustics::Environment turbid = World().water;
-  turbid.load = {.particles_kg_m3 = 0.05};
+  turbid.load = {.particles_kg_m3 = 0.01};
   add(
       "load of the water", World(), [=](World& w) { w.water.load = turbid.load; },
       loss_by(absorbed_db(turbid) - absorbed_db(World().water)) + dimmer());

@@ -102,14 +102,14 @@ TEST(ChannelServerConfig, AReefSnapsAndIsLouderByNight) {
   const acoustics::NoiseVariation from_noon = make_noise_variation(reef, scenario);
   EXPECT_EQ(from_noon.day_night_db, 4);
   EXPECT_EQ(from_noon.noon_s, 0);
-  EXPECT_TRUE(from_noon.is_impulsive());
-  EXPECT_FALSE(from_noon.has_bursts());
+  EXPECT_TRUE(from_noon.has_bursts());
+  EXPECT_FALSE(from_noon.draws_bursts());
   scenario.ocean.start_date = "2026-05-02T03:00:00Z";
   scenario.origin_longitude_deg = 90;
   EXPECT_NEAR(make_noise_variation(reef, scenario).noon_s, 3 * 3600, 1e-6);
-  EXPECT_FALSE(make_noise_variation(read("").environment, scenario).is_impulsive());
+  EXPECT_FALSE(make_noise_variation(read("").environment, scenario).has_bursts());
   const auto own = read("[environment]\nnoise_place = \"reef\"\nimpulse_exponent = 1.5").environment;
-  EXPECT_TRUE(make_noise_variation(own, scenario).has_bursts());
+  EXPECT_TRUE(make_noise_variation(own, scenario).draws_bursts());
   EXPECT_EQ(make_noise_variation(own, scenario).burst_exponent, 1.5);
 }
 

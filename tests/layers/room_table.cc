@@ -289,6 +289,7 @@ const std::vector<Room>& rooms() {
        {"core",
         "ocean",
         "acoustics/math",
+        "acoustics/noise",
         "acoustics/sea",
         "acoustics/modem",
         "acoustics/rays",

@@ -105,8 +105,8 @@ TEST(PlaceNoise, AReefIsLouderByNight) {
 
 TEST(PlaceNoise, SnapsWithinTheLevelAreNotDrawnBesideIt) {
   const NoiseVariation reef{.burst_exponent = kPlaceBurstExponent, .bursts_within_level = true};
-  EXPECT_TRUE(reef.is_impulsive());
-  EXPECT_FALSE(reef.has_bursts());
+  EXPECT_TRUE(reef.has_bursts());
+  EXPECT_FALSE(reef.draws_bursts());
 }
 
 }  // namespace
