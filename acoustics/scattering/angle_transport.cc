@@ -19,7 +19,7 @@ constexpr double kSteepest = to_radians(88), kLinear = 0.03;  // edges of the bi
 constexpr double kWaveSpeedMps = 1500;                        // of k in Gamma, as in Eckart's loss
 constexpr double kMaxSurfaceLossDb = 15;                      // of a bounce, our choice
 constexpr double kLeastKept = 1e-12;
-constexpr double kMinSine = 1e-6;  // at a boundary, below which a ray does not meet it
+constexpr double kMinSine = 1e-6;                       // at a boundary, below which a ray does not meet it
 constexpr double kBlobHeightM = 5, kBlobLengthM = 500;  // L_v and L_h of fine structure
 
 double sine_of(double xi, double speed) {
@@ -84,14 +84,14 @@ std::vector<double> scattering_of(FacetBins bins, const RoughBoundary& boundary)
 RoughBoundary wavy_surface(const RaySurface& surface, double frequency_hz) {
   const double waves_m = rms_wave_height_m(surface.wind_mps);
   const SurfaceLoss loss(surface, frequency_hz);
-  return {waves_m, surface.wind_mps > 0 ? surface_slope_variance(surface.wind_mps) : 0, 0, [loss](double sine) {
+  return {waves_m, surface.wind_mps > 0 ? surface_slope_variance(surface.wind_mps) : 0, [loss](double sine) {
             return elementary::exp10(-std::min(loss.db_at_sine(sine), kMaxSurfaceLossDb) / 10);
           }};
 }
 
 RoughBoundary rough_bottom(const FluidBottom& bottom, double speed_mps, double rms_height_m,
                            double slope_variance) {
-  return {rms_height_m, slope_variance, 0, [bottom, speed_mps](double sine) {
+  return {rms_height_m, slope_variance, [bottom, speed_mps](double sine) {
             const double magnitude = bottom_magnitude_at_sine(bottom, sine, speed_mps);
             return magnitude * magnitude;
           }};
@@ -109,7 +109,9 @@ AngleTransport::AngleTransport(const TransportSea& sea) : depth_m_(sea.depth_m) 
   set_layers(sea);
   set_edges(sea.bins);
   for (std::size_t bin = 0; bin < sea.bins; ++bin) add_states(sea, bin);
-  const auto earlier = [](const TransportState& a, const TransportState& b) { return a.excess_spm < b.excess_spm; };
+  const auto earlier = [](const TransportState& a, const TransportState& b) {
+    return a.excess_spm < b.excess_spm;
+  };
   reference_ = std::min_element(states_.begin(), states_.end(), earlier)->excess_spm;
   for (TransportState& state : states_) {
     state.excess_spm -= reference_;
@@ -296,11 +298,11 @@ double AngleTransport::turning_rate(const TransportSea& sea, const TransportStat
     const double deviation = sea.speed_deviation_mps[layer] / kWaveSpeedMps;
     const double free = std::sqrt(std::numbers::pi) * deviation * deviation / kBlobHeightM;
     const double middle = 0.5 * (s1 + s2);
-    sum += free * (std::abs(s1 - s2) < kLevel
-                       ? crossing_of(state.xi_spm, height, c1, c2, s1, s2).range_m /
-                             std::sqrt(middle * middle + q * q)
-                       : std::abs(area_sine(s1 / q) - area_sine(s2 / q)) * height /
-                             (state.xi_spm * std::abs(c2 - c1)));
+    sum +=
+        free *
+        (std::abs(s1 - s2) < kLevel
+             ? crossing_of(state.xi_spm, height, c1, c2, s1, s2).range_m / std::sqrt(middle * middle + q * q)
+             : std::abs(area_sine(s1 / q) - area_sine(s2 / q)) * height / (state.xi_spm * std::abs(c2 - c1)));
   }
   return 2 * sum / state.cycle_m;
 }
@@ -326,8 +328,9 @@ void AngleTransport::add_fine_structure(const TransportSea& sea, Rates& rates) c
       for (const std::size_t j : steep) {
         if (states_[i].upper_m >= states_[j].lower_m || states_[j].upper_m >= states_[i].lower_m) continue;
         const bool single = flat.size() == 1 && steep.size() == 1;
-        exchange(i, j, single ? 0.5 * (states_[i].cycle_m + states_[j].cycle_m)
-                              : std::min(states_[i].cycle_m, states_[j].cycle_m));
+        exchange(i, j,
+                 single ? 0.5 * (states_[i].cycle_m + states_[j].cycle_m)
+                        : std::min(states_[i].cycle_m, states_[j].cycle_m));
       }
     }
   }

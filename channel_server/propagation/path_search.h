@@ -25,6 +25,7 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/seabed_profile.h"
+#include "channel_server/propagation/turned_seas.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {
@@ -58,10 +59,17 @@ struct RayModel {
   // sound. 0..kDeepestWater, rising.
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
   int max_searches_per_tick = 0;  // limit for link tables (search_scheduler.h); 0: unlimited
+  // Cache of the sound that boundaries turn, where fading.turns; null: RayPropagation makes one.
+  std::shared_ptr<const TurnedSeas> turned = nullptr;
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
 void validate(const RayModel& model);
+
+// True when scattered sound goes on at new angles.
+inline bool turns_sound(const RayModel& model) { return model.fading.enabled && model.fading.turns; }
+// Returns the model with a cache of turned sound where it needs one.
+RayModel with_turned_seas(RayModel model);
 
 // Horizontal positions of the ends of a bottom profile: north and east of the first end, then of the last, m.
 using ProfileEnds = std::array<double, 4>;
