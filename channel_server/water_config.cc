@@ -272,6 +272,13 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
     visit_slow_fading(v, f.slow);
     with_rays(v, p, [&] {
       v.number("bottom_roughness_m", f.bottom_roughness_m, {0, 1, "m", "rms height of the rough bottom"});
+      bus::choice(v, "scattering", f.turns, {"none", "turns"},
+                  "scattered sound: none leaves it on its path, turns sends it on at new angles "
+                  "(docs/packets.md)");
+      v.when(f.turns, "scattering = \"turns\"", [&] {
+        v.number("bottom_slope", f.bottom_slope,
+                 {0.01, 1, "", "rms slope of the rough bottom's facets, which turn what it scatters"});
+      });
       bus::choice(v, "scattering_loss", f.scattering_loss, kScattering,
                   "loss of the sound that rough boundaries scatter beyond the bottom's critical angle");
       visit_fine_structure(v, p.rays.options.fine_structure);
@@ -281,6 +288,8 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
     bus::choice(v, "reverberation", p.rays.reverberation.enabled, kScattering,
                 "tail that rough boundaries leave behind every packet (docs/scenarios.md)");
   });
+  if (f.turns && f.scattering_loss)
+    v.problem("scattering_loss", "scattering = \"turns\" has its own loss by angles");
   if (p.rays.reverberation.enabled && !f.enabled)
     v.problem("reverberation", "\"lambert\" needs fading = \"sea\"");
 }

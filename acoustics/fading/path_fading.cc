@@ -30,6 +30,7 @@ void validate(const FadingModel& model) {
   require_in_range(model.bottom_roughness_m, 0, 1, "rms roughness of the bottom", "m");
   validate(model.slow);
   require_in_range(model.platform_jitter_m, 0, 5, "vertical movement of the ends", "m");
+  require_in_range(model.bottom_slope, 0.01, 1, "rms slope of the bottom");
 }
 
 // Solves exp(-(2 pi B T)^2 / 2) = 1/e for B.
@@ -44,6 +45,13 @@ double coherence_time_of(double doppler_spread_hz) {
 double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_squares) {
   const double one = 2 * (2 * pi * frequency_hz / kSoundSpeedMps) * rms_height_m;
   return one * one * sine_squares;
+}
+
+double coherent_share(const FadingModel& model, double wind_mps, double frequency_hz,
+                      double surface_sine_squares, double bottom_sine_squares) {
+  return elementary::exp(
+      -rayleigh_squares(rms_wave_height_m(wind_mps), frequency_hz, surface_sine_squares) -
+      rayleigh_squares(model.bottom_roughness_m, frequency_hz, bottom_sine_squares));
 }
 
 PathFading path_fading(const FadingModel& model, double wind_mps, double frequency_hz,

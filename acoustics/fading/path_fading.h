@@ -42,6 +42,10 @@ struct FadingModel {
   double large_scale_still_s = 0;
   // Vertical movement of each end from packet to packet, m rms, 0..5: mean levels are means over it, too.
   double platform_jitter_m = 0;
+  // True: scattered sound goes on at new angles (acoustics/scattering), and a path of several bounces keeps
+  // its coherent share alone.
+  bool turns = false;
+  double bottom_slope = 0.2;  // rms slope of the rough bottom's facets in a plane, 0.01..1: rippled sand
   bool operator==(const FadingModel&) const = default;
 };
 
@@ -68,6 +72,10 @@ inline constexpr double kIceCoherenceS = 3 * 3600.0;
 // Sum of the squared Rayleigh parameters of bounces at a boundary of that rms height:
 //   (2 k sigma)^2 sum of sin^2(grazing angle)
 double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_squares);
+
+// Coherent share E = exp(-sum Gamma^2) of a path's power after its bounces, 0..1.
+double coherent_share(const FadingModel& model, double wind_mps, double frequency_hz,
+                      double surface_sine_squares, double bottom_sine_squares);
 
 // Fading of a path at `frequency_hz` > 0 under `wind_mps` >= 0, given the sums over its bounces of the
 // squared sine of the grazing angle (acoustics/rays/eigenray.h). Shares refer to the share `kept` of the

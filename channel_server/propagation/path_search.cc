@@ -26,6 +26,30 @@ acoustics::RayOptions options_of(const RayModel& model, const PathQuery& query) 
   return options;
 }
 
+// Variance of the slope of the seabed's samples between the ends of a link about its mean.
+double mean_square_slope(const SeabedProfile& seabed, double range_m) {
+  SlopeSums sums;
+  for (std::size_t i = 0; i + 1 < seabed.z_m.size(); ++i) {
+    const double middle_m = seabed.first_m + (static_cast<double>(i) + 0.5) * seabed.spacing_m;
+    if (middle_m < 0 || middle_m > range_m) continue;
+    const double slope = (seabed.z_m[i + 1] - seabed.z_m[i]) / seabed.spacing_m;
+    sums.count += 1;
+    sums.sum += slope;
+    sums.squares += slope * slope;
+  }
+  return sums.variance();
+}
+
+// Depths at equal distances between the ends, each below both ends' own depth there.
+std::array<double, 16> depths_along(const acoustics::BottomProfile& bottom, double range_m) {
+  std::array<double, 16> depths{};
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    const double place = (static_cast<double>(i) + 0.5) / static_cast<double>(depths.size());
+    depths[i] = std::max(bottom.depth_at(range_m * place), kMinWaterM);
+  }
+  return depths;
+}
+
 std::shared_ptr<const SearchResult> result_over(const RayModel& model, const PathSea& along,
                                                 const PathQuery& query, const SeabedProfile& seabed,
                                                 acoustics::SharedRays* shared) {
@@ -34,6 +58,13 @@ std::shared_ptr<const SearchResult> result_over(const RayModel& model, const Pat
   found->mean_depth_m = along.mean_depth_m;
   found->eigenrays =
       eigenrays(along.sea, query.link, usable_solver(model.solver, along.sea, query.link), shared);
+  if (model.turned) {
+    const acoustics::RaySea& sea = along.sea;
+    found->eigenrays.paths = model.turned->with_turned_sound(
+        {sea.water, sea.bottom, sea.surface, model.fading, query.frequency_hz, query.link,
+         depths_along(sea.bottom_profile, query.link.range_m), mean_square_slope(seabed, query.link.range_m)},
+        std::move(found->eigenrays.paths));
+  }
   found->blocked = cuts_straight_line(along.sea.bottom_profile, query.link);
   found->beyond_terrain = seabed.beyond_terrain;
   return found;
@@ -101,6 +132,11 @@ void validate(const RayModel& model) {
   require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
 }
 
+RayModel with_turned_seas(RayModel model) {
+  if (turns_sound(model) && !model.turned) model.turned = std::make_shared<const TurnedSeas>();
+  return model;
+}
+
 acoustics::LinkWater water_along(const RayModel& model, const acoustics::RayWater& water,
                                  const acoustics::Environment& environment, const PathQuery& query,
                                  double deepest_m) {
@@ -156,6 +192,30 @@ bool may_be_flux_only(const RayModel& model, const acoustics::RayWater& water, c
   return acoustics::may_be_flux_only(water, options_of(model, query), query.link, model.weak_below_diffuse);
 }
 
+namespace {
+
+// The windows of a link of more than ten depths whose turned sound is weak; nullopt for other links.
+std::optional<std::vector<acoustics::Eigenray>> weak_turned_windows(
+    const RayModel& model, const acoustics::RayWater& water, const acoustics::Environment& environment,
+    const PathQuery& query, const SeabedPlaces& seabed, double depth_m) {
+  constexpr double kFarAway = 10;  // least length, in depths
+  if (!model.turned || query.link.range_m < kFarAway * depth_m || !may_be_flux_only(model, water, query))
+    return std::nullopt;
+  TurnedLink link{water,      model.bottom, surface_of(model, environment), model.fading, query.frequency_hz,
+                  query.link, {},           seabed.mean_square_slope};
+  for (std::size_t i = 0; i < link.depths_m.size(); ++i)
+    link.depths_m[i] = std::max(seabed.z_m[i] - environment.sea_surface_z_m, kMinWaterM);
+  std::vector<acoustics::Eigenray> windows = model.turned->windows_alone(link);
+  double power = 0;
+  for (const acoustics::Eigenray& window : windows)
+    power += window.received_pressure() * window.received_pressure();
+  const double weak = query.diffuse_below_pressure * query.diffuse_below_pressure *
+                      to_power_ratio(-model.weak_below_diffuse).value;
+  return windows.empty() || power > weak ? std::nullopt : std::optional(std::move(windows));
+}
+
+}  // namespace
+
 std::shared_ptr<const SearchResult> flux_only_paths(const RayModel& model, const acoustics::RayWater& water,
                                                     const acoustics::Environment& environment,
                                                     const PathQuery& query, const SeabedPlaces& seabed) {
@@ -167,10 +227,12 @@ std::shared_ptr<const SearchResult> flux_only_paths(const RayModel& model, const
   const double depth_m =
       std::clamp(mean_z_m - environment.sea_surface_z_m, deepest_end_m + kEvenM, acoustics::kDeepestWater);
   const acoustics::LinkWater along = water_along(model, water, environment, query, depth_m);
-  auto windows =
-      acoustics::flux_only_eigenrays({along.water, depth_m, model.bottom, surface_of(model, environment),
-                                      options_of(model, query), seabed.mean_square_slope},
-                                     query.link, model.weak_below_diffuse);
+  auto windows = turns_sound(model)
+                     ? weak_turned_windows(model, along.water, environment, query, seabed, depth_m)
+                     : acoustics::flux_only_eigenrays(
+                           {along.water, depth_m, model.bottom, surface_of(model, environment),
+                            options_of(model, query), seabed.mean_square_slope},
+                           query.link, model.weak_below_diffuse);
   if (!windows) return nullptr;
   auto found = std::make_shared<SearchResult>();
   found->eigenrays = {acoustics::RaySolver::kArcs, *std::move(windows)};

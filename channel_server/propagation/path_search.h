@@ -26,6 +26,7 @@
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/propagation/surface_ends.h"
+#include "channel_server/propagation/turned_seas.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {
@@ -62,6 +63,8 @@ struct RayModel {
   bool holds_terrain = true;      // beyond the terrain its last depth continues; false: no sound passes there
   // Bubbles and waves near the surface act on paths that fade, and waves on these ends; empty: on none.
   std::optional<SurfaceEnds> near_surface = {};
+  // Cache of the sound that boundaries turn, where fading.turns; null: RayPropagation makes one.
+  std::shared_ptr<const TurnedSeas> turned = nullptr;
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
@@ -69,6 +72,10 @@ void validate(const RayModel& model);
 
 // Returns the surface for ray tracing.
 acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environment& environment);
+// True when scattered sound goes on at new angles.
+inline bool turns_sound(const RayModel& model) { return model.fading.enabled && model.fading.turns; }
+// Returns the model with a cache of turned sound where it needs one.
+RayModel with_turned_seas(RayModel model);
 
 // Horizontal positions of the ends of a bottom profile: north and east of the first end, then of the last, m.
 using ProfileEnds = std::array<double, 4>;

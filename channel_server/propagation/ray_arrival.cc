@@ -2,10 +2,12 @@
 #include "channel_server/propagation/ray_arrival.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "acoustics/fading/scattering_loss.h"
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/link/received_field.h"
+#include "acoustics/modem/beam_pattern.h"
 #include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/surface_boundary.h"
 #include "core/elementary.h"
@@ -18,6 +20,37 @@ double kept_share_of(const RoughBoundaries& boundaries, const acoustics::Environ
   return kept_share(
       boundaries.fading, environment.noise.wind_mps, frequency_hz, boundaries.trapped_share,
       {path.surface_bounces, path.bottom_bounces, path.surface_sine_squares, bottom_sine_squares});
+}
+
+bool turns(const RoughBoundaries& boundaries) { return boundaries.fading.enabled && boundaries.fading.turns; }
+
+// Pressure of turned sound with both beams: it leaves and arrives upwards and downwards alike.
+double turned_pressure(const acoustics::Eigenray& window, const acoustics::BeamPattern& from,
+                       const acoustics::BeamPattern& to) {
+  const auto mean_power = [](const acoustics::BeamPattern& beam, double angle) {
+    const double down = beam.factor(angle), up = beam.factor(-angle);
+    return 0.5 * (down * down + up * up);
+  };
+  return window.received_pressure() *
+         std::sqrt(mean_power(from, window.launch_angle_rad) * mean_power(to, window.arrival_angle_rad));
+}
+
+// Doppler spread of turned sound by the motion of the ends, v / c f sin(angle) of each, Hz rms.
+double spread_by_motion(const acoustics::Environment& environment, const EndPair& ends,
+                        const acoustics::Eigenray& window) {
+  const auto one = [&](const LinkEnd& end, double angle) {
+    const double along = end.velocity_ned_mps.norm() / sound_speed_at(environment, end.position_ned_m);
+    return along * ends.from.modem->centre_frequency_hz * elementary::sin(angle);
+  };
+  return elementary::hypot(one(ends.from, window.launch_angle_rad), one(ends.to, window.arrival_angle_rad));
+}
+
+// The share of its power that a traced path keeps: of several bounces, what is coherent.
+double coherent_share_of(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
+                         double frequency_hz, const acoustics::Eigenray& path) {
+  if (path.surface_bounces + path.bottom_bounces < 2) return 1;
+  return coherent_share(boundaries.fading, environment.noise.wind_mps, frequency_hz,
+                        path.surface_sine_squares, path.bottom_sine_squares);
 }
 
 }  // namespace
@@ -34,11 +67,15 @@ std::optional<Arrival> arrival_of(const RoughBoundaries& boundaries,
                                   const acoustics::Eigenray& eigenray, bool reversed) {
   const auto& [from, to] = ends;
   Arrival arrival{reversed ? backwards(eigenray) : eigenray};
-  const double pressure = weighted_pressure(arrival, {from.modem->beam, to.modem->beam});
+  const bool is_window = arrival.diffuse && turns(boundaries);
+  const double pressure = is_window ? turned_pressure(arrival, from.modem->beam, to.modem->beam)
+                                    : weighted_pressure(arrival, {from.modem->beam, to.modem->beam});
   if (!(pressure > 0)) return std::nullopt;  // absorbed beyond the range of a double
   const double frequency_hz = from.modem->centre_frequency_hz;
-  const double kept =
-      kept_share_of(boundaries, environment, frequency_hz, arrival, arrival.bottom_sine_squares);
+  const double kept = is_window           ? 1
+                      : turns(boundaries) ? coherent_share_of(boundaries, environment, frequency_hz, arrival)
+                                          : kept_share_of(boundaries, environment, frequency_hz, arrival,
+                                                          arrival.bottom_sine_squares);
   if (!(kept > 0)) return std::nullopt;
   const acoustics::MovingEnds moving{from.position_ned_m,
                                      from.velocity_ned_mps,
@@ -56,6 +93,9 @@ std::optional<Arrival> arrival_of(const RoughBoundaries& boundaries,
   // Many paths of random phase add to complex Gaussian noise.
   if (arrival.diffuse && boundaries.fading.enabled)
     arrival.fading = {.coherent = 0, .scattered = 1, .doppler_spread_hz = arrival.fading.doppler_spread_hz};
+  if (is_window)
+    arrival.fading.doppler_spread_hz =
+        elementary::hypot(arrival.fading.doppler_spread_hz, spread_by_motion(environment, ends, arrival));
   return arrival;
 }
 

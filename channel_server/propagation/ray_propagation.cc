@@ -29,10 +29,10 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
                                std::shared_ptr<SeabedMap> seabed, const RayModel& model)
     : waters_(std::move(waters)),
       seabed_(std::move(seabed)),
-      model_(model),
+      model_(with_turned_seas(model)),
       boundaries_{model.fading, acoustics::trapped_share(model.bottom)},
       straight_(waters_, model.fading),
-      searches_(waters_, seabed_, model, straight_) {}
+      searches_(waters_, seabed_, model_, straight_) {}
 
 Reception RayPropagation::along_rays(SimTime at, const Task& task, acoustics::Capacity capacity) {
   const LinkSearches::Paths paths = searches_.find(task);

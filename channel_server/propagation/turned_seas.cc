@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "channel_server/propagation/turned_seas.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <tuple>
+
+#include "acoustics/rays/traced_eigenray.h"
+#include "core/elementary.h"
+#include "core/hash.h"
+#include "core/units.h"
+
+namespace halocline::channel_server {
+namespace {
+
+constexpr std::size_t kMaxSeas = 64;  // cached, up to 3 MB each
+constexpr std::size_t kStretches = 8;
+constexpr double kDepthRatio = 1.05;   // between depths of transports over an uneven bottom
+constexpr int kNodesOfDepth = 50;      // depths of ends
+constexpr double kNearBoundary = 0.2;  // share of the depth
+constexpr double kSlopeStep = 0.02;    // rms slopes of relief are counted in these
+constexpr double kCyclesOfFocus = 3, kMaxFocus = 2;
+constexpr double kNegligible = 1e-6;  // share of the whole power below which a path is left out
+constexpr double kLevelM = 1e-6;
+
+double power_of(const acoustics::Eigenray& path) {
+  const double pressure = path.received_pressure();
+  return pressure * pressure;
+}
+
+int bounces_of(const acoustics::Eigenray& path) { return path.surface_bounces + path.bottom_bounces; }
+
+double relief_slope(const TurnedLink& link) {
+  return kSlopeStep * std::round(std::sqrt(link.mean_square_slope) / kSlopeStep);
+}
+
+// Hash of all values that transports of the link depend on, but for depth and bins.
+std::uint64_t hash_of(const TurnedLink& link) {
+  std::vector<double> values{link.frequency_hz,
+                             link.surface.wind_mps,
+                             static_cast<double>(link.surface.model),
+                             link.bottom.density_ratio,
+                             link.bottom.sound_speed_ratio,
+                             link.bottom.sound_speed_mps,
+                             link.bottom.loss_parameter,
+                             static_cast<double>(link.bottom.loss),
+                             link.fading.bottom_roughness_m,
+                             link.fading.bottom_slope,
+                             relief_slope(link)};
+  const acoustics::RayWater& water = link.water;
+  values.insert(values.end(), water.depths_m().begin(), water.depths_m().end());
+  values.insert(values.end(), water.speeds_mps().begin(), water.speeds_mps().end());
+  for (const acoustics::LayerAbsorption& layer : water.absorption())
+    values.insert(values.end(), {layer.a0, layer.a1, layer.a2});
+  std::uint64_t hash = 0;
+  for (const double value : values) {
+    const auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof value>>(value + 0.0);
+    hash = xxh3(std::span<const std::uint8_t>(bytes), hash);
+  }
+  return hash;
+}
+
+// The part of a link over one depth.
+struct DepthStretch {
+  double depth_m, length_m;  // of the sea
+  double model_m;            // depth of its transport
+};
+
+bool is_level(const TurnedLink& link) {
+  const auto [least, most] = std::minmax_element(link.depths_m.begin(), link.depths_m.end());
+  return *most - *least < kLevelM;
+}
+
+std::vector<DepthStretch> stretches_of(const TurnedLink& link) {
+  const double range_m = std::max(link.link.range_m, acoustics::kMinDistance);
+  if (is_level(link)) return {{link.depths_m.front(), range_m, link.depths_m.front()}};
+  std::vector<DepthStretch> stretches;
+  const double unit = elementary::log(kDepthRatio), length_m = range_m / kStretches;
+  for (std::size_t i = 0; i < kStretches; ++i) {
+    const double depth_m = 0.5 * (link.depths_m[2 * i] + link.depths_m[2 * i + 1]);
+    const double model_m = elementary::exp(unit * std::round(elementary::log(depth_m) / unit));
+    if (!stretches.empty() && stretches.back().model_m == model_m) {
+      DepthStretch& last = stretches.back();
+      last.depth_m = (last.depth_m * last.length_m + depth_m * length_m) / (last.length_m + length_m);
+      last.length_m += length_m;
+    } else {
+      stretches.push_back({depth_m, length_m, model_m});
+    }
+  }
+  return stretches;
+}
+
+acoustics::TransportSea transport_sea(const TurnedLink& link, double depth_m, std::size_t bins) {
+  const double slope = relief_slope(link);
+  acoustics::TransportSea sea{
+      link.water, depth_m, link.frequency_hz, acoustics::wavy_surface(link.surface, link.frequency_hz),
+      acoustics::rough_bottom(link.bottom, link.water.speed_at(depth_m), link.fading.bottom_roughness_m,
+                              link.fading.bottom_slope * link.fading.bottom_slope)};
+  sea.bottom.relief_variance = slope * slope;
+  sea.bins = bins;
+  return sea;
+}
+
+}  // namespace
+
+// Both directions of a link, in its own scale.
+struct TurnedSeas::Turned {
+  acoustics::TurnedSound forward, backward;
+  double depth_m = 0;  // mean
+  double total() const {
+    return 0.5 * (forward.power + forward.unbounced + backward.power + backward.unbounced);
+  }
+};
+
+TurnedSeas::TurnedSeas() : seas_(kMaxSeas) {}
+
+std::shared_ptr<TurnedSeas::Sea> TurnedSeas::sea_of(const TurnedLink& link, std::uint64_t hash,
+                                                    double depth_m, std::size_t bins) const {
+  const Key key{hash, depth_m, bins};
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto* known = seas_.find(key)) return *known;
+  }
+  auto sea = std::make_shared<Sea>(transport_sea(link, depth_m, bins));
+  const std::lock_guard lock(mutex_);
+  return seas_.find_or_make(key, [&] { return std::move(sea); });
+}
+
+std::shared_ptr<const acoustics::TransportEnd> TurnedSeas::node_of(Sea& sea, int node) {
+  {
+    const std::lock_guard lock(sea.mutex);
+    const auto known = sea.ends.find(node);
+    if (known != sea.ends.end()) return known->second;
+  }
+  const double depth_m = sea.transport.depth_m() * node / kNodesOfDepth;
+  auto end = std::make_shared<const acoustics::TransportEnd>(sea.transport, depth_m);
+  const std::lock_guard lock(sea.mutex);
+  return sea.ends.emplace(node, std::move(end)).first->second;
+}
+
+acoustics::TransportEnd TurnedSeas::end_of(Sea& sea, double share_of_depth) {
+  const double place = std::clamp(share_of_depth, 0.0, 1.0) * kNodesOfDepth;
+  const int node = std::min(static_cast<int>(place), kNodesOfDepth - 1);
+  const double share = place - node;
+  constexpr double kAtNode = 1e-9;
+  if (share < kAtNode) return *node_of(sea, node);
+  if (share > 1 - kAtNode) return *node_of(sea, node + 1);
+  return acoustics::TransportEnd::between(*node_of(sea, node), *node_of(sea, node + 1), share);
+}
+
+namespace {
+
+// Sound computed over model depths and ranges, as it is over the true ones: intensities go with the inverse
+// square of the scale in even water, delays with the range, absorption by the difference of range.
+void rescale(acoustics::TurnedSound& sound, double power_scale, double delay_scale) {
+  sound.power *= power_scale;
+  sound.unbounced *= power_scale;
+  sound.reference_s *= delay_scale;
+  for (acoustics::TurnedPart& part : sound.parts) {
+    part.power *= power_scale;
+    part.excess_s *= delay_scale;
+    part.variance_s2 *= delay_scale * delay_scale;
+  }
+}
+
+}  // namespace
+
+TurnedSeas::Turned TurnedSeas::turned(const TurnedLink& link) const {
+  const std::vector<DepthStretch> parts = stretches_of(link);
+  const double source = link.link.source_depth_m / parts.front().depth_m;
+  const double receiver = link.link.receiver_depth_m / parts.back().depth_m;
+  const auto is_near = [](double share) { return share < kNearBoundary || share > 1 - kNearBoundary; };
+  const std::size_t bins = is_near(source) || is_near(receiver) ? 96 : 48;
+  const std::uint64_t hash = hash_of(link);
+  std::vector<std::shared_ptr<Sea>> seas;
+  std::vector<acoustics::Stretch> there;
+  double range_m = 0, model_range_m = 0, depth_m = 0, absorbed_db = 0;
+  for (const DepthStretch& part : parts) {
+    seas.push_back(sea_of(link, hash, part.model_m, bins));
+    const double length_m = part.length_m * part.model_m / part.depth_m;
+    there.push_back({{seas.back(), &seas.back()->transport}, length_m});
+    range_m += part.length_m;
+    model_range_m += length_m;
+    depth_m += part.length_m * part.depth_m;
+    absorbed_db += (part.length_m - length_m) * link.water.absorption_db_per_m(0.5 * part.model_m);
+  }
+  const std::vector<acoustics::Stretch> back(there.rbegin(), there.rend());
+  const acoustics::TransportEnd first = end_of(*seas.front(), source), last = end_of(*seas.back(), receiver);
+  Turned turned;
+  turned.depth_m = depth_m / range_m;
+  if (there.size() == 1) {
+    turned.forward = acoustics::turned_sound(seas.front()->transport, first, last, model_range_m);
+    turned.backward = acoustics::turned_sound(seas.front()->transport, last, first, model_range_m);
+  } else {
+    turned.forward = acoustics::turned_sound(there, first, last);
+    turned.backward = acoustics::turned_sound(back, last, first);
+  }
+  const double longer = range_m / model_range_m;
+  const double absorbed = elementary::exp10(-absorbed_db / 10);
+  rescale(turned.forward, absorbed / longer * parts.back().model_m / parts.back().depth_m, longer);
+  rescale(turned.backward, absorbed / longer * parts.front().model_m / parts.front().depth_m, longer);
+  return turned;
+}
+
+namespace {
+
+// The windows as paths that are diffuse. A window of the excess delay t over the range r has run at the mean
+// angle of cos = reference / (reference + t) and bounced r tan(angle) / (2 H) times at each boundary.
+std::vector<acoustics::Eigenray> paths_of(const TurnedLink& link, double reference_s, double depth_m,
+                                          double factor, const std::vector<acoustics::DelayWindow>& windows) {
+  const double range_m = std::max(link.link.range_m, acoustics::kMinDistance);
+  const double db_per_m = link.water.absorption_db_per_m(depth_m / 2);
+  std::vector<acoustics::Eigenray> paths;
+  for (const acoustics::DelayWindow& window : windows) {
+    const double power = factor * window.power;
+    if (!(power > 0)) continue;
+    const double cosine = reference_s / (reference_s + window.excess_s);
+    const double sine = std::sqrt((1 - cosine) * (1 + cosine));
+    const double bounces = range_m * sine / cosine / (2 * depth_m);
+    acoustics::Eigenray path;
+    path.delay_s = reference_s + window.excess_s;
+    path.path_length_m = range_m / cosine;
+    path.absorption_db = db_per_m * path.path_length_m;
+    path.amplitude = std::sqrt(power) * elementary::exp10(path.absorption_db / 20);
+    path.launch_angle_rad = elementary::asin(std::min(window.launch_sine, 1.0));
+    path.arrival_angle_rad = elementary::asin(std::min(window.arrival_sine, 1.0));
+    path.launch_slowness_spm = path.range_slowness_spm = path.delay_s / range_m;
+    path.surface_sine_squares = path.bottom_sine_squares = bounces * sine * sine;
+    path.surface_bounces = path.bottom_bounces = static_cast<int>(std::min(bounces, 1e4));
+    path.diffuse = true;
+    path.identity = acoustics::diffuse_identity(path.launch_angle_rad, paths.size());
+    paths.push_back(path);
+  }
+  return paths;
+}
+
+double reference_of(const acoustics::TurnedSound& forward, const acoustics::TurnedSound& backward) {
+  return 0.5 * (forward.reference_s + backward.reference_s);
+}
+
+// Cycles of a path: meetings of the surface or upper turns, and those below, whichever are more.
+int cycles_of(const acoustics::Eigenray& path) {
+  return std::max(path.surface_bounces + path.identity.upper_turns,
+                  path.bottom_bounces + path.identity.lower_turns);
+}
+
+// What a traced path keeps of its power.
+double kept_of(const TurnedLink& link, const acoustics::Eigenray& path) {
+  if (bounces_of(path) < 2) return power_of(path);
+  return power_of(path) * acoustics::coherent_share(link.fading, link.surface.wind_mps, link.frequency_hz,
+                                                    path.surface_sine_squares, path.bottom_sine_squares);
+}
+
+// Scales down the paths of more than three cycles whose sum exceeds the transport's total by more than 3 dB.
+void limit_focus(const TurnedLink& link, double total, std::vector<acoustics::Eigenray>& paths) {
+  double sum = 0;
+  for (const acoustics::Eigenray& path : paths)
+    if (cycles_of(path) > kCyclesOfFocus) sum += kept_of(link, path);
+  if (!(sum > kMaxFocus * total) || !(total > 0)) return;
+  const double scale = std::sqrt(kMaxFocus * total / sum);
+  for (acoustics::Eigenray& path : paths)
+    if (cycles_of(path) > kCyclesOfFocus) path.amplitude *= scale;
+}
+
+}  // namespace
+
+std::vector<acoustics::Eigenray> TurnedSeas::windows_alone(const TurnedLink& link) const {
+  const Turned sound = turned(link);
+  const acoustics::DelaySpectrum spectrum(sound.forward, sound.backward);
+  return paths_of(link, reference_of(sound.forward, sound.backward), sound.depth_m, 1, spectrum.windows());
+}
+
+std::vector<acoustics::Eigenray> TurnedSeas::with_turned_sound(const TurnedLink& link,
+                                                               std::vector<acoustics::Eigenray> paths) const {
+  const Turned sound = turned(link);
+  const acoustics::DelaySpectrum spectrum(sound.forward, sound.backward);
+  paths.erase(std::remove_if(paths.begin(), paths.end(), [](const auto& path) { return path.diffuse; }),
+              paths.end());
+  limit_focus(link, sound.total(), paths);
+  double bounced = 0, all = 0, most = 0;
+  for (const acoustics::Eigenray& path : paths) {
+    const double kept = kept_of(link, path);
+    if (bounces_of(path) > 0) bounced += kept;
+    all += kept;
+    most = std::max(most, kept);
+  }
+  const double turned_power = spectrum.power();
+  const double factor = turned_power > 0 ? std::clamp(1 - bounced / turned_power, 0.0, 1.0) : 0;
+  const double least = std::min(kNegligible * (all + factor * turned_power), most);
+  paths.erase(std::remove_if(paths.begin(), paths.end(),
+                             [&](const auto& path) { return kept_of(link, path) < least; }),
+              paths.end());
+  const std::vector<acoustics::Eigenray> windows =
+      paths_of(link, reference_of(sound.forward, sound.backward), sound.depth_m, factor, spectrum.windows());
+  paths.insert(paths.end(), windows.begin(), windows.end());
+  std::stable_sort(paths.begin(), paths.end(),
+                   [](const auto& a, const auto& b) { return a.delay_s < b.delay_s; });
+  return paths;
+}
+
+}  // namespace halocline::channel_server
