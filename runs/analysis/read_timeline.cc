@@ -110,7 +110,7 @@ LoggedTimeline read_timeline(const std::vector<std::string>& logs, TimelineLimit
     return time_of(log);
   }();
   LogReader log(logs);
-  LoggedTimeline read{RunTimeline(time, limits)};
+  LoggedTimeline read{RunTimeline(time, limits), {}};
   RunTimeline& timeline = read.timeline;
   for (LoggedEvent event; log.next(event);) timeline.add(event.stamp_us, event.channel, event.data);
   if (timeline.scenario().toml.empty()) {

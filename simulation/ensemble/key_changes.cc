@@ -2,6 +2,7 @@
 #include "simulation/ensemble/key_changes.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -40,6 +41,7 @@ class KeyChanger : public bus::ConfigVisitor {
   void vector3(std::string_view, Vec3&, const bus::NumberRule&) override {}
   void numbers(std::string_view, std::vector<double>&, const bus::NumberRule&) override {}
   void points(std::string_view, std::vector<Vec3>&, const bus::NumberRule&) override {}
+  void pairs(std::string_view, std::vector<std::array<double, 2>>&, const bus::NumberRule&) override {}
   void section(std::string_view key, std::string_view /*meaning*/,
                const std::function<void(ConfigVisitor&)>& body) override {
     KeyChanger inner(changes_, has_modem_, path_ + std::string(key) + ".");
@@ -56,6 +58,7 @@ class KeyChanger : public bus::ConfigVisitor {
   }
   // All values are in memory, but a vehicle without a modem of its own is to remain so.
   bool given(std::string_view key) const override { return !(without_modem_ && key == "modem"); }
+  bool is_text(std::string_view) const override { return false; }
   bool writing() const override { return true; }
   void problem(std::string_view, std::string_view) override {}
   void shared_with_others() override {}
