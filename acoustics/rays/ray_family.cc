@@ -13,8 +13,8 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kLongestStep = 2.4;   // sigma_z beyond which a step is halved
-constexpr int kMaxHalvings = 6;        // of steps on one side of a family
-constexpr int kMaxEdgeHalvings = 2;    // of those towards its edge
+constexpr int kMaxHalvings = 7;        // of steps on one side of a family
+constexpr int kMaxEdgeHalvings = 3;    // of those towards its edge
 constexpr int kMaxSteps = 48;          // on one side
 constexpr double kSteepest = 1.4;      // rad: families end there
 constexpr double kBendReach = 2.5;     // sigma_z within which rays tell how zeta is bent

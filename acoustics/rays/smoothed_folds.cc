@@ -172,7 +172,7 @@ void FoldSmoother::smooth_beside(const Eigenray& path) {
 void FoldSmoother::share_among_paths(const RayFamily& family, double weight) {
   std::vector<std::size_t> members;
   for (std::size_t i = 0; i < done_.size(); ++i) {
-    if (!done_[i] && family.holds(paths_[i])) members.push_back(i);
+    if (family.holds(paths_[i])) members.push_back(i);
   }
   std::sort(members.begin(), members.end(), [this](std::size_t a, std::size_t b) {
     return paths_[a].launch_angle_rad < paths_[b].launch_angle_rad;
@@ -183,15 +183,16 @@ void FoldSmoother::share_among_paths(const RayFamily& family, double weight) {
     Eigenray& path = paths_[members[k]];
     const double to =
         k + 1 < members.size() ? family.integral_to_fold(path, paths_[members[k + 1]]) : family.integral();
-    const double integral = (to - from) * link_.strength_of(path), power = power_of(path);
+    const double part = to - std::exchange(from, to);
+    if (done_[members[k]]) continue;  // by a family that ends before some of these paths
+    done_[members[k]] = true;
+    const double integral = part * link_.strength_of(path), power = power_of(path);
     const double smoothed = weight * ramp(family.bend_at(path.launch_angle_rad), kStraight, kBent);
     const double share = std::min(integral / power, 1.0), kept = share * share;
     if (power > most) strongest = path;
     most = std::max(most, power);
     window += smoothed * (integral - kept * power);
     path.amplitude *= std::sqrt(1 - smoothed + smoothed * kept);
-    done_[members[k]] = true;
-    from = to;
   }
   if (window > 0) windows_.push_back({strongest, window});
 }
