@@ -190,8 +190,8 @@ TEST(MeanPower, OfSteadyPathsIsTheSquareOfTheirPressures) {
   EXPECT_NEAR(mean_power(model, {direct, mirrored}, kBand), expected, 1e-3);
 }
 
-// A movement of 0.2 m leaves exp(-(k J)^2 dsin^2 / 2) of the interference, here of angles 0.03 rad to both sides
-// at the receiver: k J = 20.94.
+// A movement of 0.2 m leaves exp(-(k J)^2 dsin^2 / 2) of the interference, here of angles 0.03 rad to both
+// sides at the receiver: k J = 20.94.
 TEST(MeanPower, IsTheMeanOverTheMovementOfBothEnds) {
   FadingModel model{.enabled = true, .rice_factor_db = 60};
   const PathFading steady = path_fading(model, 0, 25'000, 0, 0);
