@@ -49,9 +49,8 @@ double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_sq
 
 double coherent_share(const FadingModel& model, double wind_mps, double frequency_hz,
                       double surface_sine_squares, double bottom_sine_squares) {
-  return elementary::exp(
-      -rayleigh_squares(rms_wave_height_m(wind_mps), frequency_hz, surface_sine_squares) -
-      rayleigh_squares(model.bottom_roughness_m, frequency_hz, bottom_sine_squares));
+  return elementary::exp(-rayleigh_squares(rms_wave_height_m(wind_mps), frequency_hz, surface_sine_squares) -
+                         rayleigh_squares(model.bottom_roughness_m, frequency_hz, bottom_sine_squares));
 }
 
 PathFading path_fading(const FadingModel& model, double wind_mps, double frequency_hz,

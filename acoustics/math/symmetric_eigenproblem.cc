@@ -136,8 +136,7 @@ EigenPairs symmetric_eigenpairs(std::vector<double> symmetric, std::size_t n) {
       // Wilkinson's shift.
       const double g = (t.diagonal[l + 1] - t.diagonal[l]) / (2 * t.below[l + 1]);
       const double r = std::sqrt(g * g + 1);
-      ql_step(t, n, l, m,
-              t.diagonal[m] - t.diagonal[l] + t.below[l + 1] / (g + (g >= 0 ? r : -r)));
+      ql_step(t, n, l, m, t.diagonal[m] - t.diagonal[l] + t.below[l + 1] / (g + (g >= 0 ? r : -r)));
     }
   }
   return {std::move(t.diagonal), std::move(t.rows)};

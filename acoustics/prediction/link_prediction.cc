@@ -407,8 +407,8 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>
     add_patterns(packet, *states.patterns, mean);
   }
   const double now = mean.delivery_probability();
-  LinkPrediction prediction{
-      sinr_of(sound, noise), mean.acquisition_probability(), now, now, now, disturbances_of(sound, noise)};
+  LinkPrediction prediction{sinr_of(sound, noise),        mean.acquisition_probability(), now, now, now,
+                            disturbances_of(sound, noise)};
   if (!shifts.any()) return prediction;
   const auto at = [&](double shift_db) {
     return shifted_delivery(packet, states, shift_db, now,

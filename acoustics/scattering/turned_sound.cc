@@ -202,7 +202,8 @@ TurnedSound turned_sound(const std::vector<Stretch>& stretches, const TransportE
   std::vector<Received> table;
   for (std::size_t node = 0; node < kStretchNodes; ++node) {
     if (node > 0) moments = carried(first, moments, step_m);
-    table.push_back(received_from(first, moments, nepers - first.slowest() * step_m * static_cast<double>(node)));
+    table.push_back(
+        received_from(first, moments, nepers - first.slowest() * step_m * static_cast<double>(node)));
   }
   TurnedSound sound;
   for (const Stretch& stretch : stretches)
@@ -234,8 +235,7 @@ double mean_rate_power(const AngleTransport& transport, const TransportEnd& sour
                        const TransportEnd& receiver, double range_m) {
   const std::vector<double> none(transport.size());
   const CarriedMoments arrived = by_state(
-      transport,
-      carried(transport, in_eigenvectors(transport, {receiver.reception(), none, none}), range_m));
+      transport, carried(transport, in_eigenvectors(transport, {receiver.reception(), none, none}), range_m));
   double sum = 0;
   for (std::size_t j = 0; j < transport.size(); ++j) sum += source.launched()[j] * arrived.power[j];
   return sum * elementary::exp(transport.slowest() * range_m) / range_m;

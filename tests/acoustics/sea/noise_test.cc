@@ -83,5 +83,15 @@ TEST(Noise, ANarrowBandIsDensityTimesWidth) {
   EXPECT_EQ(noise_power_over_band(1e4, 1e4, sea).value, 0);
 }
 
+// noise_offset_db
+TEST(Noise, AnOffsetMovesAllSourcesAndTablesAlike) {
+  NoiseSources sea{0.5, 5};
+  const double before = noise_level_over_band(9e3, 11e3, sea).value;
+  const double least = least_noise_power_density(9e3, 11e3, sea).value;
+  sea.offset_db = 7;
+  EXPECT_NEAR(noise_level_over_band(9e3, 11e3, sea).value, before + 7, tolerance(1e-9));
+  EXPECT_NEAR(least_noise_power_density(9e3, 11e3, sea).value / least, std::pow(10, 0.7), tolerance(1e-9));
+}
+
 }  // namespace
 }  // namespace halocline::acoustics

@@ -2,6 +2,7 @@
 // Paths as keys: where they start, and how the files that they name travel with a configuration.
 #include "bus/config/carried_files.h"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -318,6 +319,55 @@ TEST_F(CarriedFile, WarningsOfAFileThatIsReadAreThoseOfTheConfiguration) {
   file.check(/*whole_file=*/true);
   EXPECT_THAT(file.warnings(),
               ElementsAre(HasSubstr("own.toml:1: x is 1; it has no effect, it counts only with y = 2")));
+}
+
+// What a scenario includes is as if it stood there: it goes before the scenario's own values and behind
+// overrides, and travels within the configuration.
+TEST_F(CarriedFile, ValuesOfAnIncludedFileReplaceThoseOfTheFile) {
+  const auto read = [](ConfigFile& file) {
+    std::array<double, 3> values{};
+    file.read([&](ConfigVisitor& v) {
+      v.section("sea", "", [&](ConfigVisitor& s) {
+        s.number("wind", values[0], {0, 9, "", ""});
+        s.number("rain", values[1], {0, 9, "", ""});
+        s.number("noise", values[2], {0, 9, "", ""});
+      });
+    });
+    file.check(/*whole_file=*/true);
+    return values;
+  };
+  const std::string included = write("fit.toml", "[sea]\nrain = 5\nnoise = 6\n");
+  const std::string own = "include = \"fit.toml\"\n[sea]\nwind = 1\nrain = 2\n";
+  ConfigFile file = load(own);
+  EXPECT_EQ(read(file), (std::array<double, 3>{1, 5, 6}));
+  EXPECT_THAT(file.warnings(), ElementsAre(HasSubstr("sea.rain is 2")));
+  EXPECT_THAT(file.inputs(), ::testing::Contains(included));
+  ConfigFile overridden = load(own, {"sea.noise=7"});
+  EXPECT_EQ(read(overridden), (std::array<double, 3>{1, 5, 7}));
+  ConfigFile travelled = ConfigFile::parse(file.to_toml(), "SCENARIO");
+  EXPECT_EQ(read(travelled), (std::array<double, 3>{1, 5, 6}));
+}
+
+TEST_F(CarriedFile, ErrorsOfAnIncludedFileNameItsLine) {
+  write("fit.toml", "[sea]\nrain = 50\n");
+  ConfigFile file = load("include = \"fit.toml\"\n");
+  double rain = 0;
+  file.read([&](ConfigVisitor& v) {
+    v.section("sea", "", [&](ConfigVisitor& s) { s.number("rain", rain, {0, 9, "", ""}); });
+  });
+  try {
+    file.check(/*whole_file=*/true);
+    FAIL() << "nothing was refused";
+  } catch (const ConfigErrors& errors) {
+    EXPECT_THAT(errors.lines(), ElementsAre(HasSubstr("fit.toml:2: sea.rain is 50")));
+  }
+}
+
+TEST_F(CarriedFile, AFileThatCannotBeIncludedIsRefused) {
+  EXPECT_THROW(load("include = \"none.toml\"\n"), ConfigErrors);
+  EXPECT_THROW(load("include = 3\n"), ConfigErrors);
+  write("other.toml", "include = \"sea.toml\"\n");
+  EXPECT_THROW(load("include = \"other.toml\"\n"), ConfigErrors);
 }
 
 }  // namespace
