@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The message of the environment, from the models to the bus.
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/noise/noise_spectrum.h"
+#include "acoustics/noise/place_noise.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/messages/message_checks.h"
@@ -25,6 +28,19 @@ TEST(EnvironmentMessages, TheEnvironmentExplainsItself) {
   EXPECT_EQ(message.sound_speed_model, "mackenzie");
   EXPECT_EQ(message.absorption_model, "fisher-simmons");
   EXPECT_EQ(message.terrain_version, "terrain-7");
+}
+
+TEST(EnvironmentMessages, TheNoiseOfThePlaceIsNamed) {
+  const auto place_in = [](const acoustics::Environment& water) {
+    return to_message(water, {"straight", {}, {}}, at_s(0), "").noise_place;
+  };
+  acoustics::Environment water;
+  EXPECT_EQ(place_in(water), "open");
+  water.noise.place = acoustics::NoisePlace::kReefEdge;
+  EXPECT_EQ(place_in(water), "reef-edge");
+  water.noise.site =
+      std::make_shared<const acoustics::NoiseSpectrum>(std::vector<double>{1e3}, std::vector<double>{60});
+  EXPECT_EQ(place_in(water), "measured");
 }
 
 TEST(EnvironmentMessages, AProfileThatIsAFormulaIsTabulated) {
