@@ -125,7 +125,7 @@ class BandMean {
   std::vector<Complex> pairs_;       // each path with those before it
 };
 
-SignalHistory::Receiver history_receiver(const Modem& modem) {
+SignalHistory::ReceiverTerms receiver_terms(const Modem& modem) {
   return {to_power_ratio(modem.receiver_loss).value, static_cast<double>(modem.receiver_channels)};
 }
 
@@ -146,7 +146,7 @@ class HistoryMaker {
         mean_over_band_(collects_band_ ? paths : std::vector<Arrival>(), sync, band),
         turned_(paths.size()) {
     history_.frequencies = collects_band_ ? 1 : kFrequencies;
-    history_.receiver = history_receiver(*sync.modem);
+    history_.receiver = receiver_terms(*sync.modem);
     for (const Arrival& path : paths) {
       tracked_.push_back(tracked_share(*sync.modem, path));
     }
@@ -278,7 +278,7 @@ SignalHistory still_history(const std::vector<Arrival>& paths, const Synchronisa
                             const ReceivedTiming& timing) {
   const Arrival &first = paths[sync.window.first], &strongest = paths[sync.window.strongest];
   SignalHistory history;
-  history.receiver = history_receiver(*sync.modem);
+  history.receiver = receiver_terms(*sync.modem);
   history.edges_s = {0, timing.preamble_s, timing.duration_s};
   struct Echo {
     Sounding when;

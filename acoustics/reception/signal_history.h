@@ -58,10 +58,10 @@ struct SignalHistory {
   std::vector<double> fast_fading = {};
   // The receiver's factor on noise, 10^(receiver_loss / 10), and its hydrophones n: with interference I
   //   SINR = n S / (noise_loss N + I).
-  struct Receiver {
+  struct ReceiverTerms {
     double noise_loss = 1, channels = 1;
   };
-  Receiver receiver = {};
+  ReceiverTerms receiver = {};
 
   std::size_t stretches() const { return echoes.size(); }
   double mean_signal(std::size_t stretch) const;
