@@ -17,8 +17,8 @@ constexpr std::array<double, 8> kParts{-1.5341205443525463, -0.8871465590188759,
                                        -0.1573106846101707, 0.1573106846101707,  0.4887764111146696,
                                        0.8871465590188759,  1.5341205443525463};
 // Shares of the power between which windows lie: finer at both ends, which decide how long echoes last.
-constexpr std::array<double, kMaxDelayWindows + 1> kCuts{0,    0.01, 0.04, 0.1,  0.17, 0.24, 0.32, 0.4, 0.5,
-                                                         0.6,  0.68, 0.76, 0.84, 0.91, 0.96, 0.99, 1};
+constexpr std::array<double, kMaxDelayWindows + 1> kCuts{0,   0.01, 0.04, 0.1,  0.17, 0.24, 0.32, 0.4, 0.5,
+                                                         0.6, 0.68, 0.76, 0.84, 0.91, 0.96, 0.99, 1};
 
 std::size_t bin_of(double excess_s) {
   const double place = (fast_log(std::max(excess_s, 1e-12)) - kShortestLog) * kBinsPerFold;

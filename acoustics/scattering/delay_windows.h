@@ -2,10 +2,10 @@
 // Windows of delay of turned sound.
 //
 // Model. The sound that arrives by way of one state has a gamma distribution of delay, of its mean and
-// variance, here as eight parts of equal power at its quantiles (Wilson and Hilferty 1931), scaled to the mean.
-// All parts of both directions of a link stand in a histogram, 16 bins an e-fold of excess delay; windows are
-// cut at quantiles of the whole. A bin that a quantile cuts is divided in proportion, so windows move without
-// steps.
+// variance, here as eight parts of equal power at its quantiles (Wilson and Hilferty 1931), scaled to the
+// mean. All parts of both directions of a link stand in a histogram, 16 bins an e-fold of excess delay;
+// windows are cut at quantiles of the whole. A bin that a quantile cuts is divided in proportion, so windows
+// move without steps.
 #pragma once
 
 #include <vector>
@@ -37,9 +37,9 @@ class DelaySpectrum {
 
  private:
   struct Bin {
-    double power = 0, delay = 0;             // sums, the delay weighted by power
-    double launch = 0, launch_power = 0;     // of sin^2 and of power, forward
-    double arrival = 0, arrival_power = 0;   // likewise, backward
+    double power = 0, delay = 0;            // sums, the delay weighted by power
+    double launch = 0, launch_power = 0;    // of sin^2 and of power, forward
+    double arrival = 0, arrival_power = 0;  // likewise, backward
   };
   void add(const TurnedSound& sound, bool forward);
 

@@ -5,8 +5,8 @@
 // variance s2 in the plane of the sound, reflect like mirrors. From angle i to angle j leads the slope
 //   a = tan((theta_j - theta_i) / 2),
 // met by sin((theta_i + theta_j) / 2):
-//   sigma_ij = exp(-a^2 / (2 s2)) / sqrt(2 pi s2) / 2 sin((theta_i + theta_j) / 2) / cos^2((theta_j - theta_i) / 2)
-//   K_ij = d_i sigma_ij w_j d_j / sin(theta_i)
+//   sigma_ij = exp(-a^2 / (2 s2)) / sqrt(2 pi s2) / 2 sin((theta_i + theta_j) / 2) / cos^2((theta_j -
+//   theta_i) / 2) K_ij = d_i sigma_ij w_j d_j / sin(theta_i)
 // with w_j the width of bin j at the boundary and factors d > 0 that make row i sum to the scattered share.
 // They do what shadowing functions do; energy and reciprocity hold to rounding whatever the slopes are
 // (balancing in the place of a shadowing formula is our choice).
@@ -39,7 +39,8 @@ struct FacetKernel {
 FacetKernel facet_kernel(const FacetBins& bins, double slope_variance);
 
 // Variance in the plane of the sound of the slopes of waves long against the sound's, at `wind_mps` (values
-// below 1 count as 1): 0.5 * 4.6e-3 ln(2.1 U^2) (APL-UW TR 9407, part II: total slope; half of it in a plane).
+// below 1 count as 1): 0.5 * 4.6e-3 ln(2.1 U^2) (APL-UW TR 9407, part II: total slope; half of it in a
+// plane).
 double surface_slope_variance(double wind_mps);
 
 }  // namespace halocline::acoustics

@@ -12,15 +12,13 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr int kRaysOfBin = 8;  // of each direction
+constexpr int kRaysOfBin = 8;         // of each direction
 constexpr double kUnitShare = 0.125;  // first distance of cells and tables, in depths
 constexpr double kLeastLog = -690;
 
 double unit_of(const AngleTransport& transport) { return kUnitShare * transport.depth_m(); }
 
-double sine_of(double cosine) {
-  return cosine < 1 ? std::sqrt((1 - cosine) * (1 + cosine)) : 0;
-}
+double sine_of(double cosine) { return cosine < 1 ? std::sqrt((1 - cosine) * (1 + cosine)) : 0; }
 
 // A ray's way from a depth to a boundary, or to where it turns.
 struct Leg {
@@ -63,7 +61,8 @@ struct Meeting {
 
 Meeting first_meeting(const AngleTransport& transport, double xi, double depth_m, bool up) {
   const Leg first = leg_of(transport, xi, depth_m, up);
-  if (!first.turns) return {false, up ? Boundary::kSurface : Boundary::kBottom, first.range_m, first.excess_s};
+  if (!first.turns)
+    return {false, up ? Boundary::kSurface : Boundary::kBottom, first.range_m, first.excess_s};
   const Leg back = leg_of(transport, xi, depth_m, !up);
   return {back.turns, up ? Boundary::kBottom : Boundary::kSurface, 2 * first.range_m + back.range_m,
           2 * first.excess_s + back.excess_s};
@@ -74,14 +73,13 @@ struct DecayIntegrals {
   double even, rising;
 };
 DecayIntegrals decay_integrals(double k, double decayed) {
-  if (k < 1e-2)
-    return {1 - k / 2 + k * k / 6 - k * k * k / 24, 0.5 - k / 6 + k * k / 24 - k * k * k / 120};
+  if (k < 1e-2) return {1 - k / 2 + k * k / 6 - k * k * k / 24, 0.5 - k / 6 + k * k / 24 - k * k * k / 120};
   const double even = (1 - decayed) / k;
   return {even, (1 - even) / k};
 }
 
-// product_k = sum over l of matrix_kl phi(k, l) x_l of a symmetric matrix, phi the divided difference of e^(u y)
-// at the decays u_k and u_l.
+// product_k = sum over l of matrix_kl phi(k, l) x_l of a symmetric matrix, phi the divided difference of e^(u
+// y) at the decays u_k and u_l.
 void multiply_by_divided_differences(const AngleTransport& transport, const std::vector<double>& decays,
                                      double y, const std::vector<double>& x, std::vector<double>& product) {
   constexpr double kClose = 1e-3;
@@ -163,8 +161,8 @@ CarriedMoments carried(const AngleTransport& transport, const CarriedMoments& fr
   for (std::size_t k = 0; k < n; ++k) {
     const auto [even, rising] =
         decay_integrals((transport.slowest() - transport.values()[k]) * distance_m, decays[k]);
-    to.second[k] = decays[k] * from.second[k] +
-                   2 * distance_m * (before[k] * (even - rising) + after[k] * rising);
+    to.second[k] =
+        decays[k] * from.second[k] + 2 * distance_m * (before[k] * (even - rising) + after[k] * rising);
   }
   return to;
 }
@@ -188,8 +186,8 @@ TransportEnd::TransportEnd(const AngleTransport& transport, double depth_m) {
   tabulate(transport);
 }
 
-// Angles a and b of each bin's edges at the depth follow from its speed; p = 2 (sin b - sin a), of rays up and
-// down together, and R = 2 / D (b - a) / (c dxi).
+// Angles a and b of each bin's edges at the depth follow from its speed; p = 2 (sin b - sin a), of rays up
+// and down together, and R = 2 / D (b - a) / (c dxi).
 void TransportEnd::receive(const AngleTransport& transport, double depth_m) {
   const double speed = transport.speed_at(depth_m);
   reception_.assign(transport.size(), 0);
@@ -370,8 +368,8 @@ TransportEnd TransportEnd::between(const TransportEnd& first, const TransportEnd
     const double sum = std::max(from_first + from_second, 1e-300), part = from_second / sum;
     table.log_power[i] = most + fast_log(sum);
     const double apart = second.table_.mean_s[i] - table.mean_s[i];
-    table.variance_s2[i] += part * (second.table_.variance_s2[i] - table.variance_s2[i]) +
-                            part * (1 - part) * apart * apart;
+    table.variance_s2[i] +=
+        part * (second.table_.variance_s2[i] - table.variance_s2[i]) + part * (1 - part) * apart * apart;
     table.mean_s[i] += part * apart;
   }
   return end;

@@ -7,15 +7,16 @@
 // where they are, at x. They are gathered in cells of x (edges H / 8 * 2^(n / 2), H the depth); cell m keeps
 // the power S_mj that T brings into state j, and the mean x, excess time and angle of its rays.
 //
-// Reception. Power P_i has the intensity R_i P_i / r, R_i = 2 / (D_i sin theta_i), 1 / sin as its mean over the
-// bin, (b - a) / (c dxi). The adjoint F_j(y) = R exp(M y) is what a unit of power in state j brings after a
-// further y. It is tabulated over the distance d from a first bounce with y = d - D_j / 4, half of the way to
-// the next bounce (below 0: no loss yet but absorption), at d = 0 and H / 8 * 2^(n / 2); between nodes ln F is
-// linear. Beside it stand mean and variance of the delay in excess of d times the transport's reference, from
+// Reception. Power P_i has the intensity R_i P_i / r, R_i = 2 / (D_i sin theta_i), 1 / sin as its mean over
+// the bin, (b - a) / (c dxi). The adjoint F_j(y) = R exp(M y) is what a unit of power in state j brings after
+// a further y. It is tabulated over the distance d from a first bounce with y = d - D_j / 4, half of the way
+// to the next bounce (below 0: no loss yet but absorption), at d = 0 and H / 8 * 2^(n / 2); between nodes ln
+// F is linear. Beside it stand mean and variance of the delay in excess of d times the transport's reference,
+// from
 //   dQ/dr = M Q + tau P,  dR/dr = M R + 2 tau Q.
 //
-// Accuracy: ln F within 0.01 between nodes once the loss is even, the moments within 3 %. Immutable: calls may
-// overlap between threads.
+// Accuracy: ln F within 0.01 between nodes once the loss is even, the moments within 3 %. Immutable: calls
+// may overlap between threads.
 #pragma once
 
 #include <array>
@@ -50,7 +51,7 @@ struct ReceptionTable {
   Place place_of(double distance_m) const;
 
   double unit_m = 1;
-  std::size_t size = 0;                            // states
+  std::size_t size = 0;                                // states
   std::vector<double> log_power, mean_s, variance_s2;  // kNodes x size
 };
 

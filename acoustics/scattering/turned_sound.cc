@@ -10,6 +10,7 @@
 namespace halocline::acoustics {
 namespace {
 
+constexpr double kMostSaved = 3;          // nepers that a quarter of a cycle may save
 constexpr std::size_t kStretchNodes = 6;  // distances at which a first stretch is tabulated
 
 // Reception over distance d from a first bounce: ln F, mean and variance of the delay, by state.
@@ -160,14 +161,28 @@ Received received_from(const AngleTransport& transport, const CarriedMoments& in
   return at;
 }
 
-Received between(const Received& a, const Received& b, double share) {
-  Received at = a;
-  for (std::size_t j = 0; j < a.power.size(); ++j) {
-    at.power[j] = a.power[j] > 0 && b.power[j] > 0
-                      ? fast_exp((1 - share) * fast_log(a.power[j]) + share * fast_log(b.power[j]))
-                      : (1 - share) * a.power[j] + share * b.power[j];
-    at.mean_s[j] += share * (b.mean_s[j] - a.mean_s[j]);
-    at.variance_s2[j] += share * (b.variance_s2[j] - a.variance_s2[j]);
+// What a first bounce brings whose rays have `left_m` to run in the first stretch, from a table of its nodes.
+// The first quarter of a cycle of each state is without loss but absorption, as far as it lies in the
+// stretch.
+Received received_within(const AngleTransport& first, const std::vector<Received>& table, double step_m,
+                         double left_m) {
+  const std::size_t n = first.size();
+  Received at{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
+  for (std::size_t j = 0; j < n; ++j) {
+    const TransportState& state = first.states()[j];
+    const double straight_m = std::min(state.cycle_m / 4, left_m);
+    const double place = (left_m - state.cycle_m / 4) / step_m;
+    const auto node = std::min(static_cast<std::size_t>(std::max(place, 0.0)), kStretchNodes - 2);
+    const double share = place - static_cast<double>(node);
+    const Received &low = table[node], &high = table[node + 1];
+    double power = (1 - share) * low.power[j] + share * high.power[j];
+    if (low.power[j] > 0 && high.power[j] > 0) {
+      const double growth = share * fast_log(high.power[j] / low.power[j]);
+      power = low.power[j] * fast_exp(std::min(growth, kMostSaved));
+    }
+    at.power[j] = power * fast_exp(-state.nepers_per_m * straight_m);
+    at.mean_s[j] = low.mean_s[j] + share * (high.mean_s[j] - low.mean_s[j]) + state.excess_spm * straight_m;
+    at.variance_s2[j] = low.variance_s2[j] + share * (high.variance_s2[j] - low.variance_s2[j]);
   }
   return at;
 }
@@ -202,7 +217,8 @@ TurnedSound turned_sound(const std::vector<Stretch>& stretches, const TransportE
   std::vector<Received> table;
   for (std::size_t node = 0; node < kStretchNodes; ++node) {
     if (node > 0) moments = carried(first, moments, step_m);
-    table.push_back(received_from(first, moments, nepers - first.slowest() * step_m * static_cast<double>(node)));
+    table.push_back(
+        received_from(first, moments, nepers - first.slowest() * step_m * static_cast<double>(node)));
   }
   TurnedSound sound;
   for (const Stretch& stretch : stretches)
@@ -212,10 +228,8 @@ TurnedSound turned_sound(const std::vector<Stretch>& stretches, const TransportE
   for (const FirstBounces& cell : source.first_bounces()) {
     const Reached before = reached(cell, range_m);
     if (!(before.share > 0)) continue;
-    const double place = std::max(stretches.front().length_m - before.distance_m, 0.0) / step_m;
-    const auto node = std::min(static_cast<std::size_t>(place), kStretchNodes - 2);
-    add_cell(cell, before.share, between(table[node], table[node + 1], place - static_cast<double>(node)),
-             range_m, sound, second);
+    const double left_m = std::max(stretches.front().length_m - before.distance_m, 0.0);
+    add_cell(cell, before.share, received_within(first, table, step_m, left_m), range_m, sound, second);
   }
   finish(sound, second);
   // Rays without a bounce keep to the receiver's depth as those of the last stretch do.
@@ -234,8 +248,7 @@ double mean_rate_power(const AngleTransport& transport, const TransportEnd& sour
                        const TransportEnd& receiver, double range_m) {
   const std::vector<double> none(transport.size());
   const CarriedMoments arrived = by_state(
-      transport,
-      carried(transport, in_eigenvectors(transport, {receiver.reception(), none, none}), range_m));
+      transport, carried(transport, in_eigenvectors(transport, {receiver.reception(), none, none}), range_m));
   double sum = 0;
   for (std::size_t j = 0; j < transport.size(); ++j) sum += source.launched()[j] * arrived.power[j];
   return sum * elementary::exp(transport.slowest() * range_m) / range_m;

@@ -29,9 +29,9 @@ struct TurnedPart {
 
 // Sound of one direction of a link.
 struct TurnedSound {
-  double power = 0;      // A, re 1 m, absorption included
-  double unbounced = 0;  // power of the rays that have not bounced, likewise
-  double reference_s = 0;  // delay of the earliest sound, to which the others refer
+  double power = 0;               // A, re 1 m, absorption included
+  double unbounced = 0;           // power of the rays that have not bounced, likewise
+  double reference_s = 0;         // delay of the earliest sound, to which the others refer
   std::vector<TurnedPart> parts;  // by state
 };
 
