@@ -10,7 +10,8 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr std::size_t kStretchNodes = 6;  // distances at which a first stretch is tabulated
+// Parts of the first and the second stretch between whose ends receptions are tabulated.
+constexpr std::size_t kFirstParts = 4, kSecondParts = 2;
 
 // Reception over distance d from a first bounce: ln F, mean and variance of the delay, by state.
 struct Received {
@@ -99,9 +100,11 @@ std::vector<double> into_bins(const std::vector<double>& values, const AngleTran
                               const AngleTransport& there) {
   const std::vector<double>&from = here.actions(), &to = there.actions();
   std::vector<double> result(from.size() - 1);
+  std::size_t start = 0;  // first bin of `to` that may overlap
   for (std::size_t i = 0; i + 1 < from.size(); ++i) {
     const double width = from[i + 1] - from[i];
-    for (std::size_t j = 0; j + 1 < to.size() && width > 0; ++j) {
+    while (start + 2 < to.size() && to[start + 1] <= from[i]) ++start;
+    for (std::size_t j = start; j + 1 < to.size() && to[j] < from[i + 1] && width > 0; ++j) {
       const double overlap = std::min(from[i + 1], to[j + 1]) - std::max(from[i], to[j]);
       if (overlap > 0) result[i] += overlap / width * values[j];
     }
@@ -128,13 +131,12 @@ std::vector<double> across_steps(std::vector<double> by_state, const std::vector
   return by_state;
 }
 
-// Moments of what the receiver gets, by state of the first stretch at its end; the slowest decays of the
+// Moments of what the receiver gets, by state of stretch `begin`, at its end; the slowest decays of the
 // stretches that follow are left to `nepers`.
-CarriedMoments moments_beyond_first(const std::vector<Stretch>& stretches, const TransportEnd& receiver,
-                                    double& nepers) {
-  const std::size_t n = stretches.back().transport->size();
-  CarriedMoments moments{receiver.reception(), std::vector<double>(n), std::vector<double>(n)};
-  for (std::size_t i = stretches.size(); i-- > 1;) {
+CarriedMoments moments_beyond(const std::vector<Stretch>& stretches, std::size_t begin,
+                              const CarriedMoments& received, double& nepers) {
+  CarriedMoments moments = received;
+  for (std::size_t i = stretches.size(); i-- > begin + 1;) {
     const AngleTransport& here = *stretches[i].transport;
     moments = by_state(here, carried(here, in_eigenvectors(here, moments), stretches[i].length_m));
     nepers -= here.slowest() * stretches[i].length_m;
@@ -160,14 +162,60 @@ Received received_from(const AngleTransport& transport, const CarriedMoments& in
   return at;
 }
 
-Received between(const Received& a, const Received& b, double share) {
-  Received at = a;
-  for (std::size_t j = 0; j < a.power.size(); ++j) {
-    at.power[j] = a.power[j] > 0 && b.power[j] > 0
-                      ? fast_exp((1 - share) * fast_log(a.power[j]) + share * fast_log(b.power[j]))
-                      : (1 - share) * a.power[j] + share * b.power[j];
-    at.mean_s[j] += share * (b.mean_s[j] - a.mean_s[j]);
-    at.variance_s2[j] += share * (b.variance_s2[j] - a.variance_s2[j]);
+// What is received from a distance before the end of the first stretch; below 0: from within the second.
+struct PlacedReception {
+  double left_m;
+  Received received;
+};
+
+// Receptions over the first stretch and the second, by rising distance.
+std::vector<PlacedReception> placed_receptions(const std::vector<Stretch>& stretches,
+                                               const CarriedMoments& received) {
+  const AngleTransport &first = *stretches[0].transport, &second = *stretches[1].transport;
+  double nepers = 0;
+  const CarriedMoments beyond_second =
+      in_eigenvectors(second, moments_beyond(stretches, 1, received, nepers));
+  std::vector<PlacedReception> table;
+  CarriedMoments moments;
+  double decay = 0;
+  for (std::size_t part = 0; part <= kSecondParts; ++part) {
+    const double share = static_cast<double>(part) / kSecondParts, length_m = stretches[1].length_m;
+    const CarriedMoments here = by_state(second, carried(second, beyond_second, share * length_m));
+    decay = nepers - second.slowest() * share * length_m;
+    moments = in_eigenvectors(first,
+                              {across_step(here.power, first, second), across_step(here.first, first, second),
+                               across_step(here.second, first, second)});
+    table.push_back({-(1 - share) * length_m, received_from(first, moments, decay)});
+  }
+  const double step_m = stretches[0].length_m / kFirstParts;
+  for (std::size_t part = 1; part <= kFirstParts; ++part) {
+    moments = carried(first, moments, step_m);
+    decay -= first.slowest() * step_m;
+    table.push_back({step_m * static_cast<double>(part), received_from(first, moments, decay)});
+  }
+  return table;
+}
+
+// What a first bounce brings whose rays have `left_m` to run in the first stretch. The first quarter of a
+// cycle of each state is without loss but absorption.
+Received received_within(const AngleTransport& first, const std::vector<PlacedReception>& table,
+                         double left_m) {
+  const std::size_t n = first.size();
+  Received at{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
+  for (std::size_t j = 0; j < n; ++j) {
+    const TransportState& state = first.states()[j];
+    const double place_m = std::max(left_m - state.cycle_m / 4, table.front().left_m);
+    std::size_t node = 0;
+    while (node + 2 < table.size() && table[node + 1].left_m <= place_m) ++node;
+    const double share = (place_m - table[node].left_m) / (table[node + 1].left_m - table[node].left_m);
+    const Received &low = table[node].received, &high = table[node + 1].received;
+    double power = (1 - share) * low.power[j] + share * high.power[j];
+    if (low.power[j] > 0 && high.power[j] > 0)
+      power = low.power[j] * fast_exp(share * fast_log(high.power[j] / low.power[j]));
+    const double straight_m = left_m - place_m;
+    at.power[j] = power * fast_exp(-state.nepers_per_m * straight_m);
+    at.mean_s[j] = low.mean_s[j] + share * (high.mean_s[j] - low.mean_s[j]) + state.excess_spm * straight_m;
+    at.variance_s2[j] = low.variance_s2[j] + share * (high.variance_s2[j] - low.variance_s2[j]);
   }
   return at;
 }
@@ -191,20 +239,13 @@ TurnedSound turned_sound(const AngleTransport& transport, const TransportEnd& so
   return sound;
 }
 
-// The first stretch is tabulated over the distance d left within it after the first bounce.
 TurnedSound turned_sound(const std::vector<Stretch>& stretches, const TransportEnd& source,
                          const TransportEnd& receiver) {
   const AngleTransport& first = *stretches.front().transport;
-  double nepers = 0, range_m = 0;
+  double range_m = 0;
   for (const Stretch& stretch : stretches) range_m += stretch.length_m;
-  const double step_m = stretches.front().length_m / (kStretchNodes - 1);
-  CarriedMoments moments = in_eigenvectors(first, moments_beyond_first(stretches, receiver, nepers));
-  std::vector<Received> table;
-  for (std::size_t node = 0; node < kStretchNodes; ++node) {
-    if (node > 0) moments = carried(first, moments, step_m);
-    table.push_back(
-        received_from(first, moments, nepers - first.slowest() * step_m * static_cast<double>(node)));
-  }
+  const std::vector<double> none(stretches.back().transport->size());
+  const std::vector<PlacedReception> table = placed_receptions(stretches, {receiver.reception(), none, none});
   TurnedSound sound;
   for (const Stretch& stretch : stretches)
     sound.reference_s += stretch.transport->reference_spm() * stretch.length_m;
@@ -213,10 +254,8 @@ TurnedSound turned_sound(const std::vector<Stretch>& stretches, const TransportE
   for (const FirstBounces& cell : source.first_bounces()) {
     const Reached before = reached(cell, range_m);
     if (!(before.share > 0)) continue;
-    const double place = std::max(stretches.front().length_m - before.distance_m, 0.0) / step_m;
-    const auto node = std::min(static_cast<std::size_t>(place), kStretchNodes - 2);
-    add_cell(cell, before.share, between(table[node], table[node + 1], place - static_cast<double>(node)),
-             range_m, sound, second);
+    const double left_m = std::max(stretches.front().length_m - before.distance_m, 0.0);
+    add_cell(cell, before.share, received_within(first, table, left_m), range_m, sound, second);
   }
   finish(sound, second);
   // Rays without a bounce keep to the receiver's depth as those of the last stretch do.

@@ -44,7 +44,7 @@ struct Stretch {
   std::shared_ptr<const AngleTransport> transport;
   double length_m = 0;  // above 0
 };
-// The turned sound over several stretches, from the source's on, each transport with the same number of bins.
+// The turned sound over two stretches or more, from the source's on, all of the same number of bins.
 TurnedSound turned_sound(const std::vector<Stretch>& stretches, const TransportEnd& source,
                          const TransportEnd& receiver);
 

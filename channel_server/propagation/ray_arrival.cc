@@ -137,6 +137,12 @@ Decibels keel_loss(const acoustics::Environment& environment, double depth_m, do
 // Over a bottom that does not scatter, the remaining share is the surface's.
 Decibels kept_at_surface(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
                          double frequency_hz, const acoustics::Eigenray& eigenray) {
+  if (turns(boundaries)) {
+    acoustics::Eigenray surface_alone = eigenray;
+    surface_alone.bottom_sine_squares = 0;
+    const double kept = coherent_share_of(boundaries, environment, frequency_hz, surface_alone);
+    return std::max(to_decibels(PowerRatio{kept}), kSilence);
+  }
   return to_decibels(PowerRatio{kept_share_of(boundaries, environment, frequency_hz, eigenray, 0)});
 }
 

@@ -374,6 +374,13 @@ TEST(ChannelServerConfig, ASlowSeaIsTaken) {
   EXPECT_EQ(make_environment(config.environment, scenario).drift.depth_m, 200);
 }
 
+TEST(ChannelServerConfig, ScatteredSoundStaysOnItsPathOrTurns) {
+  EXPECT_FALSE(make_rays(read("[propagation]\nscattering = \"none\"")).fading.turns);
+  const auto fading = make_rays(read("[propagation]\nscattering = \"turns\"\nbottom_slope = 0.1")).fading;
+  EXPECT_TRUE(fading.turns);
+  EXPECT_EQ(fading.bottom_slope, 0.1);
+}
+
 TEST(ChannelServerConfig, PathsFadeOrTheirPowersAddOrTheirPhasorsAdd) {
   for (const auto& [way, fades, coherent] :
        {std::tuple("sea", true, false), {"none", false, false}, {"coherent", false, true}}) {

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Turned sound over the paths of links.
+#include "channel_server/propagation/turned_seas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/sound_speed_profile.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_map.h"
+#include "core/units.h"
+#include "tests/channel_server/channel_fixtures.h"
+#include "tests/support/tolerance.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using halocline::testing::tolerance;
+using testing::at_s;
+
+// A level sea of one speed of sound, or of the speeds given.
+struct TurningSea {
+  double depth_m = 20, wind_mps = 5, frequency_hz = 25'000;
+  const char* sediment = "MediumSand";
+  std::vector<acoustics::SpeedRow> speeds = {};
+  bool turns = true;
+
+  RayPropagation propagation() const {
+    acoustics::Environment environment;
+    environment.profile = speeds.empty() ? acoustics::SoundSpeedProfile::isovelocity(1500, {10, 35})
+                                         : acoustics::SoundSpeedProfile::from_speeds(speeds, {10, 35});
+    environment.noise.wind_mps = wind_mps;
+    RayModel model;
+    model.bounces_follow_range = true;
+    model.options.max_bounces = 0;
+    model.bottom = *acoustics::sediment(sediment);
+    model.fading.enabled = true;
+    model.fading.turns = turns;
+    model.fading.bottom_roughness_m = 0.03;
+    return {std::make_shared<EnvironmentTimeline>(environment), std::make_shared<SeabedMap>(SeabedRule{}),
+            model};
+  }
+  acoustics::Modem modem() const {
+    acoustics::Modem modem;
+    modem.centre_frequency_hz = frequency_hz;
+    return modem;
+  }
+};
+
+Reception over_level(const TurningSea& sea, RayPropagation& propagation, double range_m, double from_m,
+                     double to_m) {
+  const acoustics::Modem modem = sea.modem();
+  return propagation.reception_over(at_s(0), {0, {0, 0, from_m}, Vec3::Zero(), &modem},
+                                    {0, {range_m, 0, to_m}, Vec3::Zero(), &modem},
+                                    std::make_shared<const SeabedProfile>(SeabedProfile::flat(sea.depth_m)));
+}
+
+// Loss by the powers of all paths, without their interference, less spherical spreading and absorption.
+double beyond_spherical_db(const TurningSea& sea, RayPropagation& propagation, double range_m, double from_m,
+                           double to_m) {
+  const Reception reception = over_level(sea, propagation, range_m, from_m, to_m);
+  const double loss_db = (sea.modem().source_level - total_level(reception.paths)).value;
+  return loss_db - 20 * std::log10(range_m) - reception.budget.absorption_db_per_km * range_m / 1000;
+}
+
+// The oracle of 20 m of medium sand at 25 kHz, 2 km: 11.1, 5.5 and 2.9 dB below spherical for winds of 2, 5
+// and 10 m/s; rays scattered one by one have 3.3 at 10 m/s.
+TEST(TurnedSeas, GetWeakerWithTheWindAsTheOracleDoes) {
+  for (const auto& [wind_mps, below_db] : {std::pair(2.0, 11.1), {5.0, 5.5}, {10.0, 2.9}}) {
+    const TurningSea sea{.wind_mps = wind_mps};
+    RayPropagation propagation = sea.propagation();
+    EXPECT_NEAR(beyond_spherical_db(sea, propagation, 2000, 10, 10), -below_db, tolerance(0.5)) << wind_mps;
+  }
+}
+
+// Even water of many depths, winds, sediments and ranges: between spherical spreading and 9.5 dB below, 4 dB
+// below in the middle.
+TEST(TurnedSeas, KeepWithinSphericalSpreadingAndTenDecibelsBelow) {
+  std::vector<double> all;
+  for (const double depth_m : {15.0, 40.0, 100.0}) {
+    for (const double wind_mps : {5.0, 10.0}) {
+      for (const char* sediment : {"MediumSand", "VeryFineSand", "SandySilt"}) {
+        for (const double khz : {10.0, 25.0}) {
+          const TurningSea sea{depth_m, wind_mps, 1000 * khz, sediment};
+          RayPropagation propagation = sea.propagation();
+          for (const double range_m : {500.0, 1600.0, std::min(5000.0, 60 * depth_m)})
+            all.push_back(beyond_spherical_db(sea, propagation, range_m, depth_m / 2, 0.6 * depth_m));
+        }
+      }
+    }
+  }
+  std::sort(all.begin(), all.end());
+  EXPECT_GT(all.front(), -9.5);
+  EXPECT_LT(all.back(), 0.5);
+  EXPECT_NEAR(all[all.size() / 2], -4, 1.5);
+}
+
+TEST(TurnedSeas, AreTheSameFromEitherEnd) {
+  const TurningSea sea{
+      100, 5, 25'000, "MediumSand", {{0, 1526}, {15, 1526.3}, {30, 1507}, {50, 1501}, {100, 1501.8}}};
+  RayPropagation propagation = sea.propagation();
+  const double there_db = total_level(over_level(sea, propagation, 1500, 10, 60).paths).value;
+  const double back_db = total_level(over_level(sea, propagation, 1500, 60, 10).paths).value;
+  EXPECT_NEAR(there_db, back_db, tolerance(1e-6));
+}
+
+// Transports are cached by what they depend on: what was asked before changes nothing.
+TEST(TurnedSeas, DoNotDependOnTheOrderOfQueries) {
+  const TurningSea sea;
+  RayPropagation fresh = sea.propagation(), used = sea.propagation();
+  for (double depth_m = 1; depth_m < 19; depth_m += 0.7) over_level(sea, used, 700, depth_m, 11.3);
+  const Reception first = over_level(sea, fresh, 1234, 9.1, 11.3),
+                  later = over_level(sea, used, 1234, 9.1, 11.3);
+  ASSERT_EQ(first.paths.size(), later.paths.size());
+  for (std::size_t i = 0; i < first.paths.size(); ++i) {
+    EXPECT_EQ(first.paths[i].delay_s, later.paths[i].delay_s);
+    EXPECT_EQ(first.paths[i].level.value, later.paths[i].level.value);
+  }
+}
+
+// A bounced path keeps its coherent share; the direct one and those of one bounce keep all.
+TEST(TurnedSeas, LeaveTracedPathsOfSeveralBouncesTheirCoherentShare) {
+  const TurningSea sea{.wind_mps = 4}, same{.wind_mps = 4, .turns = false};
+  RayPropagation turning = sea.propagation(), keeping = same.propagation();
+  const Reception turned = over_level(sea, turning, 800, 10, 12),
+                  kept = over_level(same, keeping, 800, 10, 12);
+  int compared = 0;
+  for (const Arrival& path : turned.paths) {
+    if (path.diffuse) continue;
+    const auto other = std::find_if(kept.paths.begin(), kept.paths.end(),
+                                    [&](const Arrival& one) { return one.identity == path.identity; });
+    ASSERT_NE(other, kept.paths.end());
+    const bool several = path.surface_bounces + path.bottom_bounces > 1;
+    const double lost_db = (other->level - path.level).value;
+    EXPECT_NEAR(lost_db, several ? -10 * std::log10(1 - other->fading.scattered) : 0, 1e-6);
+    if (several) EXPECT_NEAR(path.fading.scattered, 0, 1e-9);
+    ++compared;
+  }
+  EXPECT_GT(compared, 4);
+}
+
+TEST(TurnedSeas, FadeFullyInTheirWindows) {
+  const TurningSea sea{.wind_mps = 8};
+  RayPropagation propagation = sea.propagation();
+  const Reception reception = over_level(sea, propagation, 400, 10, 10);
+  int windows = 0;
+  for (const Arrival& path : reception.paths) {
+    if (!path.diffuse) continue;
+    ++windows;
+    EXPECT_EQ(path.fading.scattered, 1);
+    EXPECT_GT(path.fading.doppler_spread_hz, 0);
+  }
+  EXPECT_GT(windows, 4);
+  EXPECT_LE(windows, 16);
+}
+
+// The turned sound of a slope changes by less than 1 dB where a stretch enters the next depth, and lies
+// between those of its ends.
+TEST(TurnedSeas, ChangeSmoothlyWithTheDepthAlongALink) {
+  const acoustics::RayWater water({{0, 1500}, {100, 1500}}, [](double) { return 5.0; });
+  acoustics::FadingModel fading;
+  fading.enabled = fading.turns = true;
+  const TurnedSeas seas;
+  double before_db = 0;
+  for (double slope_m = 0; slope_m < 10; slope_m += 0.1) {
+    TurnedLink link{water,
+                    *acoustics::sediment("MediumSand"),
+                    {acoustics::SurfaceModel::kAplBubbles, 5},
+                    fading,
+                    25'000,
+                    {10, 10, 1500},
+                    {},
+                    0};
+    for (std::size_t i = 0; i < link.depths_m.size(); ++i)
+      link.depths_m[i] = 40 - slope_m * (static_cast<double>(i) + 0.5) / 16;
+    double power = 0;
+    for (const acoustics::Eigenray& window : seas.windows_alone(link))
+      power += window.received_pressure() * window.received_pressure();
+    const double loss_db = -10 * std::log10(power);
+    if (slope_m > 0) EXPECT_NEAR(loss_db, before_db, 1) << slope_m;
+    before_db = loss_db;
+  }
+}
+
+}  // namespace
+}  // namespace halocline::channel_server
