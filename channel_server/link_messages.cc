@@ -7,6 +7,7 @@
 
 #include "acoustics/fading/arrival.h"
 #include "acoustics/rays/ray_trace.h"
+#include "acoustics/reception/disturbing_powers.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/messages/message_checks.h"
 #include "channel_server/propagation/link_chart.h"

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "acoustics/reception/disturbing_powers.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {

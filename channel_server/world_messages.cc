@@ -10,6 +10,7 @@
 
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/modem/error_model.h"
+#include "acoustics/modem/receiver_kind.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/modems/modem_config.h"
 #include "core/check.h"

@@ -9,6 +9,7 @@
 
 #include "acoustics/link/link_budget.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/reception/disturbing_powers.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "core/check.h"

@@ -9,6 +9,7 @@
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
+#include "acoustics/modem/receiver_kind.h"
 #include "core/vector_clones.h"
 
 namespace halocline::acoustics {

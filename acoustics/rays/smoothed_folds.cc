@@ -13,6 +13,7 @@
 #include "acoustics/rays/ray_family.h"
 #include "acoustics/rays/traced_eigenray.h"
 #include "acoustics/sea/fine_structure.h"
+#include "acoustics/sea/ray_water.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "acoustics/math/fast_functions.h"
+#include "acoustics/modem/receiver_kind.h"
 #include "acoustics/reception/signal_history.h"
 #include "core/units.h"
 #include "core/vector_clones.h"

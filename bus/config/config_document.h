@@ -3,6 +3,7 @@
 // this header, which keeps toml++ out of all other files.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>

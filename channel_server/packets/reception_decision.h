@@ -41,6 +41,7 @@
 #include <vector>
 
 #include "acoustics/noise/noise_variation.h"
+#include "acoustics/reception/disturbing_powers.h"
 #include "acoustics/reception/signal_history.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"

@@ -20,12 +20,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "simulation/calibration/left_out_pairs.h"
 #include "simulation/calibration/trial_data.h"
 #include "simulation/calibration/trial_fit.h"
+#include "simulation/calibration/trial_likelihood.h"
 #include "simulation/composition.h"
 
 namespace halocline::clients {

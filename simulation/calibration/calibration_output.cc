@@ -10,9 +10,12 @@
 
 #include <fmt/format.h>
 
+#include "channel_server/channel_server_config.h"
 #include "core/elementary.h"
 #include "core/names.h"
+#include "simulation/calibration/left_out_pairs.h"
 #include "simulation/ensemble/key_changes.h"
+#include "simulation/uncertainty_config.h"
 
 namespace halocline::clients {
 namespace {

@@ -9,6 +9,9 @@
 
 #include "core/elementary.h"
 #include "core/random.h"
+#include "simulation/calibration/delivery_curve.h"
+#include "simulation/calibration/trial_data.h"
+#include "simulation/calibration/trial_forecast.h"
 
 namespace halocline::clients {
 namespace {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "simulation/calibration/trial_fit.h"
+#include "simulation/calibration/trial_likelihood.h"
 #include "simulation/ensemble/sea_member.h"
 
 namespace halocline::clients {

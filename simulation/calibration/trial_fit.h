@@ -8,6 +8,7 @@
 // much larger that is than its curvature, at least by 1.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <vector>

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/elementary.h"
+#include "simulation/calibration/delivery_curve.h"
 
 namespace halocline::clients {
 namespace {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "simulation/ensemble/sea_member.h"
+
 namespace halocline::clients {
 
 std::string to_text(const LinkBands& bands) {

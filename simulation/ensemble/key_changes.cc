@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "bus/config/carried_files.h"
 #include "bus/config/config.h"
 #include "core/files/file_path.h"
 #include "core/frames.h"

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "channel_server/channel_server_config.h"
 #include "simulation/composition.h"

@@ -12,12 +12,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/slow_fading.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/modem/error_model.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/noise/place_noise.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/fine_structure.h"
 #include "acoustics/sea/noise.h"
+#include "acoustics/sea/profile_drift.h"
 #include "bus/config/scenario.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/water_model.h"

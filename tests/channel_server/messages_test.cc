@@ -9,6 +9,7 @@
 
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/modem/error_model.h"
+#include "acoustics/modem/receiver_kind.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/messages/message_checks.h"

@@ -10,6 +10,7 @@
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/modem/error_model.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/modem/receiver_kind.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/vehicles/modem_rates.h"
 #include "core/check.h"

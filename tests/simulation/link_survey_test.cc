@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/link_survey.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -20,6 +21,7 @@
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/propagation.h"
 #include "core/check.h"
+#include "core/sim_time.h"
 #include "core/units.h"
 #include "simulation/arrivals/arrival_output.h"
 #include "simulation/composition.h"

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/fading/arrival.h"
+#include "acoustics/fading/path_fading.h"
 #include "acoustics/modem/error_model.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/prediction/link_prediction.h"
@@ -18,6 +19,7 @@
 #include "acoustics/reception/reception_curves.h"
 #include "channel_server/modems/modem_config.h"
 #include "core/random.h"
+#include "core/units.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::acoustics {

@@ -9,9 +9,12 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/fading/path_fading.h"
+#include "acoustics/modem/error_model.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/modem/orthogonal_symbols.h"
+#include "acoustics/modem/receiver_kind.h"
 #include "acoustics/prediction/link_prediction.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/reception_curves.h"

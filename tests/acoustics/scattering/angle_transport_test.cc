@@ -2,6 +2,7 @@
 #include "acoustics/scattering/angle_transport.h"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>

@@ -7,8 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/link/link_kernel.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/absorption.h"
 #include "acoustics/sea/environment.h"
 #include "core/check.h"
+#include "core/frames.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::acoustics {

@@ -12,6 +12,7 @@
 #include "acoustics/reception/signal_history.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/packets/receiver_state.h"
 #include "channel_server/packets/reception_decision.h"
 #include "core/sim_time.h"
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"

@@ -9,11 +9,14 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/seabed_profile.h"
 #include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"

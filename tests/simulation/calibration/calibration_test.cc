@@ -2,14 +2,17 @@
 #include "simulation/calibration/calibration.h"
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "bus/config/config.h"
+#include "channel_server/channel_server_config.h"
 #include "simulation/calibration/calibration_output.h"
 #include "simulation/composition.h"
+#include "simulation/uncertainty_config.h"
 #include "tests/simulation/calibration/made_trials.h"
 #include "tests/support/tolerance.h"
 

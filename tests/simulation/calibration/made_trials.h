@@ -17,6 +17,8 @@
 
 #include "core/random.h"
 #include "simulation/calibration/delivery_curve.h"
+#include "simulation/calibration/trial_data.h"
+#include "simulation/calibration/trial_forecast.h"
 #include "simulation/calibration/trial_likelihood.h"
 
 namespace halocline::clients::testing {
