@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "acoustics/math/frequency_band.h"
-#include "acoustics/sea/noise.h"
 #include "bus/config/scenario.h"
 #include "channel_server/links/receiver_noise.h"
 #include "channel_server/vehicles/state_history.h"
