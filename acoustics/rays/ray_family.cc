@@ -98,7 +98,13 @@ std::size_t RayFamily::fold_between(const Eigenray& a, const Eigenray& b) const 
 double RayFamily::bend_at(double theta) const {
   std::size_t next = 1;
   while (next + 1 < rays_.size() && rays_[next].theta <= theta) ++next;
-  const FamilyRay &a = rays_[next - 1], &b = rays_[next];
+  // The chord beside the ray that is the least steep: one of them may span a kink of the profile.
+  std::size_t end = next;
+  for (std::size_t i = std::max<std::size_t>(next, 2) - 1; i <= std::min(next + 1, rays_.size() - 1); ++i) {
+    if (std::abs(slope_between(rays_[i - 1], rays_[i])) < std::abs(slope_between(rays_[end - 1], rays_[end])))
+      end = i;
+  }
+  const FamilyRay &a = rays_[end - 1], &b = rays_[end];
   const double slope = slope_between(a, b), middle = 0.5 * (a.theta + b.theta);
   double bend = 0;
   for (const FamilyRay& ray : rays_) {
