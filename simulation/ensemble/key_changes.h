@@ -5,8 +5,6 @@
 // Keys are named as in a scenario, with their sections and without indices of lists: "propagation.sediment",
 // "modem.receiver_loss_db". What is changed in [modem] is to be changed in "vehicle.modem", too, for vehicles
 // with modems of their own. A number that leaves the range of its key ends at its bound.
-//
-//   change_keys(config, {scaled("propagation.bottom_roughness_m", 2)});
 #pragma once
 
 #include <functional>

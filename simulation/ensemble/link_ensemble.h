@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bands of the forecast of one link over the members of an ensemble (sea_member.h).
-//
-//   const LinkBands bands = link_bands(config, from, to, 20);  // bands.delivery.median
 #pragma once
 
 #include <cstddef>

@@ -89,7 +89,8 @@ ScenarioConfig member_of(const ScenarioConfig& config, const MemberDraws& draws,
 double quantile(std::vector<double> values, double share) {
   require(!values.empty(), "a quantile needs a value");
   std::sort(values.begin(), values.end());
-  const double place = share * static_cast<double>(values.size() - 1);
+  const auto count = static_cast<double>(values.size());
+  const double place = std::clamp(share * count - 0.5, 0.0, count - 1);
   const auto below = static_cast<std::size_t>(place);
   if (below + 1 >= values.size()) return values.back();
   const double part = place - static_cast<double>(below);

@@ -49,7 +49,8 @@ struct ForecastBand {
 // Shares of the members below the three values of a band.
 inline constexpr std::array<double, 3> kBandShares{0.1, 0.5, 0.9};
 
-// Returns the quantile at a share (0 to 1) of at least one value, interpolated between the sorted values.
+// Returns the quantile at a share (0 to 1) of at least one value: the i-th sorted value of n stands at the
+// share (i + 1/2) / n, as the strata do, and between them the quantile is interpolated (Hazen's rule).
 double quantile(std::vector<double> values, double share);
 ForecastBand band_of(const std::vector<double>& values);
 
