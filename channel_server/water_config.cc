@@ -21,6 +21,7 @@
 #include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/path_search.h"
+#include "channel_server/propagation/surface_ends.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/frames.h"

@@ -47,7 +47,8 @@ void LinkSurveyor::place_vehicles(const ScenarioConfig& config) {
   const SimTime before = SimTime() - channel_server::kLongestFlight;
   for (const bus::VehicleEntry& vehicle : config.scenario.vehicles) {
     fleet_.reserve(vehicle.name, vehicle.id);
-    const std::string problem = fleet_.add_state(vehicle.name, vehicle.id, {before, config.scenario.start_ned_m(vehicle)});
+    const std::string problem =
+        fleet_.add_state(vehicle.name, vehicle.id, {before, config.scenario.start_ned_m(vehicle)});
     require(problem.empty(), vehicle.name + ": " + problem);
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "acoustics/modem/modem.h"
+#include "acoustics/sea/environment.h"
 #include "channel_server/packets/flight_outcome.h"
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/packets/send_decision.h"

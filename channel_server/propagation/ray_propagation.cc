@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "acoustics/fading/link_fading.h"
+#include "acoustics/fading/near_surface.h"
 #include "acoustics/fading/scattering_loss.h"
 #include "acoustics/link/energy_flux.h"
 #include "acoustics/link/field_section.h"

@@ -2,8 +2,10 @@
 // Bubbles and waves along traced paths, against straight lines and against sums along arcs.
 #include "acoustics/fading/near_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,6 +13,9 @@
 #include "acoustics/rays/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/ice_cover.h"
+#include "acoustics/sea/sound_speed_profile.h"
+#include "acoustics/sea/surface_boundary.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::acoustics {

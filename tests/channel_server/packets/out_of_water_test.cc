@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Packets of ends that waves leave out of the water.
+#include <optional>
+
 #include <gtest/gtest.h>
 
 #include "channel_server/packets/packet.h"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/sea/ice_cover.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 

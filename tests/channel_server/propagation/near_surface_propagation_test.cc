@@ -4,12 +4,22 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/arrival.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/sea/ice_cover.h"
+#include "acoustics/sea/sound_speed.h"
 #include "channel_server/links/link_predictor.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_profile.h"
+#include "channel_server/propagation/surface_ends.h"
+#include "core/tide.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"
 
