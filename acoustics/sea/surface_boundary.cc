@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "acoustics/sea/boundary_reflection.h"
-#include "acoustics/sea/bubble_layer.h"
+#include "acoustics/sea/surface_layers.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {

@@ -9,6 +9,9 @@
 //          total slope of waves long against the sound's, APL-UW TR 9407, part II); bubbles as there, at most
 //          kMaxBubbleBounceDb a bounce
 //   ice    the numbers of its cover (ice_cover.h)
+//
+//   const SurfaceBoundary rough = surface_boundary(10, {}, 25'000);
+//   const double kept = rough.kept_power(0.2);  // B of a bounce
 #pragma once
 
 #include "acoustics/sea/ice_cover.h"

@@ -48,7 +48,7 @@ void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
     v.number("speed_mps", vehicle.speed_mps, {-5, 5, "m/s", "speed at the start, forward through the water"});
   });
   choice(v, "mount", vehicle.mount, {"fixed", "floating"},
-         "how the modem is held: fixed at its depth, where waves may leave it out of the water, or floating "
+         "mount of the modem: fixed at its depth, where waves may leave it out of the water, or floating "
          "with the surface and its tide");
   if (v.writing() ? !vehicle.battery.has_value() : !v.given("battery")) return;
   VehicleBattery battery = vehicle.battery.value_or(VehicleBattery());

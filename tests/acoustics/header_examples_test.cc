@@ -22,6 +22,8 @@
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "acoustics/sea/surface_boundary.h"
+#include "acoustics/sea/surface_layers.h"
 #include "acoustics/sea/water_load.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
@@ -112,6 +114,19 @@ TEST(HeaderExamples, BoundaryReflection) {
   const FluidBottom sand = sediment("MediumSand").value();
   const double lost_db = bottom_reflection(sand, to_radians(15), 1500).loss_db();
   EXPECT_GT(lost_db, 0);
+}
+
+TEST(HeaderExamples, SurfaceLayers) {
+  const double under = surface_waves(14).share_under_water(0.5);  // 0.6753 of the time
+  const double lost_db = bubble_layer(14, 25'000).straight_loss_db(0.5, 20, 500.4);
+  EXPECT_NEAR(under, 0.6753, 1e-4);
+  EXPECT_NEAR(lost_db, 10.16, 0.01);
+}
+
+TEST(HeaderExamples, SurfaceBoundary) {
+  const SurfaceBoundary rough = surface_boundary(10, {}, 25'000);
+  const double kept = rough.kept_power(0.2);  // B of a bounce
+  EXPECT_NEAR(kept, 0.435, 0.001);
 }
 
 TEST(HeaderExamples, SoundSpeed) {

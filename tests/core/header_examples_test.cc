@@ -15,6 +15,7 @@
 #include "core/frames.h"
 #include "core/lru_cache.h"
 #include "core/random.h"
+#include "core/tide.h"
 #include "tests/support/working_folder.h"
 
 namespace halocline {
@@ -90,6 +91,12 @@ TEST(HeaderExamples, Random) {
   const double u =
       uniform_at({.seed = 7, .purpose = purpose_of("bit-error"), .who = sender, .which = sequence});
   EXPECT_EQ(u, uniform_at({7, purpose_of("bit-error"), 3, 17}));
+}
+
+TEST(HeaderExamples, Tide) {
+  const Tide tide{{{.amplitude_m = 1}}};          // M2
+  const double height_m = tide.height_m(10'000);  // 0.1649
+  EXPECT_NEAR(height_m, 0.1649, 1e-4);
 }
 
 }  // namespace
