@@ -36,6 +36,7 @@ Modem of_packets(const Modem& modem) {
   packets.packet_overhead = modem.packet_overhead;
   packets.preamble = modem.preamble;
   packets.preamble_pieces = modem.preamble_pieces;
+  packets.chip = modem.chip;  // the energy of a pulse
   packets.error_model = modem.error_model;
   packets.layout = modem.layout;
   packets.family = modem.family;

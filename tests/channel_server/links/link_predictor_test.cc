@@ -71,6 +71,32 @@ TEST(LinkPredictor, ForecastIsThePredictionOfTheReceiversWindow) {
   EXPECT_EQ(forecast.best_rate_bps, 100);
 }
 
+// A pulse holds its energy within its chip, of which rows of tables know, too.
+TEST(LinkPredictor, APulseCodeHasTheEnergyOfItsChip) {
+  LinkPredictor predictor({.payload_bytes = 1, .fading = kSea, .profiles = {}});
+  Modem tag = modem_of("tag", 3);
+  tag.error_model = acoustics::ErrorModel::kPulses;
+  tag.bandwidth_hz = 100;
+  tag.chip = SimDuration::from_milliseconds(10);
+  EXPECT_GT(forecast_of(predictor, tag, tag, reception_of(60)).delivery_probability, 0.99);
+  EXPECT_LT(forecast_of(predictor, tag, tag, reception_of(105)).delivery_probability, 0.1);
+}
+
+// In impulsive noise a receiver has its further loss; it is told apart from the noise.
+TEST(LinkPredictor, ImpulsesCostWhatTheReceiverLosesToThem) {
+  Modem modem = modem_of("a", 100);
+  modem.impulse_loss = {5};
+  LinkPredictor calm({.payload_bytes = 20, .fading = kSea, .profiles = {}}),
+      snapping({.payload_bytes = 20, .fading = kSea, .profiles = {}, .impulsive_noise = true});
+  const Reception reception = reception_of(105);
+  const LinkForecast before = forecast_of(calm, modem, modem, reception),
+                     after = forecast_of(snapping, modem, modem, reception);
+  EXPECT_EQ(before.powers.impulses, 0);
+  EXPECT_NEAR(after.powers.noise, before.powers.noise, 1e-9 * before.powers.noise);
+  EXPECT_NEAR(after.powers.impulses / before.powers.noise, std::pow(10, 0.5) - 1, 1e-9);
+  EXPECT_LT(after.delivery_probability, before.delivery_probability);
+}
+
 // 30 paths 61 dB below take 0.03 dB of the ratio at most, had they been interference.
 TEST(LinkPredictor, FaintPathsChangeNothing) {
   LinkPredictor predictor({.payload_bytes = 20, .fading = kSea, .profiles = {}});
