@@ -102,22 +102,4 @@ std::vector<DelayWindow> DelaySpectrum::windows() const {
   return windows;
 }
 
-double DelaySpectrum::holding_s(double share) const {
-  std::size_t end = 0;
-  double held = 0, shortest = -1;
-  const auto middle = [&](std::size_t i) { return bins_[i].power > 0 ? bins_[i].delay / bins_[i].power : 0; };
-  for (std::size_t begin = 0; begin < kBins; ++begin) {
-    while (end < kBins && held < share * power_) held += bins_[end++].power;
-    if (held < share * power_) break;
-    if (bins_[begin].power > 0) {
-      std::size_t last = end - 1;
-      while (last > begin && !(bins_[last].power > 0)) --last;
-      const double time = middle(last) - middle(begin);
-      if (shortest < 0 || time < shortest) shortest = time;
-    }
-    held -= bins_[begin].power;
-  }
-  return std::max(shortest, 0.0);
-}
-
 }  // namespace halocline::acoustics

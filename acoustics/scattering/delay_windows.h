@@ -32,8 +32,6 @@ class DelaySpectrum {
   double power() const { return power_; }  // re 1 m
   // At most kMaxDelayWindows windows by rising delay; none without power.
   std::vector<DelayWindow> windows() const;
-  // The shortest time that holds that share 0..1 of the power, s.
-  double holding_s(double share) const;
 
  private:
   struct Bin {

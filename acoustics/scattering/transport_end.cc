@@ -212,7 +212,6 @@ void TransportEnd::launch(const AngleTransport& transport, double depth_m) {
     cells_[m].bounced.assign(n, 0);
   }
   never_.assign(n, 0);
-  launched_.assign(n, 0);
   // Power that meets each boundary first, by cell and state, with absorption.
   std::array<std::vector<double>, 2> meets{std::vector<double>(kCells * n), std::vector<double>(kCells * n)};
   for (std::size_t bin = 0; bin + 1 < transport.edges_rad().size(); ++bin) {
@@ -226,7 +225,6 @@ void TransportEnd::launch(const AngleTransport& transport, double depth_m) {
       if (!(power > 0)) continue;
       const double middle = low + (high - low) * (ray + 0.5) / kRaysOfBin;
       const double xi = std::min(elementary::cos(middle) / transport.least_speed_mps(), 1 / speed);
-      launched_[i] += 2 * power;
       for (const bool up : {true, false}) {
         const Meeting met = first_meeting(transport, xi, depth_m, up);
         const std::size_t state = met.never ? n : transport.meeting(met.boundary, i);
@@ -357,7 +355,6 @@ TransportEnd TransportEnd::between(const TransportEnd& first, const TransportEnd
   TransportEnd end = first;
   mix(end.reception_, second.reception_, share);
   mix(end.never_, second.never_, share);
-  mix(end.launched_, second.launched_, share);
   for (std::size_t m = 0; m < kCells; ++m) end.cells_[m] = mixed(first.cells_[m], second.cells_[m], share);
   ReceptionTable& table = end.table_;
   const std::vector<double>& other = second.table_.log_power;

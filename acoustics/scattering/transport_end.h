@@ -78,10 +78,8 @@ class TransportEnd {
   const std::vector<double>& reception() const { return reception_; }  // R, by state
   const ReceptionTable& table() const { return table_; }
   const std::vector<FirstBounces>& first_bounces() const { return cells_; }
-  // Power by state of the rays that meet no boundary, and the mean sin^2 of their launch angle.
+  // Launched power by state of the rays that meet no boundary.
   const std::vector<double>& never_bouncing() const { return never_; }
-  // All launched power by state.
-  const std::vector<double>& launched() const { return launched_; }
 
  private:
   TransportEnd() = default;
@@ -89,7 +87,7 @@ class TransportEnd {
   void receive(const AngleTransport& transport, double depth_m);
   void tabulate(const AngleTransport& transport);
 
-  std::vector<double> reception_, never_, launched_;
+  std::vector<double> reception_, never_;
   std::vector<FirstBounces> cells_;
   ReceptionTable table_;
 };

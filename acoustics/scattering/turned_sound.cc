@@ -270,14 +270,4 @@ TurnedSound turned_sound(const std::vector<Stretch>& stretches, const TransportE
   return sound;
 }
 
-double mean_rate_power(const AngleTransport& transport, const TransportEnd& source,
-                       const TransportEnd& receiver, double range_m) {
-  const std::vector<double> none(transport.size());
-  const CarriedMoments arrived = by_state(
-      transport, carried(transport, in_eigenvectors(transport, {receiver.reception(), none, none}), range_m));
-  double sum = 0;
-  for (std::size_t j = 0; j < transport.size(); ++j) sum += source.launched()[j] * arrived.power[j];
-  return sum * elementary::exp(transport.slowest() * range_m) / range_m;
-}
-
 }  // namespace halocline::acoustics

@@ -48,8 +48,4 @@ struct Stretch {
 TurnedSound turned_sound(const std::vector<Stretch>& stretches, const TransportEnd& source,
                          const TransportEnd& receiver);
 
-// Power of all rays at their mean rates from 0 on, re 1 m: exact without loss.
-double mean_rate_power(const AngleTransport& transport, const TransportEnd& source,
-                       const TransportEnd& receiver, double range_m);
-
 }  // namespace halocline::acoustics

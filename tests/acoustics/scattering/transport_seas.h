@@ -42,6 +42,22 @@ struct TransportSeaOf {
 
 inline double loss_db(double power) { return -10 * std::log10(power); }
 
+// Power of all rays at their mean rates from 0 on, re 1 m.
+inline double mean_rate_power(const acoustics::AngleTransport& transport,
+                              const acoustics::TransportEnd& source, const acoustics::TransportEnd& receiver,
+                              double range_m) {
+  const std::vector<double> none(transport.size());
+  const acoustics::CarriedMoments start = in_eigenvectors(transport, {receiver.reception(), none, none});
+  const acoustics::CarriedMoments arrived = by_state(transport, carried(transport, start, range_m));
+  double sum = 0;
+  for (std::size_t j = 0; j < transport.size(); ++j) {
+    double launched = source.never_bouncing()[j];
+    for (const acoustics::FirstBounces& cell : source.first_bounces()) launched += cell.launched[j];
+    sum += launched * arrived.power[j];
+  }
+  return sum * std::exp(transport.slowest() * range_m) / range_m;
+}
+
 // Transmission loss of what has bounced between two depths, dB.
 inline double bounced_loss_db(const acoustics::AngleTransport& sea, double source_m, double receiver_m,
                               double range_m) {
