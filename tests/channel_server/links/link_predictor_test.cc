@@ -8,6 +8,7 @@
 
 #include "acoustics/fading/arrival.h"
 #include "acoustics/fading/slow_fading.h"
+#include "acoustics/modem/error_model.h"
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/prediction/link_prediction.h"
 #include "acoustics/reception/signal_history.h"
