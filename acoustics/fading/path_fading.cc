@@ -47,9 +47,9 @@ double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_sq
   return one * one * sine_squares;
 }
 
-double coherent_share(const FadingModel& model, double wind_mps, double frequency_hz,
+double coherent_share(const FadingModel& model, double surface_height_m, double frequency_hz,
                       double surface_sine_squares, double bottom_sine_squares) {
-  return elementary::exp(-rayleigh_squares(rms_wave_height_m(wind_mps), frequency_hz, surface_sine_squares) -
+  return elementary::exp(-rayleigh_squares(surface_height_m, frequency_hz, surface_sine_squares) -
                          rayleigh_squares(model.bottom_roughness_m, frequency_hz, bottom_sine_squares));
 }
 

@@ -74,7 +74,7 @@ inline constexpr double kIceCoherenceS = 3 * 3600.0;
 double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_squares);
 
 // Coherent share E = exp(-sum Gamma^2) of a path's power after its bounces, 0..1.
-double coherent_share(const FadingModel& model, double wind_mps, double frequency_hz,
+double coherent_share(const FadingModel& model, double surface_height_m, double frequency_hz,
                       double surface_sine_squares, double bottom_sine_squares);
 
 // Fading of a path at `frequency_hz` > 0 under `wind_mps` >= 0, given the sums over its bounces of the

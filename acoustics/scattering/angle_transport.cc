@@ -8,6 +8,7 @@
 
 #include "acoustics/math/symmetric_eigenproblem.h"
 #include "acoustics/scattering/facet_kernel.h"
+#include "acoustics/sea/surface_boundary.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/units.h"
@@ -81,10 +82,10 @@ std::vector<double> scattering_of(FacetBins bins, const RoughBoundary& boundary)
 
 }  // namespace
 
-RoughBoundary wavy_surface(const RaySurface& surface, double frequency_hz) {
-  const double waves_m = rms_wave_height_m(surface.wind_mps);
+RoughBoundary scattering_surface(const RaySurface& surface, double frequency_hz) {
+  const SurfaceBoundary boundary = surface_boundary(surface.wind_mps, surface.ice, frequency_hz);
   const SurfaceLoss loss(surface, frequency_hz);
-  return {waves_m, surface.wind_mps > 0 ? surface_slope_variance(surface.wind_mps) : 0, [loss](double sine) {
+  return {boundary.rms_height_m, boundary.slope_variance, [loss](double sine) {
             return elementary::exp10(-std::min(loss.db_at_sine(sine), kMaxSurfaceLossDb) / 10);
           }};
 }

@@ -43,8 +43,9 @@ struct RoughBoundary {
   // Variance of the slopes of relief larger than a search's grid: it turns all power, the coherent share too.
   double relief_variance = 0;
 };
-// The sea's surface under that wind: waves of Pierson and Moskowitz, and a loss of at most 15 dB a bounce.
-RoughBoundary wavy_surface(const RaySurface& surface, double frequency_hz);
+// The sea's surface under that wind, waves of Pierson and Moskowitz, or under ice; a loss of at most 15 dB a
+// bounce.
+RoughBoundary scattering_surface(const RaySurface& surface, double frequency_hz);
 // A bottom of that sediment under water of `speed_mps`, rms roughness and variance of slopes.
 RoughBoundary rough_bottom(const FluidBottom& bottom, double speed_mps, double rms_height_m,
                            double slope_variance);

@@ -77,9 +77,4 @@ FacetKernel facet_kernel(const FacetBins& bins, double slope_variance) {
   return kernel;
 }
 
-double surface_slope_variance(double wind_mps) {
-  const double wind = std::max(wind_mps, 1.0);
-  return 0.5 * (4.6e-3 * elementary::log(2.1 * wind * wind));
-}
-
 }  // namespace halocline::acoustics

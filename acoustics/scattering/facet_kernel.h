@@ -38,9 +38,4 @@ struct FacetKernel {
 // number.
 FacetKernel facet_kernel(const FacetBins& bins, double slope_variance);
 
-// Variance in the plane of the sound of the slopes of waves long against the sound's, at `wind_mps` (values
-// below 1 count as 1): 0.5 * 4.6e-3 ln(2.1 U^2) (APL-UW TR 9407, part II: total slope; half of it in a
-// plane).
-double surface_slope_variance(double wind_mps);
-
 }  // namespace halocline::acoustics

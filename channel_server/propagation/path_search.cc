@@ -62,7 +62,8 @@ std::shared_ptr<const SearchResult> result_over(const RayModel& model, const Pat
     const acoustics::RaySea& sea = along.sea;
     found->eigenrays.paths = model.turned->with_turned_sound(
         {sea.water, sea.bottom, sea.surface, model.fading, query.frequency_hz, query.link,
-         depths_along(sea.bottom_profile, query.link.range_m), mean_square_slope(seabed, query.link.range_m)},
+         depths_along(sea.bottom_profile, query.link.range_m), mean_square_slope(seabed, query.link.range_m),
+         model.options.fine_structure},
         std::move(found->eigenrays.paths));
   }
   found->blocked = cuts_straight_line(along.sea.bottom_profile, query.link);
@@ -201,8 +202,15 @@ std::optional<std::vector<acoustics::Eigenray>> weak_turned_windows(
   constexpr double kFarAway = 10;  // least length, in depths
   if (!model.turned || query.link.range_m < kFarAway * depth_m || !may_be_flux_only(model, water, query))
     return std::nullopt;
-  TurnedLink link{water,      model.bottom, surface_of(model, environment), model.fading, query.frequency_hz,
-                  query.link, {},           seabed.mean_square_slope};
+  TurnedLink link{water,
+                  model.bottom,
+                  surface_of(model, environment),
+                  model.fading,
+                  query.frequency_hz,
+                  query.link,
+                  {},
+                  seabed.mean_square_slope,
+                  model.options.fine_structure};
   for (std::size_t i = 0; i < link.depths_m.size(); ++i)
     link.depths_m[i] = std::max(seabed.z_m[i] - environment.sea_surface_z_m, kMinWaterM);
   std::vector<acoustics::Eigenray> windows = model.turned->windows_alone(link);

@@ -49,8 +49,10 @@ double spread_by_motion(const acoustics::Environment& environment, const EndPair
 double coherent_share_of(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
                          double frequency_hz, const acoustics::Eigenray& path) {
   if (path.surface_bounces + path.bottom_bounces < 2) return 1;
-  return coherent_share(boundaries.fading, environment.noise.wind_mps, frequency_hz,
-                        path.surface_sine_squares, path.bottom_sine_squares);
+  const double surface_m =
+      surface_boundary(environment.noise.wind_mps, environment.ice, frequency_hz).rms_height_m;
+  return coherent_share(boundaries.fading, surface_m, frequency_hz, path.surface_sine_squares,
+                        path.bottom_sine_squares);
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <tuple>
 
 #include "acoustics/rays/traced_eigenray.h"
+#include "acoustics/sea/ice_cover.h"
+#include "acoustics/sea/surface_boundary.h"
 #include "core/elementary.h"
 #include "core/hash.h"
 #include "core/units.h"
@@ -49,7 +51,12 @@ std::uint64_t hash_of(const TurnedLink& link) {
                              static_cast<double>(link.bottom.loss),
                              link.fading.bottom_roughness_m,
                              link.fading.bottom_slope,
-                             relief_slope(link)};
+                             relief_slope(link),
+                             link.medium.speed_mps,
+                             link.medium.internal_wave_m};
+  const acoustics::IceCover& ice = link.surface.ice;
+  if (ice.covers())
+    values.insert(values.end(), {ice.roughness_m, ice.slope, ice.loss_db, ice.loss_per_sine_db});
   const acoustics::RayWater& water = link.water;
   values.insert(values.end(), water.depths_m().begin(), water.depths_m().end());
   values.insert(values.end(), water.speeds_mps().begin(), water.speeds_mps().end());
@@ -93,13 +100,27 @@ std::vector<DepthStretch> stretches_of(const TurnedLink& link) {
   return stretches;
 }
 
+// Deviation of the sound speed by the medium in each layer of the water, and below the last one.
+std::vector<double> speed_deviations(const TurnedLink& link) {
+  if (link.medium.is_perfect()) return {};
+  const std::vector<double>&depths_m = link.water.depths_m(), &speeds_mps = link.water.speeds_mps();
+  std::vector<double> deviations;
+  for (std::size_t i = 0; i + 1 < depths_m.size(); ++i) {
+    const double gradient = (speeds_mps[i + 1] - speeds_mps[i]) / (depths_m[i + 1] - depths_m[i]);
+    deviations.push_back(std::sqrt(link.medium.speed_variance(gradient)));
+  }
+  deviations.push_back(std::sqrt(link.medium.speed_variance(0)));
+  return deviations;
+}
+
 acoustics::TransportSea transport_sea(const TurnedLink& link, double depth_m, std::size_t bins) {
   const double slope = relief_slope(link);
   acoustics::TransportSea sea{
-      link.water, depth_m, link.frequency_hz, acoustics::wavy_surface(link.surface, link.frequency_hz),
+      link.water, depth_m, link.frequency_hz, acoustics::scattering_surface(link.surface, link.frequency_hz),
       acoustics::rough_bottom(link.bottom, link.water.speed_at(depth_m), link.fading.bottom_roughness_m,
                               link.fading.bottom_slope * link.fading.bottom_slope)};
   sea.bottom.relief_variance = slope * slope;
+  sea.speed_deviation_mps = speed_deviations(link);
   sea.bins = bins;
   return sea;
 }
@@ -250,7 +271,9 @@ int cycles_of(const acoustics::Eigenray& path) {
 // What a traced path keeps of its power.
 double kept_of(const TurnedLink& link, const acoustics::Eigenray& path) {
   if (bounces_of(path) < 2) return power_of(path);
-  return power_of(path) * acoustics::coherent_share(link.fading, link.surface.wind_mps, link.frequency_hz,
+  const double surface_m =
+      surface_boundary(link.surface.wind_mps, link.surface.ice, link.frequency_hz).rms_height_m;
+  return power_of(path) * acoustics::coherent_share(link.fading, surface_m, link.frequency_hz,
                                                     path.surface_sine_squares, path.bottom_sine_squares);
 }
 

@@ -36,6 +36,7 @@
 #include "acoustics/scattering/transport_end.h"
 #include "acoustics/scattering/turned_sound.h"
 #include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/fine_structure.h"
 #include "acoustics/sea/ray_water.h"
 #include "core/lru_cache.h"
 
@@ -51,6 +52,7 @@ struct TurnedLink {
   acoustics::RayLink link;
   std::array<double, 16> depths_m{};  // at equal distances between the ends, above 0
   double mean_square_slope = 0;       // of relief larger than the grid
+  acoustics::FineStructure medium = {};
 };
 
 class TurnedSeas {

@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 // Without the examples, which stand for programs of others.
-std::vector<SourceFile> programs() {
+std::vector<SourceFile> own_programs() {
   std::vector<SourceFile> sources = sources_below(HALOCLINE_SOURCE_DIR);
   std::erase_if(sources, [](const SourceFile& source) {
     return source.path.starts_with("tests/") || source.path.starts_with("bench/") ||
@@ -28,7 +28,7 @@ TEST(Names, NoTwoHeadersOfTheTreeShareOne) {
   EXPECT_THAT(shared_header_names(sources_below(HALOCLINE_SOURCE_DIR)), IsEmpty());
 }
 
-TEST(Names, NoTwoTypesOfTheProgramsShareOne) { EXPECT_THAT(shared_type_names(programs()), IsEmpty()); }
+TEST(Names, NoTwoTypesOfTheProgramsShareOne) { EXPECT_THAT(shared_type_names(own_programs()), IsEmpty()); }
 
 TEST(NameRules, HeadersOfOneNameInTwoFoldersAreFound) {
   EXPECT_THAT(shared_header_names(

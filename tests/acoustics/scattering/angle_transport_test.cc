@@ -28,7 +28,7 @@ using testing::TransportSeaOf;
 AngleTransport lossless(double depth_m) {
   const RayWater water({{0, 1500}, {depth_m, 1500}}, [](double) { return 0.0; });
   return AngleTransport(
-      {water, depth_m, 25'000, wavy_surface({SurfaceModel::kFlat, 8}, 25'000), {0.03, 0.04}});
+      {water, depth_m, 25'000, scattering_surface({SurfaceModel::kFlat, 8}, 25'000), {0.03, 0.04}});
 }
 
 // Closed form: power stays and fills all angles, I = 2 theta_max / (r H).

@@ -29,7 +29,7 @@ struct TransportSeaOf {
     const acoustics::RayWater water(speeds, [this](double) { return absorption_db_per_km; });
     acoustics::TransportSea sea{
         water, depth_m, frequency_hz,
-        acoustics::wavy_surface({acoustics::SurfaceModel::kAplBubbles, wind_mps}, frequency_hz),
+        acoustics::scattering_surface({acoustics::SurfaceModel::kAplBubbles, wind_mps}, frequency_hz),
         acoustics::rough_bottom(*acoustics::sediment(sediment), water.speed_at(depth_m), 0.03, 0.04)};
     if (under_ice)
       sea.surface = {0.2, 0.0064, [](double sine) { return std::pow(10, -(0.8 + 10 * sine) / 10); }};
