@@ -19,7 +19,7 @@
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/noise.h"
-#include "acoustics/sea/profile_modes.h"
+#include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "acoustics/sea/water_load.h"
 #include "bus/config/config.h"
@@ -79,7 +79,9 @@ struct EnvironmentConfig {
   std::string noise_place = "open";
   FilePath site_noise_file;  // noise measured at the place, in the place of noise_place: a file, or
   std::vector<std::array<double, 2>> site_noise;  // rows of frequency, kHz, and level, dB re 1 uPa^2/Hz
-  acoustics::ProfileModes profile_modes;          // drawn for members of ensembles, not read from a file
+  // Change of the profile over the upper water: drawn for members of ensembles, not read from a file.
+  acoustics::DriftAmplitudes profile_modes;
+  double profile_modes_depth_m = 200;
   acoustics::NoiseVariation noise_variation;
   double profile_spread_mps = 0;  // of ProfileDrift
   acoustics::WaterLoad load;

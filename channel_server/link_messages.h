@@ -20,7 +20,7 @@ namespace halocline::channel_server {
 link_t to_message(const LinkRow& row);
 // Returns the messages of a table. A table with more than kMaxPeers rows is split into parts, in the order of
 // receivers; one without rows is a single message.
-inline constexpr std::size_t kMaxPeers = 300;  // rows of one link_table_t, 56 kB
+inline constexpr std::size_t kMaxPeers = 240;  // rows of one link_table_t, 58 kB
 std::vector<link_table_t> to_messages(const LinkTable& table, SimTime at);
 
 // Returns a query; an end that cannot be read (a modem with a NaN) states its problem.

@@ -18,7 +18,6 @@
 #include "acoustics/sea/fine_structure.h"
 #include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/profile_drift.h"
-#include "acoustics/sea/profile_modes.h"
 #include "acoustics/sea/profile_reader.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
@@ -387,8 +386,10 @@ acoustics::SoundSpeedProfile stated_profile(const EnvironmentConfig& config, con
 }  // namespace
 
 acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario) {
-  return with_modes(stated_profile(config, scenario), config.profile_modes,
-                    to_radians(scenario.origin_latitude_deg));
+  const acoustics::SoundSpeedProfile profile = stated_profile(config, scenario);
+  return config.profile_modes.any()
+             ? profile.with_change(drift_rows(config.profile_modes_depth_m, config.profile_modes))
+             : profile;
 }
 
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {

@@ -92,12 +92,14 @@ VehicleModem to_modem(const modem_config_t& message) {
   modem.modem.doppler_correction = message.doppler_correction;
   modem.modem.time_quantum = SimDuration::from_seconds(message.time_quantum_s);
   modem.modem.error_model = static_cast<acoustics::ErrorModel>(message.error_model);
-  modem.modem.receiver = static_cast<acoustics::ReceiverKind>(message.receiver_kind);
-  modem.modem.receiver_loss = {message.receiver_loss_db};
-  modem.modem.receiver_channels = message.receiver_channels;
-  modem.modem.late_echo_share = message.late_echo_share;
-  modem.modem.echo_cancelled = message.echo_cancelled;
-  modem.modem.impulse_loss = {message.impulse_loss_db};
+  if (message.receiver_channels > 0) {
+    modem.modem.receiver = static_cast<acoustics::ReceiverKind>(message.receiver_kind);
+    modem.modem.receiver_loss = {message.receiver_loss_db};
+    modem.modem.receiver_channels = message.receiver_channels;
+    modem.modem.late_echo_share = message.late_echo_share;
+    modem.modem.echo_cancelled = message.echo_cancelled;
+    modem.modem.impulse_loss = {message.impulse_loss_db};
+  }
   modem.modem.beam = beam_in(message);
   modem.max_payload_bytes = message.max_payload_bytes;
   modem.when_busy = static_cast<WhenBusy>(message.when_busy);

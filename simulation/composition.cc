@@ -113,6 +113,7 @@ std::string portable_toml(const ScenarioConfig& config) {
 std::string key_list(bus::KeyClass key_class) {
   ScenarioConfig config;
   config.scenario.vehicles.resize(1);
+  config.scenario.tide.constituents.resize(1);
   config.scenario.vehicles[0].name = "auv-1";
   config.scenario.vehicles[0].id = 1;
   config.scenario.vehicles[0].battery.emplace();

@@ -28,15 +28,15 @@ DriftAmplitudes drift_amplitudes(const ProfileDrift& drift, std::int64_t block) 
   return {amplitude(1), amplitude(2)};
 }
 
-std::vector<SpeedRow> drift_rows(const ProfileDrift& drift, const DriftAmplitudes& amplitudes) {
+std::vector<SpeedRow> drift_rows(double depth_m, const DriftAmplitudes& amplitudes) {
   constexpr int kSteps = 16;
   std::vector<SpeedRow> rows;
   for (int i = 0; i <= kSteps; ++i) {
     const double share = static_cast<double>(i) / kSteps, angle = std::numbers::pi * share;
-    rows.push_back({drift.depth_m * share, amplitudes.first_mps * elementary::cos(angle) +
-                                               amplitudes.second_mps * elementary::cos(2 * angle)});
+    rows.push_back({depth_m * share, amplitudes.first_mps * elementary::cos(angle) +
+                                         amplitudes.second_mps * elementary::cos(2 * angle)});
   }
-  rows.push_back({2 * drift.depth_m, 0});
+  rows.push_back({2 * depth_m, 0});
   return rows;
 }
 

@@ -38,11 +38,12 @@ void validate(const ProfileDrift& drift);
 // a_1 and a_2 of a block, m/s; block 0 begins at time 0, and those before it are alike.
 struct DriftAmplitudes {
   double first_mps = 0, second_mps = 0;
+  bool any() const { return first_mps != 0 || second_mps != 0; }
 };
 DriftAmplitudes drift_amplitudes(const ProfileDrift& drift, std::int64_t block);
 
-// dc at 16 equal steps down to H and at 2 H, between which sound uses it linearly: within 0.005 m/s of the
-// cosines for amplitudes of 0.3 m/s.
-std::vector<SpeedRow> drift_rows(const ProfileDrift& drift, const DriftAmplitudes& amplitudes);
+// dc at 16 equal steps down to H, which is `depth_m`, and at 2 H, between which sound uses it linearly:
+// within 0.005 m/s of the cosines for amplitudes of 0.3 m/s.
+std::vector<SpeedRow> drift_rows(double depth_m, const DriftAmplitudes& amplitudes);
 
 }  // namespace halocline::acoustics

@@ -79,7 +79,7 @@ void visit_framing(bus::ConfigVisitor& v, acoustics::Modem& a) {
 // Visits what the receiver collects and loses: SINR = n S / (N 10^(loss / 10) + I).
 void visit_receiver(bus::ConfigVisitor& v, acoustics::Modem& a) {
   bus::choice(v, "receiver", a.receiver, bus::names_of(acoustics::kReceiverKinds),
-              "which paths the receiver collects: hops and equaliser those of the guard time");
+              "paths that the receiver collects: hops and equaliser those of the guard time");
   v.number("receiver_loss_db", a.receiver_loss.value,
            {-20, 40, "dB", "loss of the receiver against the theory of its error_model"});
   bus::integer_as(v, "receiver_channels", a.receiver_channels,

@@ -118,7 +118,7 @@ const acoustics::Environment& EnvironmentTimeline::at(SimTime instant) const {
   if (there.field) there.profile = environment_at(there, 0, 0).profile;
   if (there.drift.any()) {
     const auto amplitudes = drift_amplitudes(there.drift, static_cast<std::int64_t>(block));
-    there.profile = there.profile.with_change(drift_rows(there.drift, amplitudes));
+    there.profile = there.profile.with_change(drift_rows(there.drift.depth_m, amplitudes));
   }
   return there;
 }

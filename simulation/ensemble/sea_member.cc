@@ -81,8 +81,8 @@ ScenarioConfig member_of(const ScenarioConfig& config, const MemberDraws& draws,
   scale_bottom(sea, elementary::exp(std::log(2.0) * spread.bottom_octaves * bottom));
   sea.rules.receiver_margin_db += spread.receiver_db * draws.receiver;
   sea.environment.profile_modes = {spread.profile_mps * draws.first_mode,
-                                   spread.profile_mps * draws.second_mode,
-                                   std::clamp(depth_m, kLeastModesM, kTallestModesM)};
+                                   spread.profile_mps * draws.second_mode};
+  sea.environment.profile_modes_depth_m = std::clamp(depth_m, kLeastModesM, kTallestModesM);
   return member;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The examples in the comments of the headers of acoustics/, compiled and run (tests/docs/check_examples).
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <span>
@@ -11,6 +12,7 @@
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/math/depth_means.h"
 #include "acoustics/math/gauss_legendre.h"
+#include "acoustics/math/symmetric_eigenproblem.h"
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/noise/place_noise.h"
@@ -35,6 +37,12 @@ namespace {
 TEST(HeaderExamples, GaussLegendre) {
   const double area = integrate(gauss_legendre_5(), 0.0, 1.0, [](double x) { return x * x; });
   EXPECT_NEAR(area, 1.0 / 3, 1e-15);
+}
+
+TEST(HeaderExamples, SymmetricEigenproblem) {
+  const EigenPairs pairs = symmetric_eigenpairs({{2, 1, 1, 2}}, 2);  // values 1 and 3
+  EXPECT_NEAR(std::min(pairs.values[0], pairs.values[1]), 1, 1e-14);
+  EXPECT_NEAR(std::max(pairs.values[0], pairs.values[1]), 3, 1e-14);
 }
 
 TEST(HeaderExamples, Modem) {

@@ -76,10 +76,10 @@ TEST(LinkMessages, ALinkTableOf4095PeersComesInPartsBelowSixtyKilobytes) {
   EXPECT_EQ(expected, 4097);
 }
 
-TEST(LinkMessages, ATableUpToThreeHundredPeersIsOneMessage) {
+TEST(LinkMessages, ATableUpToTwoHundredAndFortyPeersIsOneMessage) {
   EXPECT_EQ(to_messages(LinkTable{1, {}}, at_s(4)).size(), 1u);
-  EXPECT_EQ(to_messages(LinkTable{1, std::vector<LinkRow>(300)}, at_s(4)).size(), 1u);
-  EXPECT_EQ(to_messages(LinkTable{1, std::vector<LinkRow>(301)}, at_s(4)).size(), 2u);
+  EXPECT_EQ(to_messages(LinkTable{1, std::vector<LinkRow>(240)}, at_s(4)).size(), 1u);
+  EXPECT_EQ(to_messages(LinkTable{1, std::vector<LinkRow>(241)}, at_s(4)).size(), 2u);
 }
 
 }  // namespace

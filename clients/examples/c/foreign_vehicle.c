@@ -25,7 +25,8 @@ static const double kRadiusM = 100, kSpeedMps = 1.5, kRepeatS = 0.5;
 static const char* const kOutcomes[] = {  // by the number in packet_outcome_t
     "received", "below cutoff", "receiver gone", "shadow",     "blocked",      "out of band",
     "collided", "half duplex",  "doppler",       "bit errors", "not acquired", "foreign",
-    "too weak", "too steep",    "out of reach",  "asleep",     "extra loss",   "no power"};
+    "too weak", "too steep",    "out of reach",  "asleep",     "extra loss",   "no power",
+    "out of water", "no terrain"};
 static const int64_t kStatePeriodUs = 100000, kModemPeriodUs = 10000000;
 
 typedef struct {

@@ -36,7 +36,6 @@ struct Options {
   std::map<std::string, double> numbers{{"--id", 77},    {"--to", 0},     {"--north", 0},
                                         {"--depth", 50}, {"--every", 10}, {"--center-hz", 25000}};
 };
-
 constexpr double kRadiusM = 100, kSpeedMps = 1.5, kRepeatS = 0.5;
 constexpr const char* kOutcomes[] = {  // indexed by the number in packet_outcome_t
     "received",     "below cutoff", "receiver gone", "shadow",       "blocked",
@@ -123,9 +122,6 @@ class Vehicle {
     modem.guard_time_s = 0.02;
     modem.doppler_tolerance = modem.doppler_correction = 0.1;
     modem.error_model = modem_config_t::ERRORS_JANUS;
-    modem.receiver_kind = modem_config_t::RECEIVER_HOPS;
-    modem.receiver_channels = 1;
-    modem.late_echo_share = 1;
     lcm_.publish("MODEM." + options_.name, &modem);
   }
 

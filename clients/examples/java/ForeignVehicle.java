@@ -30,7 +30,7 @@ public final class ForeignVehicle implements LCMSubscriber {
     private static final String[] OUTCOMES = { // by the number in packet_outcome_t
         "received", "below cutoff", "receiver gone", "shadow", "blocked", "out of band", "collided", "half duplex",
         "doppler", "bit errors", "not acquired", "foreign", "too weak", "too steep", "out of reach", "asleep", "extra loss",
-        "no power"};
+        "no power", "out of water", "no terrain"};
     private static final long STATE_PERIOD_US = 100_000, MODEM_PERIOD_US = 10_000_000;
 
     private final LCM bus;

@@ -34,7 +34,8 @@ local STATE_PERIOD_US, MODEM_PERIOD_US = 100000, 10000000
 
 local OUTCOMES = { -- by the number in packet_outcome_t, from 0
   "received", "below cutoff", "receiver gone", "shadow", "blocked", "out of band", "collided", "half duplex", "doppler",
-  "bit errors", "not acquired", "foreign", "too weak", "too steep", "out of reach", "asleep", "extra loss", "no power"}
+  "bit errors", "not acquired", "foreign", "too weak", "too steep", "out of reach", "asleep", "extra loss", "no power",
+  "out of water", "no terrain"}
 
 local function read(path)
   local file = assert(io.open(path))

@@ -93,7 +93,6 @@ class Vehicle:
         modem.guard_time_s = 0.02
         modem.doppler_tolerance = modem.doppler_correction = 0.1
         modem.error_model = modem_config_t.ERRORS_JANUS
-        modem.receiver_kind, modem.receiver_channels, modem.late_echo_share = modem_config_t.RECEIVER_HOPS, 1, 1.0
         self.bus.publish(f"MODEM.{self.options.name}", modem.encode())
 
     def prepare_packet(self, now):

@@ -50,7 +50,7 @@ TEST(ProfileDrift, IsAFunctionOfSeedAndBlockAlone) {
 TEST(ProfileDrift, ChangesTheUpperWaterByTwoCosinesAndTheWaterBelowByNothing) {
   const DriftAmplitudes amplitudes{0.3, -0.2};
   const auto even = SoundSpeedProfile::isovelocity(1500, {10, 35});
-  const auto changed = even.with_change(drift_rows(drift_of(1), amplitudes));
+  const auto changed = even.with_change(drift_rows(drift_of(1).depth_m, amplitudes));
   for (double z = 0; z <= 100; z += 3) {
     const double angle = M_PI * z / 100;
     EXPECT_NEAR(changed.sound_speed_mps(z) - 1500, 0.3 * std::cos(angle) - 0.2 * std::cos(2 * angle), 0.005)
@@ -66,7 +66,7 @@ TEST(ProfileDrift, ChangesTheUpperWaterByTwoCosinesAndTheWaterBelowByNothing) {
 // Sound that is traced through knots has the changed speed, also where the profile is a formula of
 // temperature or Munk's; the delay of a straight path is the integral of the slowness.
 TEST(ProfileDrift, ReachesRaysAndTravelTimesOfEveryKindOfProfile) {
-  const std::vector<SpeedRow> rows = drift_rows(drift_of(1), {0.3, 0.2});
+  const std::vector<SpeedRow> rows = drift_rows(drift_of(1).depth_m, {0.3, 0.2});
   for (const auto& profile : {SoundSpeedProfile::isovelocity(1500, {10, 35}),
                               SoundSpeedProfile::global_mean(), SoundSpeedProfile::munk({10, 35})}) {
     const auto changed = profile.with_change(rows);

@@ -61,7 +61,7 @@ TEST(SeaMember, KeysMoveByTheirSpreads) {
               1e-12);
   EXPECT_NE(member.propagation.sediment, before.propagation.sediment);
   EXPECT_DOUBLE_EQ(member.environment.profile_modes.first_mps, 0.3);
-  EXPECT_DOUBLE_EQ(member.environment.profile_modes.height_m, 50);
+  EXPECT_DOUBLE_EQ(member.environment.profile_modes_depth_m, 50);
 }
 
 // Above 40 kHz nothing of the table of places was measured.
