@@ -79,7 +79,10 @@ TEST(LinkPredictor, APulseCodeHasTheEnergyOfItsChip) {
   tag.error_model = acoustics::ErrorModel::kPulses;
   tag.bandwidth_hz = 100;
   tag.chip = SimDuration::from_milliseconds(10);
-  EXPECT_GT(forecast_of(predictor, tag, tag, reception_of(60)).delivery_probability, 0.99);
+  tag.preamble = tag.packet_overhead = SimDuration();
+  tag.hop_count = 33;  // other paths fall between pulses
+  tag.hop_clearing = SimDuration::from_milliseconds(250);
+  EXPECT_GT(forecast_of(predictor, tag, tag, reception_of(60)).delivery_probability, 0.8);
   EXPECT_LT(forecast_of(predictor, tag, tag, reception_of(105)).delivery_probability, 0.1);
 }
 
