@@ -17,10 +17,10 @@
 #include "acoustics/noise/noise_table_reader.h"
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/sea/environment.h"
-#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/noise.h"
 #include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "acoustics/sea/surface/ice_cover.h"
 #include "acoustics/sea/water_load.h"
 #include "bus/config/config.h"
 #include "bus/config/scenario.h"
@@ -161,6 +161,7 @@ struct ChannelServerConfig {
 // Visits every key of the configuration.
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config);
 // Visits [environment], [propagation] and [[environment_change]] (water_config.cc).
+void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& propagation);
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
 
 // Returns the spectra of noise_file; empty without a file. Throws InvalidArgument as

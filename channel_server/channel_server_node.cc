@@ -8,7 +8,7 @@
 #include "bus/messages/channels.h"
 #include "channel_server/input_processor.h"
 #include "channel_server/links/ray_query_client.h"
-#include "channel_server/scenario_messages.h"
+#include "channel_server/messages/scenario_messages.h"
 #include "channel_server/vehicles/shard.h"
 #include "core/check.h"
 #include "core/hash.h"

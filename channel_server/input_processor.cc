@@ -6,10 +6,10 @@
 #include <tuple>
 
 #include "bus/messages/channels.h"
-#include "channel_server/packet_messages.h"
+#include "channel_server/messages/packet_messages.h"
+#include "channel_server/messages/world_messages.h"
 #include "channel_server/vehicles/state_history.h"
 #include "channel_server/vehicles/vehicle_equipment.h"
-#include "channel_server/world_messages.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {

@@ -3,7 +3,7 @@
 
 #include "acoustics/modem/modem.h"
 #include "bus/messages/channels.h"
-#include "channel_server/link_messages.h"
+#include "channel_server/messages/link_messages.h"
 
 namespace halocline::channel_server {
 

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "bus/messages/channels.h"
-#include "channel_server/packet_messages.h"
+#include "channel_server/messages/packet_messages.h"
 
 namespace halocline::channel_server {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bus/messages/channels.h"
-#include "channel_server/link_messages.h"
+#include "channel_server/messages/link_messages.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "bus/messages/channels.h"
-#include "channel_server/link_messages.h"
 #include "channel_server/links/ray_query_client.h"
+#include "channel_server/messages/link_messages.h"
+#include "channel_server/messages/world_messages.h"
 #include "channel_server/packets/medium_event.h"
-#include "channel_server/world_messages.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -8,13 +8,13 @@
 
 #include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/messages/world_messages.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/measured_propagation.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/surface_ends.h"
-#include "channel_server/world_messages.h"
 
 namespace halocline::channel_server {
 

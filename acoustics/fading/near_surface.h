@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What bubbles and waves near the surface do to one path of sound.
 //
-// Bubbles. The attenuation of the bubble layer (acoustics/sea/surface_layers.h) is integrated along the ray,
-// in the water that the ray was traced in. A path that leaves both ends for the deep loses, with I(z) the
-// integral along the ray from the depth z down to its lower turning point or below the layer,
+// Bubbles. The attenuation of the bubble layer (acoustics/sea/surface/surface_layers.h) is integrated along
+// the ray, in the water that the ray was traced in. A path that leaves both ends for the deep loses, with
+// I(z) the integral along the ray from the depth z down to its lower turning point or below the layer,
 //
 //   (2 I(0) for each bounce) + (2 I(turning depth) for each turn within the layer) +- I(z_s) +- I(z_r)
 //
@@ -24,7 +24,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/ray_water.h"
-#include "acoustics/sea/surface_layers.h"
+#include "acoustics/sea/surface/surface_layers.h"
 
 namespace halocline::acoustics {
 

@@ -23,7 +23,7 @@
 #pragma once
 
 #include "acoustics/fading/slow_fading.h"
-#include "acoustics/sea/surface_boundary.h"
+#include "acoustics/sea/surface/surface_boundary.h"
 
 namespace halocline::acoustics {
 

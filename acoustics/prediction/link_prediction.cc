@@ -381,13 +381,6 @@ LinkPrediction predict_still(const std::vector<Arrival>& paths, const Synchronis
 
 }  // namespace
 
-double rms_delay_spread_s(const std::vector<Arrival>& paths) {
-  std::vector<WeightedDelay> delays;
-  delays.reserve(paths.size());
-  for (const Arrival& path : paths) delays.push_back({path.delay_s, fast_power(path.level.value)});
-  return delay_moments(delays).spread_s;
-}
-
 LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>& paths,
                             const Synchronisation& sync, const Band& band, double noise,
                             const ReceptionCurves& curves, const MarginShifts& shifts) {

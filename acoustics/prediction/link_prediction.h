@@ -85,7 +85,4 @@ double predicted_sinr(const FadingModel& model, const std::vector<Arrival>& path
                       const std::vector<LikelyWindow>& windows, const Band& band, double noise,
                       const ReceptionCurves& curves);
 
-// Delay spread about the mean delay, weighted by power, s rms; 0 when there is no path.
-double rms_delay_spread_s(const std::vector<Arrival>& paths);
-
 }  // namespace halocline::acoustics

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "acoustics/fading/path_fading.h"
+#include "acoustics/math/delay_profile.h"
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 #include "acoustics/prediction/equalizer_statistics.h"
@@ -303,6 +304,13 @@ GammaPower ReceptionStatistics::power(double block_power, double kept) const {
   return {block_power + fast, kept * own + longer * mixed,
           fast * third_share(over_band) *
               (2 * fast * fast * third_share(kept) + 3 * mixed / over_band * third_share(longer))};
+}
+
+double rms_delay_spread_s(const std::vector<Arrival>& paths) {
+  std::vector<WeightedDelay> delays;
+  delays.reserve(paths.size());
+  for (const Arrival& path : paths) delays.push_back({path.delay_s, fast_power(path.level.value)});
+  return delay_moments(delays).spread_s;
 }
 
 }  // namespace halocline::acoustics

@@ -80,4 +80,7 @@ inline double variance_reduction(double x) { return 1 / std::sqrt(1 + x * x / st
 double reduction_of_longer(double kept);
 double reduction_of_part(double kept, double part);
 
+// Delay spread about the mean delay, weighted by power, s rms; 0 when there is no path.
+double rms_delay_spread_s(const std::vector<Arrival>& paths);
+
 }  // namespace halocline::acoustics

@@ -8,7 +8,7 @@
 
 #include "acoustics/math/symmetric_eigenproblem.h"
 #include "acoustics/scattering/facet_kernel.h"
-#include "acoustics/sea/surface_boundary.h"
+#include "acoustics/sea/surface/surface_boundary.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/units.h"

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "acoustics/fading/complex_noise.h"
-#include "acoustics/sea/surface_layers.h"
+#include "acoustics/sea/surface/surface_layers.h"
 #include "core/frames.h"
 #include "core/random.h"
 

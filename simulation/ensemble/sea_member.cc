@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -78,7 +79,7 @@ ScenarioConfig member_of(const ScenarioConfig& config, const MemberDraws& draws,
                     added("environment.noise_offset_db", noise_db), sediment});
   const double shared = spread.noise_bottom_correlation;
   const double bottom = shared * draws.noise + std::sqrt(1 - shared * shared) * draws.bottom;
-  scale_bottom(sea, elementary::exp(std::log(2.0) * spread.bottom_octaves * bottom));
+  scale_bottom(sea, elementary::exp(std::numbers::ln2 * spread.bottom_octaves * bottom));
   sea.rules.receiver_margin_db += spread.receiver_db * draws.receiver;
   sea.environment.profile_modes = {spread.profile_mps * draws.first_mode,
                                    spread.profile_mps * draws.second_mode};

@@ -11,7 +11,7 @@
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/messages/message_checks.h"
-#include "channel_server/world_messages.h"
+#include "channel_server/messages/world_messages.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "channel_server/link_messages.h"
+#include "channel_server/messages/link_messages.h"
 
 #include <vector>
 

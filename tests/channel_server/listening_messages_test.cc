@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "bus/messages/message_checks.h"
-#include "channel_server/packet_messages.h"
+#include "channel_server/messages/packet_messages.h"
+#include "channel_server/messages/world_messages.h"
 #include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/vehicles/modem_schedule.h"
-#include "channel_server/world_messages.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"

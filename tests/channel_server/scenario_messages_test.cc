@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SCENARIO: its parts, and when the node publishes it.
-#include "channel_server/scenario_messages.h"
+#include "channel_server/messages/scenario_messages.h"
 
 #include <cstdint>
 #include <memory>
@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bus/config/scenario.h"
 #include "bus/messages/message_checks.h"
 #include "channel_server/vehicles/shard.h"
 #include "core/names.h"

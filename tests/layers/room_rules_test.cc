@@ -57,7 +57,7 @@ TEST(RoomRules, MessageTypesStayOutOfPureFiles) {
   EXPECT_FALSE(allowed("acoustics/sea/noise.h", "halocline/link_t.hpp"));
   EXPECT_FALSE(allowed("channel_server/links/link_table.h", "bus/messages/messages.h"));
   EXPECT_FALSE(allowed("channel_server/links/link_table.h", "lcmtypes/halocline/link_t.hpp"));
-  EXPECT_TRUE(allowed("channel_server/link_messages.cc", "halocline/link_t.hpp"));
+  EXPECT_TRUE(allowed("channel_server/messages/link_messages.cc", "halocline/link_t.hpp"));
 }
 
 TEST(RoomRules, PureFilesHaveNoClockThreadFileOrLog) {

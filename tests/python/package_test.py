@@ -185,8 +185,8 @@ class Sound(PackageTest):
             self.assertIs(link.paths, link.arrivals.paths)
 
     def test_bands_of_a_link_are_those_of_the_command(self):
-        link = halocline.link(SCENARIO, (0, 0, 5), (0, 100, 5), ensemble=4)
-        printed = command("link", SCENARIO, "--from", "0,0,5", "--to", "0,100,5", "--ensemble", 4, "--json")
+        link = halocline.link(SCENARIO, (0.0, 0.0, 5.0), (0.0, 100.0, 5.0), ensemble=4)
+        printed = command("link", SCENARIO, "--from", "0.0,0.0,5.0", "--to", "0.0,100.0,5.0", "--ensemble", 4, "--json")
         self.assertEqual(link.budget, json.loads(printed))
         low, median, high = link.budget["ensemble"]["snr_db"]
         self.assertLessEqual(low, median)

@@ -44,6 +44,11 @@ link_reply_t reply_to(const link_query_t& query) {
   reply.answers[0].link.noise_level_db = 91;
   reply.answers[0].link.snr_db = 12;
   reply.answers[0].link.sinr_db = 10;
+  // SINR = 1 / (noise + late echoes)
+  reply.answers[0].link.noise_db = -12;
+  reply.answers[0].link.late_echo_db = 10 * std::log10(0.1 - std::pow(10, -1.2));
+  reply.answers[0].link.fast_fading_db = reply.answers[0].link.interference_db = -300;
+  reply.answers[0].link.impulse_db = -300;
   reply.link_paths.source_level_db = 165;
   arrival_t path{};
   path.path_level_db = 101;

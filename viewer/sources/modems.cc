@@ -8,8 +8,8 @@
 #include "bus/config/config.h"
 #include "bus/messages/channels.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/messages/world_messages.h"
 #include "channel_server/vehicles/modem_schedule.h"
-#include "channel_server/world_messages.h"
 #include "core/check.h"
 #include "core/names.h"
 

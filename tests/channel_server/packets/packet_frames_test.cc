@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/modem/modem.h"
+#include "channel_server/messages/packet_messages.h"
 #include "channel_server/modems/modem_config.h"
-#include "channel_server/packet_messages.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/vehicles/modem_schedule.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/sea/surface_layers.h"
+#include "acoustics/sea/surface/surface_layers.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"
 

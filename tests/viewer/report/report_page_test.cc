@@ -101,7 +101,7 @@ TEST(ReportPage, EveryOutcomeIsInTheLedgerAndItsSumIsThatOfTheLog) {
   RunTimeline store;
   add_run(store);
   const std::string page = report_page({"run.lcm", store});
-  const std::string ledger = std::regex_replace(page.substr(page.find("<section id=\"ledger\""), 6000),
+  const std::string ledger = std::regex_replace(page.substr(page.find("<section id=\"ledger\""), 7000),
                                                 std::regex("</?a[^>]*>"), "");  // without links
   for (std::size_t i = 0; i < kOutcomes; ++i)
     EXPECT_THAT(ledger, HasSubstr(std::string(outcome_name(i)) + "</td><td class=\"number\">1</td>"));

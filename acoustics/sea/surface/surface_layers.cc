@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/sea/surface_layers.h"
+#include "acoustics/sea/surface/surface_layers.h"
 
 #include <algorithm>
 #include <cmath>

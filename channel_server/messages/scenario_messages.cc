@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "channel_server/scenario_messages.h"
+#include "channel_server/messages/scenario_messages.h"
 
 #include <algorithm>
 #include <cmath>

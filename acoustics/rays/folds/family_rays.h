@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/cycle_rays.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/fan_tracer.h"
+#include "acoustics/rays/folds/cycle_rays.h"
 #include "acoustics/rays/layered_rays.h"
 #include "acoustics/rays/ray_trace.h"
 

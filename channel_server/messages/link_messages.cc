@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "channel_server/link_messages.h"
+#include "channel_server/messages/link_messages.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,8 +10,8 @@
 #include "acoustics/reception/disturbing_powers.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/messages/message_checks.h"
+#include "channel_server/messages/world_messages.h"
 #include "channel_server/propagation/link_chart.h"
-#include "channel_server/world_messages.h"
 #include "core/check.h"
 #include "core/frames.h"
 

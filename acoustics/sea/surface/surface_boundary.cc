@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/sea/surface_boundary.h"
+#include "acoustics/sea/surface/surface_boundary.h"
 
 #include <algorithm>
 
 #include "acoustics/sea/boundary_reflection.h"
-#include "acoustics/sea/surface_layers.h"
+#include "acoustics/sea/surface/surface_layers.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "channel_server/packet_messages.h"
+#include "channel_server/messages/packet_messages.h"
 
 #include <algorithm>
 #include <bit>

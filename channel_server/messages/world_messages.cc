@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "channel_server/world_messages.h"
+#include "channel_server/messages/world_messages.h"
 
 #include <algorithm>
 #include <cmath>
