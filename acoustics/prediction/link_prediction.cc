@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "acoustics/math/delay_profile.h"
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 #include "acoustics/prediction/gamma_power.h"
