@@ -16,7 +16,6 @@
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/fine_structure.h"
-#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/profile_reader.h"
 #include "acoustics/sea/sound_speed.h"

@@ -10,6 +10,7 @@
 #include "acoustics/fading/arrival.h"
 #include "acoustics/fading/fading_bounds.h"
 #include "acoustics/prediction/link_prediction.h"
+#include "acoustics/prediction/reception_statistics.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/signal_history.h"
 #include "core/elementary.h"

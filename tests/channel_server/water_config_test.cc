@@ -42,10 +42,6 @@ using testing::for_s;
 using ::testing::HasSubstr;
 using testing::read;
 
-acoustics::Environment water_of(const std::string& toml) {
-  return make_environment(read(toml).environment, {});
-}
-
 TEST(ChannelServerConfig, RaysOverSandAreTheDefault) {
   const auto config = read("");
   EXPECT_EQ(config.propagation.model, PropagationModel::kRays);

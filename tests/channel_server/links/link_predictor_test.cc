@@ -11,6 +11,7 @@
 #include "acoustics/modem/error_model.h"
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/prediction/link_prediction.h"
+#include "acoustics/prediction/reception_statistics.h"
 #include "acoustics/reception/signal_history.h"
 #include "core/sim_time.h"
 
