@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "core/check.h"
 #include "core/csv_table.h"
 #include "core/elementary.h"

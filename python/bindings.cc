@@ -21,7 +21,7 @@
 #include <pybind11/stl.h>
 
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "bus/logs/log_reader.h"
 #include "core/check.h"
 #include "core/frames.h"

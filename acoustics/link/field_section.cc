@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/pressure.h"
 #include "acoustics/sea/sound_speed.h"

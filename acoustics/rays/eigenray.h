@@ -132,7 +132,7 @@ struct RayOptions {
   // True: near caustics the wave field applies, with one path on their shadow side. False: plain ray theory,
   // whose amplitudes are unbounded there.
   bool airy_folds = true;
-  // Irregularity of the water, which smooths folds and cusps (acoustics/rays/folds/smoothed_folds.h). A
+  // Irregularity of the water, which smooths folds and cusps (acoustics/rays/search/smoothed_folds.h). A
   // perfect medium leaves paths as they are.
   FineStructure fine_structure = {};
   // Vertical movement of each end from packet to packet, m rms, 0..5; it adds to that smoothing.

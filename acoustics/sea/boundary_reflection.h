@@ -24,7 +24,7 @@
 #include <string_view>
 #include <vector>
 
-#include "acoustics/sea/surface/ice_cover.h"
+#include "acoustics/sea/ice_cover.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {

@@ -8,10 +8,10 @@
 #include <memory>
 
 #include "acoustics/sea/absorption.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/noise.h"
 #include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/sound_speed_profile.h"
-#include "acoustics/sea/surface/ice_cover.h"
 #include "acoustics/sea/water_load.h"
 #include "core/frames.h"
 #include "core/tide.h"

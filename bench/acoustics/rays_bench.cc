@@ -13,8 +13,8 @@
 
 #include "acoustics/link/energy_flux.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/rays/extrapolate_eigenrays.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"

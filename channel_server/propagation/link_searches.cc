@@ -7,7 +7,7 @@
 #include <map>
 #include <unordered_map>
 
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "channel_server/propagation/path_reuse.h"
 #include "core/elementary.h"
 #include "core/frames.h"

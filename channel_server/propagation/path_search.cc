@@ -8,8 +8,8 @@
 
 #include "acoustics/link/energy_flux.h"
 #include "acoustics/rays/depth_fan.h"
-#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/rays/range_fan.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "core/check.h"
 #include "core/hash.h"
 

@@ -8,7 +8,7 @@
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/modem/beam_pattern.h"
-#include "acoustics/sea/surface/ice_cover.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/surface/surface_boundary.h"
 #include "core/elementary.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Propagation along rays over the known bottom between the ends of a link.
 //
-// Model. acoustics/rays/eigenray_search.h finds the paths. The level of each path is, in dB,
+// Model. acoustics/rays/search/eigenray_search.h finds the paths. The level of each path is, in dB,
 //
 //   source level - spreading - losses at bounces - absorption - loss of both beams
 //
@@ -35,7 +35,7 @@
 // earlier tick: Reception::paths_age.
 //
 // Ends above the surface are placed on it. Left out: the slope of the bottom across the link
-// (acoustics/rays/eigenray_search.h).
+// (acoustics/rays/search/eigenray_search.h).
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,7 @@
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"

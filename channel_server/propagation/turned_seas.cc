@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "acoustics/rays/traced_eigenray.h"
-#include "acoustics/sea/surface/ice_cover.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/surface/surface_boundary.h"
 #include "core/elementary.h"
 #include "core/hash.h"

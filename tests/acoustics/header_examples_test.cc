@@ -17,7 +17,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/noise/place_noise.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"

@@ -107,7 +107,10 @@ bool stands_on(const Room& room, std::string_view path) {
   };
   return folder == room.path || is_part_of("core", {"core/files", "core/memory", "core/text"}) ||
          is_part_of("bus", {"bus/messages", "bus/transport", "bus/repair"}) ||
-         is_one_of(folder, room.stands_on) || is_one_of(path, room.stands_on);
+         is_part_of("acoustics/sea", {"acoustics/sea/surface"}) ||
+         is_part_of("acoustics/rays", {"acoustics/rays/search"}) ||
+         is_part_of("channel_server", {"channel_server/messages"}) || is_one_of(folder, room.stands_on) ||
+         is_one_of(path, room.stands_on);
 }
 
 std::string with_reason(std::string_view objection, const Room& room) {

@@ -14,7 +14,7 @@
 //   const double kept = rough.kept_power(0.2);  // B of a bounce
 #pragma once
 
-#include "acoustics/sea/surface/ice_cover.h"
+#include "acoustics/sea/ice_cover.h"
 
 namespace halocline::acoustics {
 

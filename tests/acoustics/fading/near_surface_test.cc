@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/sound_speed_profile.h"
-#include "acoustics/sea/surface/ice_cover.h"
 #include "acoustics/sea/surface/surface_boundary.h"
 #include "tests/support/tolerance.h"
 

@@ -13,8 +13,8 @@
 
 #include "acoustics/link/line_means.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/rays/ray_trace.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/rays/traced_eigenray.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/bottom_profile.h"

@@ -9,7 +9,7 @@
 
 #include "acoustics/rays/channel_core.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ray_water.h"

@@ -10,8 +10,8 @@
 
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/rays/ray_trace.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/rays/traced_eigenray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"

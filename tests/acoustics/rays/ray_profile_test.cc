@@ -11,9 +11,9 @@
 
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
 #include "acoustics/rays/profile_rays.h"
 #include "acoustics/rays/ray_trace.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
 #include "acoustics/sea/sound_speed_profile.h"

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/random.h"

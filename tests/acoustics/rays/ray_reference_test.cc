@@ -8,7 +8,7 @@
 
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "tests/support/csv.h"
 
 namespace halocline::acoustics {

@@ -14,7 +14,7 @@
 #include "acoustics/math/airy.h"
 #include "acoustics/math/turning_field.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "tests/acoustics/rays/ray_reference.h"
 

@@ -8,7 +8,7 @@
 
 #include "acoustics/math/arc_math.h"
 #include "acoustics/math/hermite_cubic.h"
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 
 namespace halocline::acoustics {
 

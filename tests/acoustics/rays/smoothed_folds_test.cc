@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Folds, cusps and turning rays in a medium that is not perfect, against the integral over launch angles and
 // the power that a smoothed family must keep.
-#include "acoustics/rays/folds/smoothed_folds.h"
+#include "acoustics/rays/search/smoothed_folds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/eigenray_search.h"
-#include "acoustics/rays/folds/cycle_rays.h"
+#include "acoustics/rays/search/cycle_rays.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "acoustics/sea/fine_structure.h"
 #include "tests/acoustics/rays/ray_reference.h"
 

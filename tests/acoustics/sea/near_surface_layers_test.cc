@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/sea/boundary_reflection.h"
-#include "acoustics/sea/surface/ice_cover.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/surface/surface_boundary.h"
 #include "acoustics/sea/surface/surface_layers.h"
 #include "core/check.h"

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/profile_drift.h"
 #include "acoustics/sea/sound_speed_profile.h"
-#include "acoustics/sea/surface/ice_cover.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 

@@ -11,8 +11,8 @@
 
 #include "acoustics/fading/arrival.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/sound_speed.h"
-#include "acoustics/sea/surface/ice_cover.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"

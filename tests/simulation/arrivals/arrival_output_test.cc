@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "acoustics/modem/beam_pattern.h"
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 #include "core/csv_table.h"
 #include "core/units.h"
 #include "runs/plot/plot.h"

@@ -10,9 +10,9 @@
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/fan_tracer.h"
-#include "acoustics/rays/folds/cycle_rays.h"
 #include "acoustics/rays/layered_rays.h"
 #include "acoustics/rays/ray_trace.h"
+#include "acoustics/rays/search/cycle_rays.h"
 
 namespace halocline::acoustics {
 

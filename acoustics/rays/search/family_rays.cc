@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/folds/family_rays.h"
+#include "acoustics/rays/search/family_rays.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/sea/surface/ice_cover.h"
+#include "acoustics/sea/ice_cover.h"
 
 #include <algorithm>
 

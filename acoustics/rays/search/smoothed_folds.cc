@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/folds/smoothed_folds.h"
+#include "acoustics/rays/search/smoothed_folds.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "acoustics/rays/folds/family_rays.h"
-#include "acoustics/rays/folds/ray_family.h"
+#include "acoustics/rays/search/family_rays.h"
+#include "acoustics/rays/search/ray_family.h"
 #include "acoustics/rays/traced_eigenray.h"
 #include "acoustics/sea/fine_structure.h"
 #include "acoustics/sea/ray_water.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/eigenray_search.h"
+#include "acoustics/rays/search/eigenray_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,11 @@
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/channel_core.h"
 #include "acoustics/rays/extrapolate_eigenrays.h"
-#include "acoustics/rays/folds/smoothed_folds.h"
 #include "acoustics/rays/image_rays.h"
 #include "acoustics/rays/layered_rays.h"
 #include "acoustics/rays/profile_rays.h"
 #include "acoustics/rays/ray_trace.h"
+#include "acoustics/rays/search/smoothed_folds.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "core/elementary.h"

@@ -2,7 +2,7 @@
 // A family of rays about one of them: those of the same bounces that end within reach of the receiver, and
 // the integral of their density there over launch angles.
 //
-// Model: acoustics/rays/folds/smoothed_folds.h. Rays are taken at steps over which the depth of arrival
+// Model: acoustics/rays/search/smoothed_folds.h. Rays are taken at steps over which the depth of arrival
 // changes by about sigma_z, at which the trapezoidal rule is exact to 0.1 dB for a normal density.
 //
 // Immutable after construction: calls may overlap between threads.
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/folds/family_rays.h"
+#include "acoustics/rays/search/family_rays.h"
 
 namespace halocline::acoustics {
 

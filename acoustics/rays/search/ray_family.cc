@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/folds/ray_family.h"
+#include "acoustics/rays/search/ray_family.h"
 
 #include <algorithm>
 #include <cmath>

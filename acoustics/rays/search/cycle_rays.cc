@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "acoustics/rays/folds/cycle_rays.h"
+#include "acoustics/rays/search/cycle_rays.h"
 
 #include <algorithm>
 #include <cmath>
