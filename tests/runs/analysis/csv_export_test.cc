@@ -127,7 +127,7 @@ TEST_F(CsvExport, EmptyTableHasARowWithEmptyCells) {
   exported();
   const auto rows = lines("links.csv");
   ASSERT_EQ(rows.size(), 2u);
-  constexpr std::size_t kFieldsOfALink = 35;
+  constexpr std::size_t kFieldsOfALink = 36;
   EXPECT_THAT(rows[1], ::testing::EndsWith(",4,0,0,0" + std::string(kFieldsOfALink, ',')));
   EXPECT_EQ(std::count(rows[0].begin(), rows[0].end(), ','), std::count(rows[1].begin(), rows[1].end(), ','));
 }
