@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Kinds of receivers: which paths of a packet they collect, and what the others do to them.
 //
-// - kHops, frequency-hopped FSK: the guard window of greatest power. Later echoes fall on tones that have
-// been
-//   left, and disturb when the hop pattern returns (acoustics/reception/guard_window.h). It tracks nothing.
+// - kHops, frequency-hopped FSK: the guard window of greatest power. Later echoes fall on tones that
+//   were left, and disturb when the hop pattern returns (guard_window.h). It tracks nothing.
 // - kStrongestPath, spread spectrum and sweeps: the strongest path alone, with what the band cannot part from
 //   it (Modem::window_s); every other path disturbs by Modem::late_echo_share. It tracks nothing.
 // - kEqualiser, phase-shift keying and OFDM: the guard window. It tracks what fades slowly; the rest of the

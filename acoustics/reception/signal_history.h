@@ -8,8 +8,7 @@
 //   I(t)    = sum_p i_p |h_p(t)|^2  over the paths p on which the packet is present at t
 // Grid: 8 frequencies, evenly over the band; 8 to 64 stretches of the bits, each at most a quarter of the
 // coherence time and an eighth of the bits; 1 to 8 stretches of the preamble.
-// - An equaliser (ReceiverKind) of phase-shift keying tracks a fading path for T = 0.05 s (our choice). The
-//   share
+// - An equaliser (ReceiverKind) of phase-shift keying tracks a path for T = 0.05 s (our choice). The share
 //     rho = exp(-(2 pi B T)^2 / 2)
 //   of its power is signal, the rest interferes: fast fading. Its equaliser combines the band, so S is the
 //   mean over the band. For other modems rho = 1.

@@ -11,8 +11,7 @@
 // the bin, (b - a) / (c dxi). The adjoint F_j(y) = R exp(M y) is what a unit of power in state j brings after
 // a further y. It is tabulated over the distance d from a first bounce with y = d - D_j / 4, half of the way
 // to the next bounce (below 0: no loss yet but absorption), at d = 0 and H / 8 * 2^(n / 2); between nodes ln
-// F is linear. Beside it stand mean and variance of the delay in excess of d times the transport's reference,
-// from
+// F is linear. Beside it stand mean and variance of the delay beyond d times the transport's reference, from
 //   dQ/dr = M Q + tau P,  dR/dr = M R + 2 tau Q.
 //
 // Accuracy: ln F within 0.01 between nodes once the loss is even, the moments within 3 %. Immutable: calls

@@ -2,8 +2,7 @@
 // Mean power of families of rays in a medium that is not perfect: finite at folds and cusps, and where rays
 // turn at the receiver's depth.
 //
-// Model. Fine structure turns rays (acoustics/sea/fine_structure.h), so that a ray ends at its depth only
-// within
+// Model. Fine structure turns rays (acoustics/sea/fine_structure.h), so that a ray ends at its depth to
 //   sigma_z = max(sqrt(mu r^3 / 3), sqrt(lambda r / (2 pi)) / 2),
 // the second term half a Fresnel width; the movement of both ends adds its variance, and sigma_z is at most
 // half of the depth of the water (our choice). The rays of one sequence of bounces form families. The mean

@@ -5,9 +5,8 @@
 // exp(-Gamma^2), Gamma = 2 k rms_height_m sin(theta), stays coherent and the rest is turned by facets whose
 // slope in the plane of the sound is normal with the variance `slope_variance`.
 //   waves  rms height of Pierson and Moskowitz; slope_variance = 0.5 * 4.6e-3 ln(2.1 U^2), U >= 1 (half of
-//   the
-//          total slope of waves long against the sound's, APL-UW TR 9407, part II); bubbles as there, at most
-//          kMaxBubbleBounceDb a bounce
+//          all: total slope of waves long against the sound's, APL-UW TR 9407, part II); bubbles as there, at
+//          most kMaxBubbleBounceDb a bounce
 //   ice    the numbers of its cover (ice_cover.h)
 //
 //   const SurfaceBoundary rough = surface_boundary(10, {}, 25'000);
