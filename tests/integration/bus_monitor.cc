@@ -17,7 +17,11 @@ BusMonitor::BusMonitor() : lcm_(bus::open_transport(bus::effective_url(""))), bu
                                    [this](const packet_outcome_t& outcome) { outcomes.push_back(outcome); });
   bus_.subscribe<node_status_t>(bus::channels::kStatus,
                                 [this](std::string_view node, const node_status_t& status) {
-                                  last_status[std::string(node)] = status;
+                                  node_status_t& last = last_status[std::string(node)];
+                                  // An old status that another node requested again is not the last one.
+                                  if (status.session == last.session && status.sequence < last.sequence)
+                                    return;
+                                  last = status;
                                 });
   bus_.subscribe<sim_clock_t>(bus::channels::kClock,
                               [this](const sim_clock_t& clock) { last_clock_utime = clock.utime; });
