@@ -72,7 +72,7 @@ void visit_vehicle_noise(bus::ConfigVisitor& v, NoiseSource& noise) {
 }
 
 void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicle,
-                   const VehicleModem& standard) {
+                   const VehicleModem& standard, bool sea_fades) {
   v.shared_with_others();
   v.text("name", vehicle.name, {}, "channel suffix");
   if (v.writing() ? vehicle.clock.has_value() : v.given("clock")) {
@@ -87,8 +87,10 @@ void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicl
               [&](bus::ConfigVisitor& section) { visit_vehicle_noise(section, noise); });
     vehicle.noise = noise;
   }
+  if (!v.writing() && !v.given("own_noise")) vehicle.own_noise = sea_fades;
   v.boolean("own_noise", vehicle.own_noise,
-            "true: without [vehicle.noise] the propellers of its model are heard at its own hydrophone");
+            "true: without [vehicle.noise] the propellers of its model are heard at its own hydrophone; by "
+            "default with fading = \"sea\"");
   v.boolean("has_modem", vehicle.carries_modem,
             "false: a ship or a jammer, which sends and receives nothing");
   v.when(vehicle.carries_modem, "has_modem = true", [&] {
@@ -106,6 +108,7 @@ void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicl
 // Sets the constants that the level bounds.
 void use(const DetailLevel& level, ChannelServerConfig& config) {
   RayModel& rays = config.propagation.rays;
+  rays.options.diffuse_below_flux_db = level.diffuse_below_flux_db;
   rays.diffuse_below_noise = level.diffuse_below_noise;
   rays.weak_below_diffuse = level.weak_below_diffuse;
   rays.reuse_for_packets = level.reuse_for_packets;
@@ -136,9 +139,9 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
               "(docs/packets.md)");
   visit_count(v, "threads", r.threads,
               {1, 64, "", "threads that compute link tables and the paths of packets"});
-  visit_count(
-      v, "predicted_payload_bytes", r.predicted_payload_bytes,
-      {1, acoustics::kMaxPayloadBytes, "bytes", "payload of the packets whose delivery link tables predict"});
+  visit_count(v, "predicted_payload_bytes", r.predicted_payload_bytes,
+              {0, acoustics::kMaxPayloadBytes, "bytes",
+               "payload of the packets whose delivery link tables predict; 0: the header alone"});
   visit_count(v, "shards", r.medium.shard.count,
               {1, kMaxShards, "", "channel servers that share the vehicles, by where they start"});
   visit_count(
@@ -227,7 +230,7 @@ void visit(bus::ConfigVisitor& v, ChannelServerConfig& config) {
   v.list(
       "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
       [&](bus::ConfigVisitor& item, std::size_t i) {
-        visit_vehicle(item, config.vehicles[i], config.modem);
+        visit_vehicle(item, config.vehicles[i], config.modem, config.propagation.fading.enabled);
       });
   // A vehicle whose own modem reports events takes the threshold of [modem].
   const auto has_events = [](const ChannelServerConfig::OfVehicle& vehicle) {

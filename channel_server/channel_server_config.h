@@ -26,6 +26,7 @@
 #include "bus/config/scenario.h"
 #include "channel_server/detail.h"
 #include "channel_server/links/link_predictor.h"
+#include "channel_server/modems/modem_config.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"
@@ -67,6 +68,9 @@ struct ProfileConfig {
   acoustics::WaterSample assumed{10, 35};
 };
 
+// The noise place of scenarios that leave it to the depth of their water.
+inline constexpr std::string_view kByDepth = "by-depth";
+
 // The water of [environment].
 struct EnvironmentConfig {
   ProfileConfig profile;
@@ -76,7 +80,7 @@ struct EnvironmentConfig {
   FilePath noise_file;  // a table of noise spectra that replaces `noise`
   // A kind of place (acoustics/noise/place_noise.h), or kByDepth; use_depth() replaces the latter by a kind,
   // and until then it adds nothing.
-  std::string noise_place = "open";
+  std::string noise_place{kByDepth};
   FilePath site_noise_file;  // noise measured at the place, in the place of noise_place: a file, or
   std::vector<std::array<double, 2>> site_noise;  // rows of frequency, kHz, and level, dB re 1 uPa^2/Hz
   // Change of the profile over the upper water: drawn for members of ensembles, not read from a file.
@@ -89,9 +93,6 @@ struct EnvironmentConfig {
   double ph = 8.0;
   acoustics::IceCover ice;
 };
-
-// The noise place of scenarios that leave it to the depth of their water.
-inline constexpr std::string_view kByDepth = "by-depth";
 
 // The model of propagation: eigenrays, or one straight path.
 enum class PropagationModel { kRays, kStraight };
@@ -107,7 +108,8 @@ struct PropagationConfig {
   // A name of acoustics/sea/boundary_reflection.h, or "custom" for the three numbers.
   std::string sediment = "MediumSand";
   double bottom_density_ratio = 1.9, bottom_sound_speed_mps = 1650, bottom_attenuation_db = 0.8;
-  acoustics::FadingModel fading{.enabled = true};
+  // Unlike the struct's, the scenario's default is a sea whose scattered sound turns to new angles.
+  acoustics::FadingModel fading{.enabled = true, .bottom_roughness_m = 0.03, .turns = true};
   RayModel rays = standard_rays();  // its bottom and fading are replaced by those above
   ReplayConfig replay;
 };
@@ -145,7 +147,7 @@ struct ChannelServerConfig {
     VehicleModem modem;
     bool carries_modem = true;  // false for a ship or a jammer
     bool is_transponder = false;
-    bool own_noise = false;  // the noise of a propeller, where the vehicle's model has one
+    bool own_noise = true;  // the noise of a propeller, where the vehicle's model has one
     std::optional<ClockSettings> clock;
     std::optional<NoiseSource> noise;
   };
@@ -153,15 +155,20 @@ struct ChannelServerConfig {
   EnvironmentConfig environment;
   PropagationConfig propagation;
   std::vector<ChangeConfig> changes;
-  VehicleModem modem;
+  VehicleModem modem = load_modem(kGenericProfile);  // coded and hopped, unlike the struct's ideal default
   std::vector<OfVehicle> vehicles;
   ServerRules rules;
 };
 
 // Visits every key of the configuration.
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config);
-// Visits [environment], [propagation] and [[environment_change]] (water_config.cc).
+// Sets the slow sea (docs/packets.md) that a scenario has where it says nothing of it; the structs are
+// without.
+void set_slow_sea(ChannelServerConfig& config);
 void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& propagation);
+// Visits [environment], [propagation] and [[environment_change]] (water_config.cc). When it reads, it begins
+// with set_slow_sea(). Slow noise and drift that the scenario does not give are off without fading = "sea",
+// drift also where an ocean field carries sound.
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
 
 // Returns the spectra of noise_file; empty without a file. Throws InvalidArgument as

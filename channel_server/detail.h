@@ -10,7 +10,11 @@ enum class Detail { kExact, kFast };
 
 // Constants of one level. NL is the noise level over the sender's band less the receiver's directivity index.
 struct DetailLevel {
-  // A path of level L comes as energy alone where L < NL - diffuse_below_noise, dB (RayModel).
+  // Over a rough bottom a path comes as energy alone where it lies this below the energy flux of all rays, dB
+  // (acoustics/rays/eigenray.h); 0: no limit. It is the same at every source level.
+  double diffuse_below_flux_db;
+  // A path of level L comes as energy alone where L < NL - diffuse_below_noise, dB (RayModel). 100: nowhere,
+  // so that no sum of paths depends on the source level.
   Decibels diffuse_below_noise;
   // A link of 10 depths and more whose paths have the levels L_i is its energy flux alone (RayModel) where
   //   10 log10 sum 10^(L_i / 10) < NL - diffuse_below_noise - weak_below_diffuse
@@ -28,15 +32,17 @@ struct DetailLevel {
   bool reuse_for_packets;
 };
 
-inline constexpr DetailLevel kExactLevel{.diffuse_below_noise = Decibels{5},
-                                         .weak_below_diffuse = Decibels{6},
+inline constexpr DetailLevel kExactLevel{.diffuse_below_flux_db = 25,
+                                         .diffuse_below_noise = Decibels{100},
+                                         .weak_below_diffuse = Decibels{100},
                                          .reach_below_noise = Decibels{30},
                                          .acquired_once_in = 1e5,
                                          .table_range_m = 0,
                                          .searches_per_vehicle = 0,
                                          .reuse_for_packets = false};
 // Values chosen for the fleets of docs/performance.md, whose modems carry 2 km.
-inline constexpr DetailLevel kFastLevel{.diffuse_below_noise = Decibels{0},
+inline constexpr DetailLevel kFastLevel{.diffuse_below_flux_db = 0,
+                                        .diffuse_below_noise = Decibels{0},
                                         .weak_below_diffuse = Decibels{0},
                                         .reach_below_noise = Decibels{20},
                                         .acquired_once_in = 1000,

@@ -13,6 +13,7 @@
 #include "acoustics/fading/slow_fading.h"
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/noise/place_noise.h"
+#include "acoustics/prediction/steady_band.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/fine_structure.h"
@@ -26,6 +27,7 @@
 #include "bus/config/config.h"
 #include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/detail.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/surface_ends.h"
 #include "core/check.h"
@@ -37,7 +39,7 @@ namespace halocline::channel_server {
 namespace {
 
 const std::vector<std::string> kPropagationModels{"rays", "straight"};
-const std::vector<std::string> kScattering{"none", "lambert"};  // values of scattering_loss and reverberation
+const std::vector<std::string> kScattering{"none", "lambert"};  // values of reverberation
 constexpr std::string_view kCustom = "custom";
 
 std::vector<std::string> sediments() {
@@ -116,8 +118,6 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
         v.number("bottom_slope", f.bottom_slope,
                  {0.01, 1, "", "rms slope of the rough bottom's facets, which turn what it scatters"});
       });
-      bus::choice(v, "scattering_loss", f.scattering_loss, kScattering,
-                  "loss of the sound that rough boundaries scatter beyond the bottom's critical angle");
       visit_fine_structure(v, p.rays.options.fine_structure);
     });
   });
@@ -125,8 +125,6 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
     bus::choice(v, "reverberation", p.rays.reverberation.enabled, kScattering,
                 "tail that rough boundaries leave behind every packet (docs/scenarios.md)");
   });
-  if (f.turns && f.scattering_loss)
-    v.problem("scattering_loss", "scattering = \"turns\" has its own loss by angles");
   if (p.rays.reverberation.enabled && !f.enabled)
     v.problem("reverberation", "\"lambert\" needs fading = \"sea\"");
 }
@@ -155,9 +153,15 @@ RayModel standard_rays() {
   rays.options.max_bounces = 0;
   rays.options.min_amplitude = elementary::exp10(-160.0 / 20);       // of spreading and bounces, re 1 m
   rays.options.min_boundary_factor = elementary::exp10(-30.0 / 20);  // of bounces, re the strongest path
+  rays.options.diffuse_below_flux_db = kExactLevel.diffuse_below_flux_db;
+  rays.options.fine_structure = {.speed_mps = 0.05, .internal_wave_m = 0.5};  // chosen values
+  rays.options.platform_jitter_m = acoustics::kPlatformJitterM;
+  rays.diffuse_below_noise = kExactLevel.diffuse_below_noise;
+  rays.weak_below_diffuse = kExactLevel.weak_below_diffuse;
   rays.speed_tolerance_mps = 0.02;
   rays.reuse_distance_m = 25;
   rays.shadow_loss = Decibels{120};  // a chosen value
+  rays.near_surface.emplace();       // its ends are those of the scenario
   return rays;
 }
 
@@ -170,6 +174,7 @@ RayModel make_rays(const ChannelServerConfig& config) {
                       : acoustics::fluid_bottom(p.bottom_density_ratio, p.bottom_sound_speed_mps,
                                                 p.bottom_attenuation_db);
   rays.fading = fading_of(config);
+  rays.fading.platform_jitter_m = acoustics::kPlatformJitterM;
   // A sea that does not fade is a still one.
   if (!p.fading.enabled) rays.options.fine_structure = {};
   return rays;

@@ -13,6 +13,7 @@
 #include "acoustics/fading/slow_fading.h"
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/noise/place_noise.h"
+#include "acoustics/prediction/steady_band.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/fine_structure.h"
@@ -26,6 +27,7 @@
 #include "bus/config/config.h"
 #include "bus/config/scenario.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/detail.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/surface_ends.h"
 #include "core/check.h"
@@ -123,7 +125,7 @@ void visit_site_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
 void visit_place(bus::ConfigVisitor& v, EnvironmentConfig& e) {
   v.text("noise_place", e.noise_place, noise_places(),
          "kind of place whose noise adds to that of wind, ships and rain, +-6 dB (docs/scenarios.md); "
-         "by-depth: shelf in water of up to 500 m, else open");
+         "by-depth: shelf in water of up to 500 m, else open, as with fading = \"none\"");
   visit_site_noise(v, e);
   if (!v.writing() && !e.site_noise.empty()) bus::report_refusal(v, "site_noise", [&] { noise_sources(e); });
 }
@@ -248,6 +250,30 @@ acoustics::SoundSpeedProfile profile_from_file(const EnvironmentConfig& config,
       .profile;
 }
 
+// Keys of the slow sea in [environment] that a scenario gives.
+struct GivenSlowSea {
+  bool noise = false, profile = false;
+};
+
+// True when the scenario's ocean field carries sound. The keys belong to bus/config/scenario.h.
+bool has_ocean_of_sound(bus::ConfigVisitor& v) {
+  bool has_file = false, carries_sound = true;
+  v.section("ocean", "", [&](bus::ConfigVisitor& s) {
+    s.shared_with_others();
+    has_file = s.given("file");
+    if (has_file) s.boolean("carries_sound", carries_sound, "");
+  });
+  return has_file && carries_sound;
+}
+
+// Switches off slow noise and drift that the scenario does not give, where nothing fades; drift also where an
+// ocean field has changes of its own.
+void leave_out_slow_sea(bus::ConfigVisitor& v, const GivenSlowSea& given, ChannelServerConfig& config) {
+  const bool fades = config.propagation.fading.enabled;
+  if (!given.noise && !fades) config.environment.noise_variation.spread_db = 0;
+  if (!given.profile && (!fades || has_ocean_of_sound(v))) config.environment.profile_spread_mps = 0;
+}
+
 acoustics::SoundSpeedProfile stated_profile(const EnvironmentConfig& config, const bus::Scenario& scenario) {
   using Profile = acoustics::SoundSpeedProfile;
   const auto model = acoustics::sound_speed_model_from_name(config.sound_speed_model);
@@ -281,14 +307,29 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
              : profile;
 }
 
+void set_slow_sea(ChannelServerConfig& config) {
+  config.environment.noise_variation.spread_db = 3;
+  config.environment.noise_variation.spread_time_s = 3600;
+  config.environment.profile_spread_mps = 0.3;
+  config.propagation.fading.slow = {.deviation_db = 3, .time_s = 21600, .tidal_db = 1, .daily_db = 1};
+}
+
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
-  v.section("environment", "Water, weather and ambient noise",
-            [&](bus::ConfigVisitor& s) { visit_environment(s, config.environment); });
+  if (!v.writing()) set_slow_sea(config);
+  GivenSlowSea given;
+  v.section("environment", "Water, weather and ambient noise", [&](bus::ConfigVisitor& s) {
+    visit_environment(s, config.environment);
+    given = {s.given("noise_spread_db"), s.given("profile_spread_mps")};
+  });
   v.section("water_load", "Load of the water that absorbs sound: particles and plants",
             [&](bus::ConfigVisitor& s) { visit_load(s, config.environment.load); });
   v.section("ice", "Ice on the water", [&](bus::ConfigVisitor& s) { visit_ice(s, config.environment.ice); });
   v.section("propagation", "Propagation of sound",
             [&](bus::ConfigVisitor& s) { visit_propagation(s, config.propagation); });
+  if (!v.writing()) leave_out_slow_sea(v, given, config);
+  // A sea that does not fade is a still one, of which only what is stated is noisy.
+  if (!v.writing() && !config.propagation.fading.enabled && config.environment.noise_place == kByDepth)
+    config.environment.noise_place = to_name(acoustics::NoisePlace::kOpen);
   v.list(
       "environment_change",
       "Change of the sea at a time, with keys of [environment]: wind, shipping, rain and profile",

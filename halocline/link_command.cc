@@ -33,7 +33,7 @@ struct LinkOptions {
   std::optional<double> source_level_db, cutoff_level_db, center_frequency_hz, bandwidth_hz;
   std::string from_velocity, to_velocity, format = "table", plot;
   double impulse_rate_hz = 0;
-  std::size_t members = 0;
+  std::size_t members = kStandardMembers;
   bool json = false, arrivals = false, force = false;
 };
 
@@ -161,7 +161,7 @@ void add_link_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--ensemble", options->members,
                    "number of seas, drawn from [uncertainty], of which the band is told: 10, 50 and 90 % of "
-                   "level, SNR and delivery; 0: none, the default")
+                   "level, SNR and delivery; default 20, 0: none")
       ->check(CLI::Range(std::size_t{0}, kMostMembers));
   command->add_option("--set", options->overrides, "change a key: section.key=value (repeatable)")
       ->take_all()

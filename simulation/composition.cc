@@ -119,6 +119,7 @@ std::string key_list(bus::KeyClass key_class) {
   config.scenario.vehicles[0].battery.emplace();
   config.channel_server.vehicles.resize(1);
   config.channel_server.rules.medium.extra_loss.resize(1);
+  set_slow_sea(config.channel_server);
   config.channel_server.vehicles[0].clock.emplace();
   config.channel_server.vehicles[0].noise.emplace();
   config.vehicle_sim.vehicles.resize(1);

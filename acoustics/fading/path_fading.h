@@ -9,8 +9,8 @@
 //   at the centre frequency and sigma_h the rms wave height of Pierson and Moskowitz. The bottom is treated
 //   in the same way with its own rms roughness. After all bounces the share E = exp(-sum Gamma_i^2) of the
 //   power is coherent (Eckart 1953; Jensen, Kuperman, Porter and Schmidt 2011, section 1.6); the rest is
-//   scattered, s = 1 - E. Power that rough boundaries scatter out of the water is removed beforehand
-//   (scattering_loss.h).
+//   scattered, s = 1 - E. Where scattered sound turns to new angles (FadingModel::turns), paths of several
+//   bounces keep the coherent share alone; the rest arrives in the windows of acoustics/scattering.
 // - Medium: internal waves and fine structure modulate the share 1 / (1 + K) of the coherent power, with K
 //   the Rice factor (Qarabaqi and Stojanovic 2013): c = E K / (1 + K), m = E / (1 + K).
 // - Time: g_s and g_m are complex Gaussian with the autocorrelation exp(-(2 pi B tau)^2 / 2). The surface
@@ -36,7 +36,6 @@ struct FadingModel {
   double large_scale_db = 3;
   double large_scale_time_s = 120;   // correlation time of X, s, 0.1..1e6
   double bottom_roughness_m = 0.02;  // rms height of the bottom, m, 0..1
-  bool scattering_loss = false;      // true: with the loss of acoustics/fading/scattering_loss.h
   SlowFading slow = {};              // changes of the level over hours
   // Correlation time of X between ends at rest, s, 0..1e6; 0: large_scale_time_s. Fast ice sets it.
   double large_scale_still_s = 0;
@@ -79,7 +78,7 @@ double coherent_share(const FadingModel& model, double surface_height_m, double 
 
 // Fading of a path at `frequency_hz` > 0 under `wind_mps` >= 0, given the sums over its bounces of the
 // squared sine of the grazing angle (acoustics/rays/eigenray.h). Shares refer to the share `kept` of the
-// power that scattering leaves (scattering_loss.h), so that E / kept is coherent. A model that is not enabled
+// power that is left, so that E / kept is coherent. A model that is not enabled
 // leaves everything coherent.
 PathFading path_fading(const FadingModel& model, double wind_mps, double frequency_hz,
                        double surface_sine_squares, double bottom_sine_squares, double kept = 1);

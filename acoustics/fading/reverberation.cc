@@ -34,6 +34,13 @@ void validate(const Reverberation& reverberation) {
 }
 
 // b = bounces per second times the loss in nepers, with c (2/3) sin(theta_c) / (2 D) bounces per second.
+// q = 1 - (c_water / c_bottom)^2.
+double trapped_share(const FluidBottom& bottom) {
+  const double ratio =
+      bottom.sound_speed_ratio > 0 ? bottom.sound_speed_ratio : bottom.sound_speed_mps / kSoundSpeedMps;
+  return ratio > 1 ? 1 - 1 / (ratio * ratio) : 0;
+}
+
 double tail_decay_per_s(const Reverberation& reverberation, const Duct& duct) {
   // sin(theta_c) = sqrt(q); the mean sine of Lambert's angles below theta_c is 2/3 of it.
   const double bounces_per_s =

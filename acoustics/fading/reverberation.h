@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "acoustics/fading/arrival.h"
+#include "acoustics/sea/boundary_reflection.h"
 
 namespace halocline::acoustics {
 
@@ -50,6 +51,10 @@ struct Duct {
   double depth_m = 0;        // above 0
   double trapped_share = 0;  // q, 0..1
 };
+
+// Share q = sin^2 of the critical angle of a bottom under water of 1500 m/s, 0..1; 0 when the bottom is
+// slower than the water.
+double trapped_share(const FluidBottom& bottom);
 
 // Decay rate b of the tail's power, which falls as exp(-b t), 1/s.
 double tail_decay_per_s(const Reverberation& reverberation, const Duct& duct);

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "acoustics/link/slope_diffusion.h"
 #include "acoustics/rays/traced_eigenray.h"
 #include "core/elementary.h"
 
@@ -19,9 +18,6 @@ constexpr double kCoarseness = 3;  // width of windows relative to those of a ra
 constexpr double kMinTurnSine = 0.02;
 constexpr double kKeptShare = 0.99;  // share of the power
 constexpr double kFarAway = 10;      // least length of a flux-only link, in depths
-constexpr std::size_t kBottomRays = 40;
-// Width of the angles at the bottom, 60 degrees in all; steeper rays are lost even when slopes turn them.
-constexpr double kRayWidth = to_radians(1.5);
 // Numbers of end depths and of bottom depths at which the least loss is sought.
 constexpr int kEnds = 12, kBottoms = 5;
 
@@ -44,7 +40,6 @@ struct Place {
 struct EnergyFluxLink {
   Place source, receiver, bottom;
   double range_m;
-  std::vector<BottomRay> turned;  // rays turned by slopes; empty without slopes
 };
 
 // Adds the leg of the ray of `xi` from a place, upwards or downwards, to where it turns or to `limit_m`.
@@ -114,35 +109,6 @@ double density_at(double xi, const Place& place, const HalfCycle& half) {
   return xi * place.speed_mps / std::max(sine_at(xi, place.speed_mps), kMinTurnSine) / half.range_m;
 }
 
-// Power of the rays of each angle at the bottom, times range and per launch angle, after slopes have turned
-// them on their way.
-std::vector<BottomRay> rays_after_slopes(const EnergyFluxSea& sea, const EnergyFluxLink& link) {
-  const double speed = link.bottom.speed_mps;
-  std::vector<BottomRay> rays;
-  for (std::size_t i = 0; i < kBottomRays; ++i) {
-    const double angle = (static_cast<double>(i) + 0.5) * kRayWidth, xi = elementary::cos(angle) / speed;
-    HalfCycle half;
-    half.lower_m = sea.depth_m;
-    half.upper_m = add_leg(sea.water, xi, link.bottom, 0, half);
-    double loss_db =
-        -20 * elementary::log10(bottom_magnitude_at_sine(sea.bottom, elementary::sin(angle), speed));
-    if (half.upper_m == 0) loss_db += surface_loss_of(sea, xi);
-    const double cycle_m = 2 * half.range_m;
-    rays.push_back(
-        {cycle_m, std::numbers::ln10 / 10 * loss_db / cycle_m, density_at(xi, link.receiver, half)});
-  }
-  diffuse_by_slopes(rays, kRayWidth, sea.mean_square_slope, link.range_m);
-  return rays;
-}
-
-// Power at an angle, interpolated linearly between the rays.
-double power_at(const std::vector<BottomRay>& rays, double angle) {
-  const double place = std::max(angle / kRayWidth - 0.5, 0.0);
-  const auto i = std::min(static_cast<std::size_t>(place), rays.size() - 2);
-  const double share = place - static_cast<double>(i);
-  return (1 - share) * rays[i].power + share * rays[i + 1].power;
-}
-
 // Diffuse path of the rays launched between the angles `low` and `high`; none when they miss the receiver's
 // depth.
 std::optional<Eigenray> window_of(const EnergyFluxSea& sea, const EnergyFluxLink& link, double low,
@@ -155,12 +121,7 @@ std::optional<Eigenray> window_of(const EnergyFluxSea& sea, const EnergyFluxLink
   if (!(half.range_m > 0)) return std::nullopt;
   Eigenray window;
   set_bounces(sea, xi, half, link.bottom.speed_mps, link.range_m, window);
-  const double angle = elementary::asin(sine_at(xi, link.bottom.speed_mps));
-  const bool is_turned =
-      !link.turned.empty() && half.lower_m == sea.depth_m && angle < kRayWidth * kBottomRays;
-  const double power =
-      is_turned ? power_at(link.turned, angle)
-                : density_at(xi, link.receiver, half) * elementary::exp10(-window.bounce_loss_db() / 10);
+  const double power = density_at(xi, link.receiver, half) * elementary::exp10(-window.bounce_loss_db() / 10);
   if (!(power > 0)) return std::nullopt;
   // Power of the window: f^2 cot(angle at the receiver) / D dtheta / r.
   window.amplitude = std::sqrt((high - low) * power / link.range_m);
@@ -190,12 +151,10 @@ void keep_most(std::vector<Eigenray>& windows) {
 
 std::vector<Eigenray> all_windows(const EnergyFluxSea& sea, const RayLink& link) {
   const std::vector<double> edges = even_angles(sea.options.max_launch_angle_rad, kCoarseness);
-  EnergyFluxLink mixed{{sea.water, link.source_depth_m},
-                       {sea.water, link.receiver_depth_m},
-                       {sea.water, sea.depth_m},
-                       link.range_m,
-                       {}};
-  if (sea.mean_square_slope > 0) mixed.turned = rays_after_slopes(sea, mixed);
+  const EnergyFluxLink mixed{{sea.water, link.source_depth_m},
+                             {sea.water, link.receiver_depth_m},
+                             {sea.water, sea.depth_m},
+                             link.range_m};
   std::vector<Eigenray> windows;
   for (std::size_t i = 1; i < edges.size(); ++i) {
     auto window = window_of(sea, mixed, edges[i - 1], edges[i]);

@@ -7,9 +7,8 @@
 // D(xi) is the length of such a half cycle. Over the range r there are r / D half cycles, with the boundary
 // loss of each; f is the product of all of them in pressure. The launch angles dtheta contribute the power
 //   f^2 cot(angle at the receiver) / D dtheta / r
-// with the delay, length and absorption of r / D half cycles. A bottom with slopes turns rays at every
-// bounce: the power of rays that meet it is then that of acoustics/link/slope_diffusion.h, by their angles at
-// the bottom. Each window of launch angles is one eigenray, marked diffuse.
+// with the delay, length and absorption of r / D half cycles. Each window of launch angles is one eigenray,
+// marked diffuse.
 //
 // Accuracy: over bottoms with 5 m of relief, ends 2 to 5 km apart, the mean over places is within 0.6 dB of
 // tracing every ray, 2 dB rms from place to place; cost some fifty microseconds. Left out: terrain that
@@ -33,7 +32,6 @@ struct EnergyFluxSea {
   FluidBottom bottom;
   RaySurface surface;
   RayOptions options;
-  double mean_square_slope = 0;  // variance of the bottom's slope along the link
 };
 
 // The windows that have 99 % of the power, sorted by delay; empty when no ray that leaves the source reaches

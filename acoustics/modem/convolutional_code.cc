@@ -15,6 +15,13 @@ constexpr int kMaxJanusDistance = 28;
 // Exponent beyond which exp(-x) is 0 in a double.
 constexpr double kExponentOfZero = 745;
 
+// Rates of error events per bit of the JANUS code at chips of 1 dB, 1.5 dB .. 6 dB (simulated decoder, see
+// the header; the last two smoothed within their errors).
+constexpr double kFirstRowDb = 1, kRowStepDb = 0.5;
+constexpr std::array kEventRates{9.66e-2, 6.92e-2, 4.86e-2, 3.19e-2, 1.83e-2, 8.64e-3,
+                                 3.42e-3, 9.61e-4, 2.30e-4, 3.20e-5, 3.60e-6};
+constexpr double kLastRowDb = kFirstRowDb + kRowStepDb * (kEventRates.size() - 1);
+
 // Paths that have reached one state of the trellis at one distance: their number, and their ones of
 // information.
 struct Bundle {
@@ -103,6 +110,14 @@ double hard(int d, double p) {
   return sum;
 }
 
+// Union bound of error events of the JANUS code in white noise: sum over d of a_d P2(d).
+double event_bound(double chip_snr) {
+  double sum = 0;
+  for (const SpectrumTerm& term : janus_spectrum())
+    sum += term.paths * soft_without_fading(term.distance, chip_snr);
+  return sum;
+}
+
 // Pairwise error P2(d): the probability that a path at distance d is preferred to the correct one.
 double pairwise_error(int d, Decision decision, Fading fading, PowerRatio chip_snr) {
   const double p = bit_error_rate(Modulation::kNoncoherentBfsk, fading, chip_snr);
@@ -157,6 +172,28 @@ double union_bound(const std::vector<SpectrumTerm>& spectrum, Decision decision,
     sum += term.information_ones * pairwise_error(term.distance, decision, fading, chip_snr);
   }
   return sum;
+}
+
+double janus_error_events(PowerRatio chip_snr) {
+  require(chip_snr.value >= 0, "a signal-to-noise ratio must not be negative or NaN");
+  static const double first_row = to_power_ratio(Decibels{kFirstRowDb}).value,
+                      last_row = to_power_ratio(Decibels{kLastRowDb}).value;
+  // 1/2 exp(-rise g), through the first row.
+  static const double rise = elementary::log(0.5 / kEventRates.front()) / first_row;
+  static const double last_bound = event_bound(last_row);
+  if (chip_snr.value <= first_row) return 0.5 * elementary::exp(-rise * chip_snr.value);
+  if (chip_snr.value >= last_row) return kEventRates.back() * event_bound(chip_snr.value) / last_bound;
+  const double place = (to_decibels(chip_snr).value - kFirstRowDb) / kRowStepDb;
+  const std::size_t row = std::min(static_cast<std::size_t>(std::max(place, 0.0)), kEventRates.size() - 2);
+  const double part = place - static_cast<double>(row);
+  return elementary::exp((1 - part) * elementary::log(kEventRates[row]) +
+                         part * elementary::log(kEventRates[row + 1]));
+}
+
+double janus_error_events_rayleigh(PowerRatio mean_chip_snr) {
+  require(mean_chip_snr.value >= 0, "a signal-to-noise ratio must not be negative or NaN");
+  return janus_error_events(
+      {kEffectiveRatioBeta * elementary::log1p(mean_chip_snr.value / kEffectiveRatioBeta)});
 }
 
 double coded_bit_error_rate(const std::vector<SpectrumTerm>& spectrum, Decision decision, Fading fading,

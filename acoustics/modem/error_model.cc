@@ -20,10 +20,9 @@ double uncoded(PowerRatio eb_over_n0) {
   return bit_error_rate(modulation, fading, eb_over_n0);
 }
 
-template <Fading fading>
-double janus(PowerRatio eb_over_n0) {
-  return coded_bit_error_rate(janus_spectrum(), Decision::kSoft, fading,
-                              {kConvolutionalRate * eb_over_n0.value});
+double janus(PowerRatio eb_over_n0) { return janus_error_events({kConvolutionalRate * eb_over_n0.value}); }
+double janus_rayleigh(PowerRatio eb_over_n0) {
+  return janus_error_events_rayleigh({kConvolutionalRate * eb_over_n0.value});
 }
 
 double never(PowerRatio) { return 0; }
@@ -53,8 +52,8 @@ constexpr Known kKnown[] = {
     {ErrorModel::kBpskRayleigh, "bpsk-rayleigh", uncoded<Modulation::kBpsk, Fading::kRayleigh>},
     {ErrorModel::kDbpsk, "dbpsk", uncoded<Modulation::kDbpsk, Fading::kNone>},
     {ErrorModel::kDbpskRayleigh, "dbpsk-rayleigh", uncoded<Modulation::kDbpsk, Fading::kRayleigh>},
-    {ErrorModel::kJanus, "janus", janus<Fading::kNone>},
-    {ErrorModel::kJanusRayleigh, "janus-rayleigh", janus<Fading::kRayleigh>},
+    {ErrorModel::kJanus, "janus", janus},
+    {ErrorModel::kJanusRayleigh, "janus-rayleigh", janus_rayleigh},
     {ErrorModel::kBpskBch64, "bpsk-bch64", bch64},
     {ErrorModel::kBpskHamming14, "bpsk-hamming14", hamming14},
     {ErrorModel::kOrthogonal16, "orthogonal16", orthogonal16},

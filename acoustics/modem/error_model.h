@@ -5,6 +5,9 @@
 // less energy each) and without one are comparable. Formula, source and limits of each model: bit_error.h,
 // convolutional_code.h, block_code.h.
 //
+// kJanus: the rate of error events per bit, with which blocks are right as often as independent bits of this
+// error rate (convolutional_code.h); wrong bits themselves come in bursts of some ten.
+//
 // kOrthogonal16: orthogonal_symbols.h. kPulses: a pulse of energy E is missed with 1 - P_detect at a false
 // alarm of 1e-3 (preamble_detection.h); Eb is that of a pulse, which the modem sends in its chip alone
 // (bit_energy() of modem.h).

@@ -72,9 +72,9 @@ struct Modem {
   std::optional<SimDuration> guard_taper;
 
   // Frequency-hopped FSK: duration of a chip, 0..10 s, and number of tone pairs to hop between, 0..1024; both
-  // 0: no hopping. An echo of the packet itself that is later than a chip does not interfere until the
-  // pattern returns to its tones, hop_clearing (chip..60 s) later, and interferes with 1 / hop_count of its
-  // power from then on.
+  // 0: no hopping. An echo of the packet itself does not interfere until the pattern may return to its tones,
+  // hop_clearing (0..60 s) later: 0 where the next chip may be on the same pair (JANUS). From then on it lies
+  // on the same pair 1 time in hop_count (guard_window.h).
   SimDuration chip;
   std::int32_t hop_count = 0;
   SimDuration hop_clearing;
@@ -113,7 +113,7 @@ struct Modem {
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
 void validate(const Modem& modem);
 
-// True without hopping, or when the chip is longer than 0 and ends before the hop pattern returns.
+// True without hopping, or when the chip is longer than 0.
 bool hops_well(const Modem& modem);
 
 // The generic modem with the given four parameters and the defaults for all others.

@@ -16,6 +16,7 @@ constexpr double kParityGain = 1.1;
 double orthogonal16_symbol_error_rate(PowerRatio energy_over_noise_density) {
   constexpr int kOthers = 15;
   const double g = energy_over_noise_density.value;
+  if (!(g > 0)) return static_cast<double>(kOthers) / (kOthers + 1);  // a guess
   double sum = 0, binomial = 1;
   for (int n = 1; n <= kOthers; ++n) {
     binomial *= static_cast<double>(kOthers - n + 1) / n;

@@ -12,17 +12,15 @@
 //   the hops spread it over the band. The block has the exponential effective ratio gamma of the ratios
 //   gamma_i of its cells, per chip:
 //     gamma = -beta ln mean exp(-gamma_i / beta),  P = (1 - BER(gamma))^bits.
-//   beta = 2.95 reproduces the curve of the JANUS code for chips of independent Rayleigh fading to 0.1 dB
-//   (convolutional_code.h).
+//   beta: kEffectiveRatioBeta of convolutional_code.h.
 #pragma once
 
 #include <cstdint>
 
+#include "acoustics/modem/convolutional_code.h"
 #include "acoustics/modem/modem.h"
 
 namespace halocline::acoustics {
-
-inline constexpr double kEffectiveRatioBeta = 2.95;
 
 // Energy of a chip over the noise density for a code of rate 1/2 at a ratio of 1 in the band: B / (2 R), B
 // the bandwidth and R the bit rate.

@@ -49,14 +49,25 @@ class Guard {
   double guard_s_, taper_s_, longest_s_;
 };
 
-// Share of an echo's power that falls on the tones of its own packet.
+// An echo that falls on the tones of its own packet as the pattern returns, as white noise over the band: a
+// share of its power.
 double hop_overlap(const Modem& modem, double apart_s) {
   if (modem.hop_count == 0) return 1;
-  const double back_s = apart_s - modem.hop_clearing.seconds();
-  return (1 - raised_cosine(back_s / modem.chip.seconds())) / modem.hop_count;
+  const double back_s = apart_s - modem.hop_clearing.seconds(), chip_s = modem.chip.seconds();
+  return (1 - raised_cosine(back_s / chip_s)) * modem.bandwidth_hz * chip_s / (2 * modem.hop_count);
 }
 
-// Share of a late echo's power that disturbs: kappa (1 - eta rho) of what falls on the tones of its packet.
+// Leakage of an echo's chip that ends within the chip that is listened to, into the other tone of its pair:
+// B T sin^2(pi d / T) / pi^2 of the echo's power.
+double chip_leakage(const Modem& modem, double apart_s) {
+  const double chip_s = modem.chip.seconds();
+  if (modem.hop_count == 0 || !(apart_s < chip_s)) return 0;
+  const double sine = fast_turn(std::numbers::pi * apart_s / chip_s).sine;
+  return modem.late_echo_share * modem.bandwidth_hz * chip_s * sine * sine /
+         (std::numbers::pi * std::numbers::pi);
+}
+
+// Disturbing share of a late echo's power: kappa (1 - eta rho) of what falls on the tones of its packet.
 double disturbing_share(const Modem& modem, const Arrival& path, double apart_s) {
   const double followed = modem.echo_cancelled > 0 ? modem.echo_cancelled * tracked_share(modem, path) : 0;
   return modem.late_echo_share * (1 - followed) * hop_overlap(modem, apart_s);
@@ -111,7 +122,7 @@ GuardWindow window_from(std::size_t first, const std::vector<Arrival>& paths,
     const double after_s = paths[i].delay_s - paths[first].delay_s;
     const double w = i < first ? 0 : guard.weight(after_s);
     const double disturbs = w < 1 ? disturbing_share(modem, paths[i], std::abs(after_s)) : 0;
-    window.shares.push_back({w, (1 - w * w) * disturbs});
+    window.shares.push_back({w, (1 - w * w) * (disturbs + chip_leakage(modem, std::abs(after_s)))});
     if (w * w * powers[i] > strongest) {
       strongest = w * w * powers[i];
       window.strongest = i;

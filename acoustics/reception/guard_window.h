@@ -12,9 +12,19 @@
 // interferes with later symbols of the packet: kappa = Modem::late_echo_share, eta = Modem::echo_cancelled,
 // rho the share of the path that the receiver tracks as it fades (tracked_share() of signal_history.h). In
 // frequency-hopped FSK the remainder falls on other tones: it causes no interference until the hop pattern
-// returns (the clearing time), and 1/N of its power from then on, N the number of tone pairs; the transition
-// takes one more chip, as a raised cosine. A receiver of the strongest path has a window of the resolution of
-// its band, Modem::window_s.
+// returns (the clearing time). From then on a chip of the echo lies on the pair of tones that is listened to
+// 1 time in N, N the number of tone pairs, with all its power in one tone of width 1 / T, T the chip. As
+// white noise over the band B that is
+//   B T / (2 N)
+// of the echo's power (1 for JANUS); the transition takes one more chip, as a raised cosine. An echo that is
+// d < T late also cuts off a chip's end: its tone leaks into the other tone of the pair, sin^2(pi d / T) /
+// pi^2 of its power (correlation of a part d of the chip with a tone 1 / T away), as white noise over the
+// band
+//   B T sin^2(pi d / T) / pi^2
+// of the share 1 - w^2. (Leakage of a path within the window fades as the signal does and is left out.)
+// Against 100 JANUS packets summed chip by chip and tone by tone over an exponential profile of 31 ms, the
+// interference is 1.2 dB too little and the signal 0.8 dB too much. A receiver of the strongest path has a
+// window of the resolution of its band, Modem::window_s.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +38,7 @@ namespace halocline::acoustics {
 // Contribution of one path to signal and interference for a given window.
 struct WindowShare {
   double weight = 0;        // weight of its pressure in the signal, 0..1
-  double interference = 0;  // share of its power that interferes, 0..1
+  double interference = 0;  // white noise over the band, as a share of its power, >= 0
 };
 
 // A guard window and the weights of the paths in it.

@@ -31,6 +31,11 @@ void visit_battery(ConfigVisitor& v, VehicleBattery& battery) {
   });
 }
 
+// True for the shipped models that follow the surface.
+bool floats_by_itself(const FilePath& model) {
+  return model == "surface-craft" || model == "buoy" || model == "drifter";
+}
+
 void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   v.shared_with_others();
   v.text("name", vehicle.name, {}, "name, which ends the vehicle's channels; " + std::string(kNameRule));
@@ -47,9 +52,10 @@ void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   v.when(is_moved, "a model that moves", [&] {
     v.number("speed_mps", vehicle.speed_mps, {-5, 5, "m/s", "speed at the start, forward through the water"});
   });
+  if (!v.writing() && floats_by_itself(vehicle.model)) vehicle.mount = Mount::kFloating;
   choice(v, "mount", vehicle.mount, {"fixed", "floating"},
          "mount of the modem: fixed at its depth, where waves may leave it out of the water, or floating "
-         "with the surface and its tide");
+         "with the surface and its tide, as surface-craft, buoy and drifter do where nothing is said");
   if (v.writing() ? !vehicle.battery.has_value() : !v.given("battery")) return;
   VehicleBattery battery = vehicle.battery.value_or(VehicleBattery());
   v.section("battery", "Battery; without this section the vehicle has unlimited energy",

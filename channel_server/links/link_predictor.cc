@@ -108,7 +108,9 @@ SlowState LinkPredictor::slow_state(VehicleId from, VehicleId to, SimTime at) {
 LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
   Rates rates;
   const auto add = [&](const Modem& modem) {
-    ReceptionCurves curves(modem, std::min(rule_.payload_bytes, max_payload_bytes(modem)));
+    // Without payload only a header is left to be decoded; a modem without one sends a byte.
+    const std::size_t least = modem.layout.header_bits > 0 ? 0 : 1;
+    ReceptionCurves curves(modem, std::clamp(rule_.payload_bytes, least, max_payload_bytes(modem)));
     rates.push_back({curves, OnePathForecast(rule_.fading, curves)});
   };
   add(transmitter);

@@ -62,7 +62,9 @@ struct SlowState {
 class LinkPredictor {
  public:
   struct Rule {
-    std::size_t payload_bytes = 32;  // or a modem's largest payload, if that is less
+    // Or a modem's largest payload, if that is less. 0: the header alone, as the JANUS packet without cargo;
+    // a modem without a header sends a byte.
+    std::size_t payload_bytes = 32;
     acoustics::FadingModel fading;
     std::vector<acoustics::Modem> profiles;  // the known profiles
     acoustics::NoiseVariation noise = {};

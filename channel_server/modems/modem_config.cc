@@ -72,8 +72,7 @@ void visit_framing(bus::ConfigVisitor& v, acoustics::Modem& a) {
   bus::integer_as(v, "hop_count", a.hop_count, {0, 1024, "", "pairs of tones to hop between; 0: no hopping"});
   bus::seconds(
       v, "hop_clearing_s", a.hop_clearing,
-      {0, 60, "s",
-       "time after which the hop pattern returns to a tone, at least chip_s; earlier echoes cost nothing"});
+      {0, 60, "s", "time after which the hop pattern may return to a pair of tones; earlier echoes miss it"});
 }
 
 // Visits what the receiver collects and loses: SINR = n S / (N 10^(loss / 10) + I).
@@ -165,8 +164,19 @@ void check_as_a_whole(bus::ConfigVisitor& v, const acoustics::Modem& a) {
   if (a.bandwidth_hz >= 2 * a.centre_frequency_hz) {
     v.problem("bandwidth_hz", "the band reaches below 0 Hz; allowed is below twice center_frequency_hz");
   }
-  if (!hops_well(a))
-    v.problem("hop_count", "allowed is 0, or a chip_s above 0 and a hop_clearing_s not below it");
+  if (!hops_well(a)) v.problem("hop_count", "allowed is 0, or a chip_s above 0");
+}
+
+// Gives the hops of the generic modem the chips of another bit rate: two a bit, by its code of rate 1/2.
+void hop_at_rate(acoustics::Modem& a) {
+  if (a.hop_count == 0) return;
+  constexpr double kMaxChip_s = 10, kMaxGuard_s = 10;
+  const double chips = a.hop_clearing.seconds() / a.chip.seconds();
+  const double chip_s = std::min(0.5 / a.bit_rate_bps, kMaxChip_s);
+  a.guard_time =
+      SimDuration::from_seconds(std::min(a.guard_time.seconds() * chip_s / a.chip.seconds(), kMaxGuard_s));
+  a.chip = SimDuration::from_seconds(chip_s);
+  a.hop_clearing = SimDuration::from_seconds(chips * chip_s);
 }
 
 std::string names_for_errors() {
@@ -268,6 +278,7 @@ void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
   visit_profile(v, m);
   v.advanced([&] { visit_family(v, a); });
   visit_signal(v, a);
+  if (!v.writing() && m.profile == kGenericProfile && v.given("bit_rate_bps")) hop_at_rate(a);
   visit_max_payload(v, m);
   visit_reception(v, a);
   visit_beam(v, a.beam);
@@ -301,6 +312,8 @@ const std::vector<std::string>& built_in_modems() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list;
     for (const ModemText& text : built_in_modem_texts()) list.emplace_back(text.name);
+    // Files are in the order of their names with the ending, in which '-' comes before '.'.
+    std::sort(list.begin(), list.end());
     return list;
   }();
   return names;

@@ -3,12 +3,13 @@
 // models/modems.
 //
 // `profile` names a modem whose parameters are used when a scenario gives no others; every other key then
-// overrides one of them. A vehicle's table starts from the scenario's modem, or from the profile it names
-// when that is a different one. A profile is a file: one of models/modems by its name ("janus"), any other by
-// its path ("my_modem.toml"). It holds the keys of [modem] except `profile` and `when_busy`, and in addition
-// those of framing, hopping and rates, which a scenario cannot change; a key that is left out has the generic
-// modem's value. Unknown keys, wrong types and impossible values are errors that state file, line, key and
-// what is allowed. docs/packets.md explains the parameters.
+// overrides one of them. The generic modem's chips follow `bit_rate_bps`. A vehicle's table starts from the
+// scenario's modem, or from the profile it names when that is a different one. A profile is a file: one of
+// models/modems by its name ("janus"), any other by its path ("my_modem.toml"). It holds the keys of [modem]
+// except `profile` and `when_busy`, and in addition those of framing, hopping and rates, which a scenario
+// cannot change; a key that is left out has the generic modem's value. Unknown keys, wrong types and
+// impossible values are errors that state file, line, key and what is allowed. docs/packets.md explains the
+// parameters.
 #pragma once
 
 #include <optional>

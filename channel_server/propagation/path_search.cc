@@ -235,12 +235,12 @@ std::shared_ptr<const SearchResult> flux_only_paths(const RayModel& model, const
   const double depth_m =
       std::clamp(mean_z_m - environment.sea_surface_z_m, deepest_end_m + kEvenM, acoustics::kDeepestWater);
   const acoustics::LinkWater along = water_along(model, water, environment, query, depth_m);
-  auto windows = turns_sound(model)
-                     ? weak_turned_windows(model, along.water, environment, query, seabed, depth_m)
-                     : acoustics::flux_only_eigenrays(
-                           {along.water, depth_m, model.bottom, surface_of(model, environment),
-                            options_of(model, query), seabed.mean_square_slope},
-                           query.link, model.weak_below_diffuse);
+  auto windows =
+      turns_sound(model)
+          ? weak_turned_windows(model, along.water, environment, query, seabed, depth_m)
+          : acoustics::flux_only_eigenrays({along.water, depth_m, model.bottom,
+                                            surface_of(model, environment), options_of(model, query)},
+                                           query.link, model.weak_below_diffuse);
   if (!windows) return nullptr;
   auto found = std::make_shared<SearchResult>();
   found->eigenrays = {acoustics::RaySolver::kArcs, *std::move(windows)};

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acoustics/fading/scattering_loss.h"
+#include "acoustics/fading/path_fading.h"
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/modem/beam_pattern.h"
@@ -14,13 +14,6 @@
 
 namespace halocline::channel_server {
 namespace {
-
-double kept_share_of(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
-                     double frequency_hz, const acoustics::Eigenray& path, double bottom_sine_squares) {
-  return kept_share(
-      boundaries.fading, environment.noise.wind_mps, frequency_hz, boundaries.trapped_share,
-      {path.surface_bounces, path.bottom_bounces, path.surface_sine_squares, bottom_sine_squares});
-}
 
 bool turns(const RoughBoundaries& boundaries) { return boundaries.fading.enabled && boundaries.fading.turns; }
 
@@ -74,10 +67,8 @@ std::optional<Arrival> arrival_of(const RoughBoundaries& boundaries,
                                     : weighted_pressure(arrival, {from.modem->beam, to.modem->beam});
   if (!(pressure > 0)) return std::nullopt;  // absorbed beyond the range of a double
   const double frequency_hz = from.modem->centre_frequency_hz;
-  const double kept = is_window           ? 1
-                      : turns(boundaries) ? coherent_share_of(boundaries, environment, frequency_hz, arrival)
-                                          : kept_share_of(boundaries, environment, frequency_hz, arrival,
-                                                          arrival.bottom_sine_squares);
+  const double kept =
+      is_window || !turns(boundaries) ? 1 : coherent_share_of(boundaries, environment, frequency_hz, arrival);
   if (!(kept > 0)) return std::nullopt;
   const acoustics::MovingEnds moving{from.position_ned_m,
                                      from.velocity_ned_mps,
@@ -139,13 +130,11 @@ Decibels keel_loss(const acoustics::Environment& environment, double depth_m, do
 // Over a bottom that does not scatter, the remaining share is the surface's.
 Decibels kept_at_surface(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
                          double frequency_hz, const acoustics::Eigenray& eigenray) {
-  if (turns(boundaries)) {
-    acoustics::Eigenray surface_alone = eigenray;
-    surface_alone.bottom_sine_squares = 0;
-    const double kept = coherent_share_of(boundaries, environment, frequency_hz, surface_alone);
-    return std::max(to_decibels(PowerRatio{kept}), kSilence);
-  }
-  return to_decibels(PowerRatio{kept_share_of(boundaries, environment, frequency_hz, eigenray, 0)});
+  if (!turns(boundaries)) return Decibels{0};
+  acoustics::Eigenray surface_alone = eigenray;
+  surface_alone.bottom_sine_squares = 0;
+  const double kept = coherent_share_of(boundaries, environment, frequency_hz, surface_alone);
+  return std::max(to_decibels(PowerRatio{kept}), kSilence);
 }
 
 }  // namespace halocline::channel_server

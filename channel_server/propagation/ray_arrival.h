@@ -20,7 +20,7 @@ namespace halocline::channel_server {
 // Parameters of fading and scattering besides the water.
 struct RoughBoundaries {
   acoustics::FadingModel fading;
-  double trapped_share;  // see acoustics/fading/scattering_loss.h
+  double trapped_share;  // see acoustics/fading/reverberation.h
 };
 
 // Returns the same path followed from its other end.

@@ -8,7 +8,7 @@
 
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/near_surface.h"
-#include "acoustics/fading/scattering_loss.h"
+#include "acoustics/fading/reverberation.h"
 #include "acoustics/link/energy_flux.h"
 #include "acoustics/link/field_section.h"
 #include "acoustics/link/link_budget.h"

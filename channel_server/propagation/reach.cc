@@ -60,9 +60,9 @@ Decibels noise_at(const acoustics::Modem& sender, const acoustics::Modem& receiv
 // unnoticed_sinr_db() of the sender.
 Decibels least_level(const ReachRule& rule, const acoustics::Modem& sender, const acoustics::Modem& receiver,
                      PowerRatio noise_density, double unnoticed_db) {
-  constexpr double kNoiseDeviations = 3;
+  const double slow_db = rule.fading.enabled ? rule.fading.slow.rms_db() : 0;
   const Decibels noise =
-      noise_at(sender, receiver, noise_density) - Decibels{kNoiseDeviations * rule.noise_spread_db};
+      noise_at(sender, receiver, noise_density) - Decibels{elementary::hypot(rule.noise_spread_db, slow_db)};
   const Decibels disturbs = noise - rule.below_noise;
   if (!may_receive(sender, receiver)) return disturbs;
   return std::min(disturbs, std::max(noise + Decibels{unnoticed_db} - acoustics::receiver_gain(receiver),

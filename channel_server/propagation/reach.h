@@ -54,8 +54,11 @@ struct ReachRule {
   Decibels below_noise{30};       // 0..200
   double acquired_once_in = 1e5;  // packets, 10..1e5: a rarer acquisition has no effect
   acoustics::FadingModel fading = {};
-  double noise_spread_db = 0;  // standard deviation of the noise; the noise counts as three of them quieter
-  double table_range_m = 0;    // upper bound of the reception range; 0: by level alone
+  // Standard deviation of the noise. For what disturbs, the noise counts as quieter by one deviation of noise
+  // and slow fading together: beyond it, what is left out at 30 dB below the noise adds 0.1 dB in one hour of
+  // a hundred.
+  double noise_spread_db = 0;
+  double table_range_m = 0;  // upper bound of the reception range; 0: by level alone
 };
 
 // Sound that departed earlier is no longer under way: it has travelled 180 km.

@@ -108,11 +108,11 @@ def names_of(family: str, column: str) -> list[str]:
 
 def link(scenario: Path, source: Place, receiver: Place, overrides: Sequence[str] = (),
          source_velocity: Sequence[float] = (0, 0, 0), receiver_velocity: Sequence[float] = (0, 0, 0),
-         ensemble: int = 0) -> Link:
+         ensemble: int = 20) -> Link:
     """The budget and the paths of one link, as `halocline link` has them.
 
     source and receiver are vehicles of the scenario (where they start, with their modems) or positions (north, east, down) in
-    metres; velocities, for Doppler, are in m/s, north, east, down. overrides are "section.key=value". With ensemble, a number of
+    metres; velocities, for Doppler, are in m/s, north, east, down. overrides are "section.key=value". With ensemble above 0, a number of
     seas drawn from [uncertainty], budget["ensemble"] has 10, 50 and 90 % of received_level_db, snr_db and delivery_probability.
     """
     budget, paths, notes = _halocline.link(os.fspath(scenario), _place(source), _place(receiver), list(overrides),

@@ -11,7 +11,7 @@
 namespace halocline::clients {
 
 // Numbers of members that a forecast may have.
-inline constexpr std::size_t kMostMembers = 1000;
+inline constexpr std::size_t kStandardMembers = 20, kMostMembers = 1000;
 
 // Bands of one link: received level, dB re 1 uPa; signal-to-noise ratio, dB; delivery probability. Members
 // without a path count with the level of silence.

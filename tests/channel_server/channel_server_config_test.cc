@@ -232,7 +232,6 @@ keel_draft_m = 4
 
 TEST(ChannelServerConfig, EndsNearTheSurfaceAreThoseOfTheScenario) {
   ChannelServerConfig config;
-  config.propagation.rays.near_surface.emplace();
   bus::Scenario scenario;
   scenario.seed = 9;
   const auto add = [&](std::int32_t id, const char* model, bus::Mount mount) {
@@ -276,6 +275,7 @@ TEST(ChannelServerConfig, SharesOfTheWorkAreTaken) {
   EXPECT_EQ(rules.medium.shard.count, 3);
   EXPECT_EQ(rules.medium.shard.index, 1);
   EXPECT_EQ(rules.predicted_payload_bytes, 16);
+  EXPECT_EQ(read("[channel_server]\npredicted_payload_bytes = 0").rules.predicted_payload_bytes, 0);
 }
 
 TEST(ChannelServerConfig, EveryErrorIsReportedAtOnceWithItsPlace) {

@@ -18,6 +18,7 @@
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/noise/place_noise.h"
 #include "acoustics/sea/absorption.h"
+#include "acoustics/prediction/steady_band.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/fine_structure.h"
 #include "acoustics/sea/noise.h"
@@ -73,13 +74,14 @@ TEST(ChannelServerConfig, ASeaThatDoesNotFadeIsSmoothedNowhere) {
 
 TEST(ChannelServerConfig, FadingIsTaken) {
   const auto fading = make_rays(read("[propagation]\nlarge_scale_fading_db = 1\nlarge_scale_fading_s = 60\n"
-                                     "bottom_roughness_m = 0.1\nscattering_loss = \"lambert\""))
+                                     "bottom_roughness_m = 0.1\nscattering = \"none\""))
                           .fading;
   EXPECT_EQ(fading, (acoustics::FadingModel{.enabled = true,
                                             .large_scale_db = 1,
                                             .large_scale_time_s = 60,
                                             .bottom_roughness_m = 0.1,
-                                            .scattering_loss = true}));
+                                            .slow = {3, 21600, 1, 1},
+                                            .platform_jitter_m = acoustics::kPlatformJitterM}));
 }
 
 TEST(ChannelServerConfig, ASlowSeaIsTaken) {
@@ -108,6 +110,27 @@ TEST(ChannelServerConfig, ScatteredSoundStaysOnItsPathOrTurns) {
   EXPECT_EQ(fading.bottom_slope, 0.1);
 }
 
+TEST(ChannelServerConfig, AScenarioHasASlowSeaWhereItFadesAndSaysNothingOfIt) {
+  const ChannelServerConfig sea = read("");
+  EXPECT_EQ(sea.propagation.fading.slow, (acoustics::SlowFading{3, 21600, 1, 1}));
+  EXPECT_EQ(sea.environment.noise_variation,
+            (acoustics::NoiseVariation{.spread_db = 3, .spread_time_s = 3600}));
+  EXPECT_EQ(sea.environment.profile_spread_mps, 0.3);
+  const ChannelServerConfig structs;
+  EXPECT_FALSE(structs.propagation.fading.slow.any());
+  EXPECT_EQ(structs.environment.noise_variation.spread_db, 0);
+  for (const std::string way : {"none", "coherent"}) {
+    const ChannelServerConfig still = read("[propagation]\nfading = \"" + way + "\"");
+    EXPECT_EQ(still.environment.noise_variation.spread_db, 0) << way;
+    EXPECT_EQ(still.environment.profile_spread_mps, 0) << way;
+    const ChannelServerConfig given =
+        read("[environment]\nnoise_spread_db = 2\nprofile_spread_mps = 0.1\n[propagation]\nfading = \"" +
+             way + "\"");
+    EXPECT_EQ(given.environment.noise_variation.spread_db, 2) << way;
+    EXPECT_EQ(given.environment.profile_spread_mps, 0.1) << way;
+  }
+}
+
 TEST(ChannelServerConfig, PathsFadeOrTheirPowersAddOrTheirPhasorsAdd) {
   for (const auto& [way, fades, coherent] :
        {std::tuple("sea", true, false), {"none", false, false}, {"coherent", false, true}}) {
@@ -128,6 +151,7 @@ TEST(ChannelServerConfig, TheDetailOfAnEmptyScenarioIsThatOfItsStructs) {
   const RayModel &rays = exact.propagation.rays, &plain = structs.propagation.rays;
   EXPECT_EQ(rays.diffuse_below_noise, plain.diffuse_below_noise);
   EXPECT_EQ(rays.weak_below_diffuse, plain.weak_below_diffuse);
+  EXPECT_EQ(rays.options, plain.options);
   EXPECT_EQ(rays.reuse_for_packets, plain.reuse_for_packets);
   EXPECT_EQ(rays.max_searches_per_tick, plain.max_searches_per_tick);
   EXPECT_EQ(exact.rules.reach.below_noise, structs.rules.reach.below_noise);
@@ -154,8 +178,9 @@ TEST(ChannelServerConfig, AnUnknownSedimentIsRefusedWithLineKeyAndWhatIsAllowed)
 
 TEST(ChannelServerConfig, ChangesOfTheWaterHoldFromTheirInstantsAndSetTheirKeysOnly) {
   const auto config = read(
-      "[environment]\nwind_mps = 3\n[[environment_change]]\nat_s = 10\nshipping = 0.75\nrain_mm_per_h = 4\n"
-      "sea_surface_z_m = -1\n[[environment_change]]\nat_s = 20\nwind_mps = 9\nprofile = "
+      "[environment]\nwind_mps = 3\nprofile_spread_mps = 0\n[[environment_change]]\nat_s = 10\nshipping = "
+      "0.75\n"
+      "rain_mm_per_h = 4\nsea_surface_z_m = -1\n[[environment_change]]\nat_s = 20\nwind_mps = 9\nprofile = "
       "\"isovelocity\"\nisovelocity_mps = 1450");
   EnvironmentTimeline timeline(make_environment(config.environment, {}));
   schedule_changes(config, {}, timeline);

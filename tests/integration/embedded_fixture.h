@@ -38,6 +38,11 @@ class EmbeddedTest : public ::testing::Test {
   ScenarioConfig load(const std::string& name, const std::vector<std::string>& overrides) {
     return load_scenario(std::string(HALOCLINE_SOURCE_DIR) + "/scenarios/" + name + ".toml", overrides);
   }
+  // Overrides of a sea that changes over minutes alone.
+  static std::vector<std::string> still_sea() {
+    return {"environment.noise_spread_db=0", "environment.profile_spread_mps=0",
+            "propagation.slow_fading_db=0", "propagation.tidal_fading_db=0", "propagation.daily_fading_db=0"};
+  }
   ScenarioConfig load_text(const std::string& text) {
     std::ofstream(folder_ + "/scenario.toml") << text;
     return load_scenario(folder_ + "/scenario.toml", {});

@@ -81,7 +81,7 @@ TEST_F(ReplayTest, WindMovesTheNoiseAndTheSurface) {
   double change_db = 0;
   for (const auto& row : comparison.rows()) {
     ASSERT_TRUE(row.before && row.after);
-    EXPECT_GT(row.after->noise_level_db, row.before->noise_level_db + 5);  // 4 to 14 m/s
+    EXPECT_GT(row.after->noise_level_db, row.before->noise_level_db + 1);  // 4 to 14 m/s in a harbour
     change_db += row.after->received_level_db - row.before->received_level_db;
     weaker += row.after->received_level_db < row.before->received_level_db - 0.1 ? 1 : 0;
   }

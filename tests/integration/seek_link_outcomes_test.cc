@@ -18,7 +18,7 @@ class SeekLinkOutcomesTest : public testing::EmbeddedTest {};
 // fading of two minutes leaves some 10 independent states.
 TEST_F(SeekLinkOutcomesTest, WhoSeeksTheLinkIsHeardAndWhoStaysIsNot) {
   constexpr int kKeeper = 2, kSeeker = 3, kLander = 1;
-  const auto log = run(load("seek_link", {}), "seek_link");
+  const auto log = run(load("seek_link", still_sea()), "seek_link");
   const auto share = [&](int source) {
     int received = 0, all = 0;
     for (const auto& [channel, o] : messages_in<packet_outcome_t>(log)) {

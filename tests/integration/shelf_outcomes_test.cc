@@ -29,7 +29,7 @@ TEST_F(ShelfOutcomesTest, PacketsArriveWithinALayerAndAreMostlyLostAcrossTheTher
   const std::set<std::pair<int, int>> within{{kBuoy, kShallow}, {kLander, kDeep}},
       near{{kBuoy, kDeep}, {kLander, kShallow}};
   Share within_layer, near_across, far_across;
-  for (const auto& [channel, o] : messages_in<packet_outcome_t>(run(load("shelf", {}), "shelf"))) {
+  for (const auto& [channel, o] : messages_in<packet_outcome_t>(run(load("shelf", still_sea()), "shelf"))) {
     const std::pair<int, int> pair = std::minmax<int>(o.source_id, o.receiver_id);
     Share& share = within.contains(pair) ? within_layer : near.contains(pair) ? near_across : far_across;
     share.add(o.outcome == packet_outcome_t::RECEIVED);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/check.h"
+#include "tests/acoustics/modem/simulated_viterbi.h"
 #include "tests/acoustics/reference_rows.h"
 #include "tests/support/csv.h"
 
@@ -98,6 +99,62 @@ TEST(ConvolutionalCode, AProbabilityIsAtMostAGuess) {
   EXPECT_EQ(union_bound(janus_spectrum(), Decision::kSoft, Fading::kNone,
                         {std::numeric_limits<double>::infinity()}),
             0);
+}
+
+double block_error_rate(double events, double bits) { return 1 - std::pow(1 - events, bits); }
+
+PowerRatio ratio(double db) { return to_power_ratio(Decibels{db}); }
+
+// Expects the `measured` share of `blocks` within 0.3 dB of the curve, with 99.9 % confidence: by the curve
+// 0.3 dB on either side, and 3.3 standard deviations of the count there.
+template <typename Curve>
+void expect_within(double measured, int blocks, double db, const Curve& curve) {
+  const double high = curve(db - 0.3), low = curve(db + 0.3);
+  const auto deviation = [&](double rate) { return 3.3 * std::sqrt(rate * (1 - rate) / blocks); };
+  EXPECT_LT(measured, high + deviation(high)) << db;
+  EXPECT_GT(measured, low - deviation(low)) << db;
+}
+
+TEST(JanusErrorEvents, AreThoseOfASimulatedViterbiDecoderInWhiteNoise) {
+  SimulatedViterbi receiver(1);
+  const auto curve = [](double db) { return block_error_rate(janus_error_events(ratio(db)), 64); };
+  EXPECT_NEAR(curve(3.35), 0.5, 0.03);
+  EXPECT_NEAR(curve(5.05), 0.01, 0.003);
+  for (const double db : {3.0, 3.35, 4.0, 4.5, 5.0}) {
+    const int blocks = db < 4.2 ? 500 : 1500;
+    expect_within(receiver.block_error_rate(ratio(db).value, 64, blocks, false), blocks, db, curve);
+  }
+}
+
+TEST(JanusErrorEvents, OfLongBlocksAreIndependent) {
+  SimulatedViterbi receiver(2);
+  const auto curve = [](double db) { return block_error_rate(janus_error_events(ratio(db)), 256); };
+  for (const double db : {4.0, 4.5}) {
+    expect_within(receiver.block_error_rate(ratio(db).value, 256, 250, false), 250, db, curve);
+  }
+}
+
+TEST(JanusErrorEvents, AreThoseOfASimulatedViterbiDecoderInRayleighFading) {
+  SimulatedViterbi receiver(3);
+  const auto curve = [](double db) { return block_error_rate(janus_error_events_rayleigh(ratio(db)), 64); };
+  for (const double db : {5.2, 6.0, 7.0}) {
+    expect_within(receiver.block_error_rate(ratio(db).value, 64, 700, true), 700, db, curve);
+  }
+}
+
+TEST(JanusErrorEvents, FallFromAGuessWithoutASteepStepTowardsTheUnionBound) {
+  EXPECT_EQ(janus_error_events({0}), 0.5);
+  EXPECT_EQ(janus_error_events_rayleigh({0}), 0.5);
+  EXPECT_EQ(janus_error_events({std::numeric_limits<double>::infinity()}), 0);
+  double last = 0.5;
+  for (double db = -20; db < 7; db += 0.05) {
+    const double events = janus_error_events(ratio(db));
+    EXPECT_LE(events, last) << db;
+    EXPECT_GE(events, 0.7 * last) << db;
+    EXPECT_LE(events, coded_bit_error_rate(janus_spectrum(), Decision::kSoft, Fading::kNone, ratio(db)))
+        << db;
+    last = events;
+  }
 }
 
 }  // namespace

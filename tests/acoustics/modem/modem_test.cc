@@ -120,7 +120,7 @@ TEST(Modem, RefusesImpossibleValues) {
   refuses([](Modem& m) {
     m.chip = SimDuration::from_milliseconds(6);
     m.hop_count = 13;
-    m.hop_clearing = SimDuration::from_milliseconds(5);  // before the chip has ended
+    m.hop_clearing = SimDuration::from_milliseconds(-5);
   });
   refuses([](Modem& m) { m.layout = {.frame_bytes = 32, .max_frames = 0}; });
   refuses([](Modem& m) { m.layout.header_bits = -1; });

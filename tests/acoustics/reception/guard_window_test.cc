@@ -105,7 +105,27 @@ TEST(GuardWindow, HoppingSparesAnEchoUntilThePatternReturns) {
   };
   EXPECT_EQ(interference_after(0.02), 0);
   EXPECT_EQ(interference_after(0.072), 0);
-  EXPECT_NEAR(share_db(interference_after(0.1)), -6 - 10 * std::log10(13), 1e-9);
+  // One time in 13 all of it lies in one of two tones, which are 1 / 6 ms wide: B T / 26 as white noise.
+  const double chip_widths = hopping.bandwidth_hz * 0.006;
+  EXPECT_NEAR(share_db(interference_after(0.1)), -6 + 10 * std::log10(chip_widths / 26), 1e-9);
+}
+
+// Half a chip of the echo, whose tone is 1 / T away: |(1 / T) integral over T / 2 of e^(j 2 pi t / T)|^2.
+TEST(GuardWindow, AnEchoThatEndsWithinAChipLeaksIntoTheOtherTone) {
+  Modem hopping = modem();
+  hopping.guard_time = SimDuration::from_milliseconds(3);
+  hopping.chip = SimDuration::from_milliseconds(6);
+  hopping.hop_count = 13;
+  hopping.hop_clearing = SimDuration::from_milliseconds(72);
+  const auto interference_after = [&](double echo_s) {
+    const std::vector<Arrival> paths{path_at(1, 0), path_at(1 + echo_s, -6)};
+    return mean_interference(paths, best_window(paths, hopping));
+  };
+  hopping.guard_taper = SimDuration::from_milliseconds(3);
+  const double half_chip = std::pow(10, -0.6) * hopping.bandwidth_hz * 0.006 / std::pow(std::numbers::pi, 2);
+  // 4.5 ms late its weight is 1/2, and sin^2(3 pi / 4) = 1/2.
+  EXPECT_NEAR(interference_after(0.0045), 0.75 * half_chip / 2, 1e-6 * half_chip);
+  EXPECT_EQ(interference_after(0.003), 0);
 }
 
 TEST(GuardWindow, OfOnePathIsThatPath) {

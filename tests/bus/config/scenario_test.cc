@@ -134,6 +134,18 @@ TEST(Scenario, ReadsItsTideAndHowModemsAreHeld) {
   EXPECT_THAT(errors_of("[[tide]]\namplitude_m = 30\n"), HasSubstr("amplitude_m"));
 }
 
+TEST(Scenario, SurfaceCraftBuoysAndDriftersFloatUnlessToldOtherwise) {
+  const auto mount_of = [](const std::string& lines) {
+    return read("[[vehicle]]\nname = \"one\"\nid = 1\n" + lines).vehicles.front().mount;
+  };
+  for (const std::string model : {"surface-craft", "buoy", "drifter"}) {
+    EXPECT_EQ(mount_of("model = \"" + model + "\"\n"), Mount::kFloating);
+    EXPECT_EQ(mount_of("model = \"" + model + "\"\nmount = \"fixed\"\n"), Mount::kFixed);
+  }
+  EXPECT_EQ(mount_of("model = \"fixed\"\n"), Mount::kFixed);
+  EXPECT_EQ(mount_of(""), Mount::kFixed);
+}
+
 TEST(Scenario, WhatIsWrittenReadsBack) {
   Scenario scenario =
       read("[scenario]\nname='x'\nseed=9000000000000000\n[[vehicle]]\nname='a'\nid=2147483647");

@@ -30,7 +30,7 @@ constexpr std::size_t kCodeBytes = 2;
 
 // A code of 16 pulses of 10 ms, each detected by itself over a band of 1 kHz.
 acoustics::Modem transmitter() {
-  acoustics::Modem modem = load_modem("generic").modem;
+  acoustics::Modem modem = load_modem("uncoded").modem;
   modem.source_level = {141};  // 46 dB of SNR at 250 m
   modem.min_receivable_level = {-200};
   modem.centre_frequency_hz = 69'000;
@@ -50,7 +50,6 @@ Link link_at(double range_m, const char* sediment, bool reverberation, double wi
   config.environment.noise.wind_mps = wind_mps;
   config.environment.noise.shipping = 0;
   config.propagation.sediment = sediment;
-  config.propagation.fading.scattering_loss = true;
   config.propagation.rays.reverberation.enabled = reverberation;
   const acoustics::Modem modem = transmitter();
   const Vec3 from(0, 0, 1), to(range_m, 0, 1.5);

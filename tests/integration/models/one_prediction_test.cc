@@ -47,6 +47,9 @@ TEST_P(OnePrediction, OfLinkAndOfTheRunsTables) {
   }
   ScenarioConfig config = load_text(text + feature.of_c);
   config.channel_server.propagation.rays.reuse_distance_m = 0;  // each link is searched for itself
+  // The slow sea of the tables is that of 2 s, the links' that of 0 s.
+  config.channel_server.propagation.fading.slow = {};
+  config.channel_server.environment.noise_variation.spread_db = 0;
   int compared = 0;
   for (const auto& [channel, table] : messages_in<link_table_t>(run(config, "prediction"))) {
     if (table.utime != 2'000'000) continue;
@@ -78,6 +81,9 @@ INSTANTIATE_TEST_SUITE_P(
         Feature{"DirectivityIndex", "[modem]\ndirectivity_index_db = 6.0\n"},
         Feature{"AModemOfItsOwn", "", "[vehicle.modem]\nsource_level_db = 150.0\nguard_time_s = 0.001\n"},
         Feature{"WindAndRain", "[environment]\nwind_mps = 14.0\nrain_mm_per_h = 10.0\n"},
+        Feature{"NoiseOfAPlace", "[environment]\nnoise_place = \"reef\"\n"},
+        Feature{"NoiseOfASite", "[environment]\nsite_noise = [[1.0, 70.0], [20.0, 52.0], [80.0, 45.0]]\n"},
+        Feature{"ALoadOfTheWater", "[water_load]\nparticles_kg_m3 = 0.1\nplants_db_per_km = 2.0\n"},
         Feature{"AChangeFromTheStart", "[[environment_change]]\nat_s = 0.0\nwind_mps = 16.0\n"},
         Feature{"NoFading", "[propagation]\nfading = \"none\"\n"},
         Feature{"StraightThroughARidge",

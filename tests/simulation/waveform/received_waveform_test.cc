@@ -261,9 +261,11 @@ TEST_F(WaveformTest, AMeasuredChannelTakesThePlaceOfThePaths) {
   auto file = halocline::testing::channel_file(10, 1, 1);
   for (std::size_t i = 0; i < 10; ++i) file.at(i, 0, 0) = i < 5 ? 0.01 : 0.02;
   const std::string path = halocline::testing::write_channel_file(file, "waveform.mat");
-  const ScenarioConfig config = load(
-      "scenarios/ranging.toml", {"propagation.model=\"straight\"", "propagation.large_scale_fading_db=0",
-                                 "propagation.replay=\"" + path + "\"", "propagation.replay_level=\"file\""});
+  const ScenarioConfig config =
+      load("scenarios/ranging.toml",
+           {"propagation.model=\"straight\"", "propagation.large_scale_fading_db=0",
+            "propagation.slow_fading_db=0", "propagation.tidal_fading_db=0", "propagation.daily_fading_db=0",
+            "propagation.replay=\"" + path + "\"", "propagation.replay_level=\"file\""});
   const Recording run = record_run(config, make_terrain(config), SimTime::from_seconds(4));
   const Samples heard =
       received_waveform(config, make_terrain(config), run, {tone_from("west", 1, 2)},
