@@ -229,6 +229,8 @@ void validate(const RayOptions& options) {
     require_in_range(options.diffuse_below_flux_db, 10, 100, "level of diffuse sound below the energy flux",
                      "dB");
   require_in_range(options.diffuse_below_pressure, 0, 1e6, "pressure below which sound is diffuse");
+  require_in_range(options.scattering.surface, 0, 1e12, "nepers that the surface scatters");
+  require_in_range(options.scattering.bottom, 0, 1e12, "nepers that the bottom scatters");
   validate(options.fine_structure);
   require_in_range(options.platform_jitter_m, 0, 5, "vertical movement of the ends", "m");
 }

@@ -106,6 +106,20 @@ struct Eigenrays {
   double diffuse_power() const;
 };
 
+// What rough boundaries take from the coherent share exp(-sum) of a path's power, for paths of which only
+// that share counts: nepers of each bounce per squared sine of its grazing angle, >= 0.
+struct BounceScattering {
+  // Paths of two bounces or more that lose more than this have no coherent share left, 2e-9.
+  static constexpr double kMaxNepers = 20;
+  double surface = 0, bottom = 0;
+  double nepers(double surface_sine_squares, double bottom_sine_squares) const {
+    return surface * surface_sine_squares + bottom * bottom_sine_squares;
+  }
+  bool leaves_none(int bounces, double nepers) const { return bounces > 1 && nepers > kMaxNepers; }
+  bool scatters() const { return surface > 0 || bottom > 0; }
+  bool operator==(const BounceScattering&) const = default;
+};
+
 // Limits of the search. The defaults keep every path that can matter to a modem.
 struct RayOptions {
   double frequency_hz = 25'000;  // for absorption and reflection, 10..1e6
@@ -129,6 +143,7 @@ struct RayOptions {
   double diffuse_below_flux_db = 0;
   // Received pressure, relative to that at 1 m, below which paths are not resolved one by one either; >= 0.
   double diffuse_below_pressure = 0;
+  BounceScattering scattering = {};  // paths that it leaves no coherent share are dropped
   // True: near caustics the wave field applies, with one path on their shadow side. False: plain ray theory,
   // whose amplitudes are unbounded there.
   bool airy_folds = true;

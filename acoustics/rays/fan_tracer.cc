@@ -13,6 +13,7 @@ constexpr std::size_t kLossSteps = 64;
 constexpr double kMaxLossOfABounceDb = 400;
 constexpr double kKnotMargin = 1e-6;  // m by which the bottom has to lie below a layer that is crossed whole
 constexpr double kGiveUpDb = 6;       // margin on the loss of a path
+constexpr double kGiveUpNepers = 1;   // and on what scattering takes from it
 constexpr int kMaxSteps = 200'000;    // arcs per ray: a guard that is never reached
 constexpr std::size_t kUsualEvents = 4096;  // per search, for the first allocation
 
@@ -35,6 +36,7 @@ struct FanTracer::State : ArcPoint {
   double theta;
   double orientation = 1, images = 0;  // o and k of zeta
   double loss_db = 0;
+  double scattered_nepers = -kGiveUpNepers;
   int bounces = 0;
   bool hits = false;  // `hit` is already known
   ArcHit hit{};
@@ -48,7 +50,8 @@ FanTracer::FanTracer(const ArcTracer& exact)
       range_(exact.range_m()),
       shallowest_(profile_.shallowest_m()),
       max_loss_db_(kGiveUpDb - 20 * elementary::log10(exact.sea().options.min_boundary_factor)),
-      steepest_rise_(0) {
+      steepest_rise_(0),
+      scattering_(exact.sea().options.scattering) {
   events_.reserve(kUsualEvents);
   for (const Facet& facet : profile_.facets()) steepest_rise_ = std::max(steepest_rise_, -facet.sine);
   const ProfiledSea& sea = exact.sea();
@@ -118,6 +121,7 @@ bool FanTracer::bounce(State& s, const Facet& facet) const {
   s.images += s.orientation;
   s.orientation = -s.orientation;
   s.loss_db += interpolated(bottom_loss_db_, std::min(one.sine, 1.0));
+  s.scattered_nepers += scattering_.bottom * one.sine * one.sine;
   return true;
 }
 
@@ -131,14 +135,20 @@ bool FanTracer::go_to_bottom(State& s, ArcHit hit) {
   s.facet = hit.facet;
   s.on_facet = true;
   events_.push_back({RayEvent::kBottom, facet.smooth_group});
-  return !exact_.is_excluded(s.theta, ++s.bounces) && s.loss_db <= max_loss_db_;
+  return goes_on(s);
+}
+
+bool FanTracer::goes_on(State& s) const {
+  return !exact_.is_excluded(s.theta, ++s.bounces) && s.loss_db <= max_loss_db_ &&
+         !scattering_.leaves_none(s.bounces, s.scattered_nepers);
 }
 
 bool FanTracer::meet_surface(State& s, double sine) {
   s.orientation = -s.orientation;
   events_.push_back({RayEvent::kSurface, 0});
   s.loss_db += interpolated(surface_loss_db_, sine) / std::max(sine, kMinSine);
-  return !exact_.is_excluded(s.theta, ++s.bounces) && s.loss_db <= max_loss_db_;
+  s.scattered_nepers += scattering_.surface * sine * sine;
+  return goes_on(s);
 }
 
 bool FanTracer::go_to_knot(State& s, const ArcStep& step) {

@@ -6,8 +6,8 @@
 // bounces come from a column (acoustics/rays/arcs/ray_column.h), and everything above the shallowest bottom
 // is one excursion. zeta and d zeta/d theta are those of ArcTracer to rounding: 1e-7 m and 1e-7 of the slope
 // over links of kilometres, more within a microradian of a ray that grazes. A ray stops when its losses,
-// which are interpolated, exceed what a path may lose by 6 dB. For water that changes along the link, rays
-// come from ArcTracer.
+// which are interpolated, exceed what a path may lose by 6 dB, or when scattering leaves no coherent share.
+// For water that changes along the link, rays come from ArcTracer.
 //
 // The object keeps a column and the rays' events between calls: one per search, not shared between threads.
 #pragma once
@@ -100,6 +100,7 @@ class FanTracer {
   bool next_layer_is_whole(State& s, std::size_t knot, bool down) const;
   bool clears_bottom(double sine, double next_sine) const;
   [[nodiscard]] bool meet_surface(State& s, double sine);
+  bool goes_on(State& s) const;
   void note_turn(bool lower);
   bool is_near_bottom(std::size_t layer) const { return water_.depths_m()[layer + 1] > shallowest_; }
 
@@ -111,6 +112,7 @@ class FanTracer {
   std::vector<EventCode> events_;  // events of all rays
   // `steepest_rise_` is the sine of the steepest slope at which the bottom rises.
   double range_, shallowest_, max_loss_db_, steepest_rise_;
+  BounceScattering scattering_;
   std::vector<double> bottom_loss_db_;  // at evenly spaced sines 0..1
   // Loss times sine, which is smooth even where bubbles give a loss proportional to 1 / sine.
   std::vector<double> surface_loss_db_;

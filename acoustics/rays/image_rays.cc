@@ -114,6 +114,8 @@ bool ImageSum::add(const Image& image) {
   const double length = std::max(std::sqrt(range_ * range_ + image.drop_m * image.drop_m), 1e-6);
   const double sine = image.drop_m / length;
   if (surface + bottom > 0 && sine > min_sine_) return false;
+  const double scattered = options.scattering.nepers(surface * sine * sine, bottom * sine * sine);
+  if (options.scattering.leaves_none(surface + bottom, scattered)) return false;
   const Reflection one = bottom > 0 ? bottom_reflection_at_sine(sea_.bottom, sine, speed_) : Reflection{};
   double factor = power(one.magnitude, bottom);
   if (factor < options.min_boundary_factor) {

@@ -224,7 +224,12 @@ bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldB
 Passed append_eigenray(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
                        const LegSums& sums, std::vector<Eigenray>& paths) {
   const Bounces bounces = bounces_of(legs, ray);
-  if (bounces.surface + bounces.bottom > link.sea.options.max_bounces) return {};
+  const RayOptions& options = link.sea.options;
+  const double top = sums.sine_top * sums.sine_top, base = sums.sine_bottom * sums.sine_bottom;
+  const double scattered = options.scattering.nepers(bounces.surface * top, bounces.bottom * base);
+  if (bounces.surface + bounces.bottom > options.max_bounces ||
+      options.scattering.leaves_none(bounces.surface + bounces.bottom, scattered))
+    return {};
   const Touches touches{legs.touch(Leg::kUp, ray.sine), legs.touch(Leg::kDown, ray.sine)};
   Eigenray path;
   if (!set_boundaries(link, sums, bounces, touches, path)) return {};
@@ -232,8 +237,8 @@ Passed append_eigenray(const LayeredLink& link, const LayeredLegs& legs, const L
   set_directions(link, legs, ray, sums.xi, path);
   set_lengths(link, legs, ray, sums.xi, path);
   path.surface_bounces = path.identity.surface_bounces = bounces.surface;
-  path.surface_sine_squares = bounces.surface * sums.sine_top * sums.sine_top;
-  path.bottom_sine_squares = bounces.bottom * sums.sine_bottom * sums.sine_bottom;
+  path.surface_sine_squares = bounces.surface * top;
+  path.bottom_sine_squares = bounces.bottom * base;
   path.bottom_bounces = path.identity.bottom_bounces = bounces.bottom;
   path.identity.upper_turns = bounces.upper_turns;
   path.identity.lower_turns = bounces.lower_turns;

@@ -87,6 +87,7 @@ class Search {
   void solve_cell(const Node& a, const Node& b);
   void solve_family(const Node& a, const Node& b, std::size_t family);
   // Solves for the rays between two nodes between which f is monotone.
+  int most_cycles(const Node& a, const Node& b) const;
   void solve_monotone(const Node& a, const Node& b, std::size_t family);
   void polish(const Bracket& bracket, std::size_t family, int cycles);
   // True when no ray of the family between two nodes can exceed the least boundary factor, at `min_f` cycles
@@ -283,10 +284,22 @@ void Search::add_dark_path(const Node& a, const Node& b, const Node& turn, bool 
   members_.resize(paths_.size());
 }
 
+// Rays of more cycles have no coherent share or too many bounces.
+int Search::most_cycles(const Node& a, const Node& b) const {
+  if (direct_only_) return 0;
+  const RayOptions& options = link_.sea.options;
+  const double top = std::min(a.sums.sine_top, b.sums.sine_top);
+  const double base = std::min(a.sums.sine_bottom, b.sums.sine_bottom);
+  const double of_cycle = options.scattering.nepers(top * top, base * base);
+  if (!(of_cycle > 0)) return options.max_bounces;
+  const double cycles = std::floor(BounceScattering::kMaxNepers / of_cycle) + 2;
+  return static_cast<int>(std::min<double>(cycles, options.max_bounces));
+}
+
 void Search::solve_monotone(const Node& a, const Node& b, std::size_t family) {
   const double low = std::min(a.f[family], b.f[family]), high = std::max(a.f[family], b.f[family]);
   if (!(high >= 0)) return;
-  const int most = direct_only_ ? 0 : link_.sea.options.max_bounces;
+  const int most = most_cycles(a, b);
   const int first = static_cast<int>(std::ceil(std::max(low, 0.0)));
   const int last =
       static_cast<int>(std::min(std::ceil(high) - 1, static_cast<double>(most)));  // low <= n < high

@@ -20,6 +20,7 @@ void RayTrace::begin(double launch_theta) {
   theta = launch_theta;
   arrived = false;
   factor = 1;
+  scattered_nepers = 0;
   family = 0;
   surface_bounces = bottom_bounces = upper_turns = lower_turns = caustics = 0;
   events.clear();
@@ -44,6 +45,11 @@ double BounceLosses::rough_bottom_factor(double sine) const {
   return bottom_factor_[i] + (place - static_cast<double>(i)) * (bottom_factor_[i + 1] - bottom_factor_[i]);
 }
 
+bool BounceLosses::goes_on(const RayTrace& ray) const {
+  return ray.factor >= min_factor_ &&
+         !options_.scattering.leaves_none(ray.surface_bounces + ray.bottom_bounces, ray.scattered_nepers);
+}
+
 // A pressure release surface, V = -1, with the loss by wind and bubbles.
 bool BounceLosses::at_surface(double sine, RayTrace& ray, TraceDetails* details) const {
   ray.events.push_back({RayEvent::kSurface, 0});
@@ -56,7 +62,8 @@ bool BounceLosses::at_surface(double sine, RayTrace& ray, TraceDetails* details)
     details->surface_loss_db += lost_db;
     details->surface_sine_squares += sine * sine;
   }
-  return ray.factor >= min_factor_;
+  ray.scattered_nepers += options_.scattering.nepers(sine * sine, 0);
+  return goes_on(ray);
 }
 
 // Rayleigh's reflection coefficient V (acoustics/sea/boundary_reflection.h).
@@ -75,7 +82,8 @@ bool BounceLosses::at_bottom(const Facet& facet, double sine, double speed_mps, 
     details->bottom_loss_db += one.loss_db();
     details->bottom_sine_squares += sine * sine;
   }
-  return ray.factor >= min_factor_;
+  ray.scattered_nepers += options_.scattering.nepers(0, sine * sine);
+  return goes_on(ray);
 }
 
 }  // namespace halocline::acoustics

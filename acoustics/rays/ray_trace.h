@@ -48,6 +48,7 @@ struct RayTrace {
   double z = 0, sine = 0, xi = 0;  // depth, sine of the angle and Snell's invariant at the receiver's range
   double q = 0, p = 0;             // the ray tube of acoustics/rays/arc_tracer.h
   double factor = 1;               // pressure factor of all bounces
+  double scattered_nepers = 0;     // see BounceScattering
   int surface_bounces = 0, bottom_bounces = 0, upper_turns = 0, lower_turns = 0, caustics = 0;
   // the same for rays of the same events that turned in the same layers: eigenray.h
   std::uint64_t family = 0;
@@ -91,7 +92,8 @@ class BounceLosses {
   BounceLosses(const ProfiledSea& sea, double deepest_speed_mps);
 
   // Records a bounce with the given sine of the grazing angle. Returns false when the ray stops there: it has
-  // bounced too often, or its bounces leave less than a quarter of the least boundary factor. With `details`,
+  // bounced too often, or its bounces leave less than a quarter of the least boundary factor, or no coherent
+  // share. With `details`,
   // losses are exact.
   [[nodiscard]] bool at_surface(double sine, RayTrace& ray, TraceDetails* details) const;
   [[nodiscard]] bool at_bottom(const Facet& facet, double sine, double speed_mps, RayTrace& ray,
@@ -104,6 +106,7 @@ class BounceLosses {
 
  private:
   double rough_bottom_factor(double sine) const;
+  bool goes_on(const RayTrace& ray) const;
 
   RayOptions options_;
   FluidBottom bottom_;

@@ -301,6 +301,7 @@ std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, cons
   open.options.max_bounces = path.surface_bounces + path.bottom_bounces + 1;
   open.options.max_launch_angle_rad = pi / 2;
   open.options.min_boundary_factor = 0;
+  open.options.scattering = {};
   const RayLink held = held_apart(link);
   const ArcTracer tracer(open, held);
   std::vector<RayPoint> way{{0, tracer.source_depth_m()}};

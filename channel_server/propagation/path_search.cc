@@ -10,6 +10,7 @@
 #include "acoustics/rays/depth_fan.h"
 #include "acoustics/rays/range_fan.h"
 #include "acoustics/rays/search/eigenray_search.h"
+#include "acoustics/sea/surface/surface_boundary.h"
 #include "core/check.h"
 #include "core/hash.h"
 
@@ -24,6 +25,15 @@ acoustics::RayOptions options_of(const RayModel& model, const PathQuery& query) 
   options.frequency_hz = query.frequency_hz;
   options.diffuse_below_pressure = query.diffuse_below_pressure;
   return options;
+}
+
+// Traced paths of several bounces keep their coherent share alone where sound turns.
+acoustics::BounceScattering scattering_of(const RayModel& model, const acoustics::Environment& environment,
+                                          double frequency_hz) {
+  const acoustics::SurfaceBoundary surface =
+      surface_boundary(environment.noise.wind_mps, environment.ice, frequency_hz);
+  return {acoustics::rayleigh_squares(surface.rms_height_m, frequency_hz, 1),
+          acoustics::rayleigh_squares(model.fading.bottom_roughness_m, frequency_hz, 1)};
 }
 
 // Variance of the slope of the seabed's samples between the ends of a link about its mean.
@@ -154,6 +164,7 @@ PathSea path_sea(const RayModel& model, const acoustics::RayWater& water,
   const acoustics::BottomProfile bottom = bottom_under(seabed, query.link, environment.sea_surface_z_m);
   const double depth_m = mean_depth_m(bottom, query.link.range_m);
   if (model.bounces_follow_range) options.max_bounces = bounces_for(query.link.range_m, depth_m);
+  if (model.turned) options.scattering = scattering_of(model, environment, query.frequency_hz);
   const acoustics::LinkWater along = water_along(model, water, environment, query, bottom.deepest_m());
   return {{along.water, bottom, model.bottom, surface_of(model, environment), options, along.section},
           depth_m};

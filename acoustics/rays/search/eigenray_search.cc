@@ -240,7 +240,8 @@ Eigenrays eigenrays(const RaySea& sea, const RayLink& link, std::optional<RaySol
   const EigenraySearch search(sea, held, chosen, shared);
   Eigenrays found{chosen, search.paths()};
   search.smooth(found.paths);
-  if (found.silent()) found.lack = search.lack();
+  // Scattered sound goes on without a path: a link whose paths it leaves is not in a shadow.
+  if (found.silent()) found.lack = sea.options.scattering.scatters() ? PathLack::kTooWeak : search.lack();
   if (held.range_m != link.range_m) {
     const EndSpeeds speeds{sea.water.speed_at(held.source_depth_m),
                            sea.water.speed_at(held.receiver_depth_m)};

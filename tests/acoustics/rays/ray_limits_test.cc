@@ -74,6 +74,35 @@ TEST(RayLimits, PathsAreDroppedByWhatTheirBouncesLoseBeyondTheStrongest) {
   for (const Eigenray& path : found.paths) EXPECT_LE(bounce_loss_db(path), most + tolerance(1e-9));
 }
 
+// Over shallow water of rough boundaries few bounced paths have a coherent share: the others are not
+// searched.
+TEST(RayLimits, PathsWithoutACoherentShareAreDroppedAndNoOthers) {
+  using Solver = RaySolver;
+  const std::vector<SpeedRow> even{{0, 1500}}, bent{{0, 1510}, {8, 1506}, {30, 1503}};
+  for (const Solver solver : {Solver::kImages, Solver::kSnell, Solver::kArcs}) {
+    RaySea sea = sea_of(solver == Solver::kImages ? even : bent, BottomProfile::flat(20));
+    const RayLink link{5, 12, 600};
+    const Eigenrays all = eigenrays(sea, link, solver);
+    sea.options.scattering = {.surface = 400, .bottom = 40};
+    const Eigenrays found = eigenrays(sea, link, solver);
+    const auto is_left = [&](const Eigenray& path) {
+      const double nepers =
+          sea.options.scattering.nepers(path.surface_sine_squares, path.bottom_sine_squares);
+      return path.surface_bounces + path.bottom_bounces < 2 || nepers <= BounceScattering::kMaxNepers;
+    };
+    std::vector<Eigenray> expected;
+    for (const Eigenray& path : all.paths)
+      if (is_left(path)) expected.push_back(path);
+    EXPECT_GT(expected.size(), 5U) << to_name(solver);
+    EXPECT_LT(expected.size(), all.paths.size() / 2) << to_name(solver);
+    ASSERT_EQ(found.paths.size(), expected.size()) << to_name(solver);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_NEAR(found.paths[i].delay_s, expected[i].delay_s, tolerance(1e-9)) << to_name(solver);
+      EXPECT_NEAR(found.paths[i].amplitude / expected[i].amplitude, 1, tolerance(1e-6)) << to_name(solver);
+    }
+  }
+}
+
 TEST(RayLimits, AReceiverBelowTheSourceIsNoShadow) {
   for (const auto& knots : {kThermocline, std::vector<SpeedRow>{{0, 1500}}}) {
     RaySea sea = sea_of(knots, BottomProfile::flat(100));
