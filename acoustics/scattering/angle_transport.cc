@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "acoustics/math/symmetric_eigenproblem.h"
@@ -340,10 +341,16 @@ void AngleTransport::add_fine_structure(const TransportSea& sea, Rates& rates) c
 void AngleTransport::solve(Rates& rates) {
   const std::size_t n = size();
   for (std::size_t i = 0; i < n; ++i) rates.exchange[i * n + i] -= rates.loss[i];
-  EigenPairs pairs = symmetric_eigenpairs(std::move(rates.exchange), n);
-  values_ = std::move(pairs.values);
-  vectors_ = std::move(pairs.vectors);
-  slowest_ = *std::max_element(values_.begin(), values_.end());
+  const EigenPairs pairs = symmetric_eigenpairs(std::move(rates.exchange), n);
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return pairs.values[a] > pairs.values[b]; });
+  for (const std::size_t k : order) {
+    values_.push_back(pairs.values[k]);
+    const auto row = pairs.vectors.begin() + static_cast<std::ptrdiff_t>(k * n);
+    vectors_.insert(vectors_.end(), row, row + static_cast<std::ptrdiff_t>(n));
+  }
   // T = V diag(excess) V^T with the eigenvectors as rows of V, by columns for the compiler's sake.
   std::vector<double> columns(n * n);
   for (std::size_t k = 0; k < n; ++k) {
@@ -358,6 +365,21 @@ void AngleTransport::solve(Rates& rates) {
       for (std::size_t l = 0; l < n; ++l) row[l] += weight * column[l];
     }
   }
+  excess_quotients_ = excess_matrix_;
+  for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t l = 0; l < n; ++l) {
+      const double apart = values_[k] - values_[l];
+      excess_quotients_[k * n + l] = apart != 0 ? excess_quotients_[k * n + l] / apart : 0;
+    }
+  }
+}
+
+std::size_t AngleTransport::lasting(double distance_m) const {
+  constexpr double kMaxNepers = 37;  // 1e-16
+  const double least = slowest() - kMaxNepers / std::max(distance_m, 1e-9);
+  const auto first =
+      std::partition_point(values_.begin(), values_.end(), [least](double value) { return value >= least; });
+  return static_cast<std::size_t>(first - values_.begin());
 }
 
 }  // namespace halocline::acoustics

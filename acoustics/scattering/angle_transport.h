@@ -104,14 +104,19 @@ class AngleTransport {
   // The state of a bin at a depth.
   std::size_t state_at(std::size_t bin, double depth_m) const;
 
-  // Eigenvalues of M, 1/m, and its greatest one; row k of vectors() is the eigenvector of values()[k] in the
-  // coordinates P_i / sqrt(measure_i).
+  // Eigenvalues of M, 1/m, from the slowest decay to the fastest; row k of vectors() is the eigenvector of
+  // values()[k] in the coordinates P_i / sqrt(measure_i).
   const std::vector<double>& values() const { return values_; }
-  double slowest() const { return slowest_; }
+  double slowest() const { return values_.front(); }
+  // Number of eigenvectors, from the slowest on, that keep more than 1e-16 of the slowest one's share over a
+  // distance, m.
+  std::size_t lasting(double distance_m) const;
   const std::vector<double>& vectors() const { return vectors_; }
   const std::vector<double>& root_measures() const { return roots_; }
   // T_kl = sum over i of vectors_ki excess_i vectors_li, s/m.
   const std::vector<double>& excess_matrix() const { return excess_matrix_; }
+  // T_kl / (values_k - values_l), s; 0 where both are equal.
+  const std::vector<double>& excess_quotients() const { return excess_quotients_; }
 
   // Action of the rays at each edge of the bins: the integral of sqrt(1/c^2 - xi^2) over depth, s, rising.
   const std::vector<double>& actions() const { return actions_; }
@@ -127,12 +132,12 @@ class AngleTransport {
   double turning_rate(const TransportSea& sea, const TransportState& state) const;
   void solve(Rates& rates);
 
-  double depth_m_, least_speed_ = 0, reference_ = 0, slowest_ = 0;
+  double depth_m_, least_speed_ = 0, reference_ = 0;
   std::vector<double> depths_, speeds_, edges_, edge_xi_, actions_;
   std::vector<TransportState> states_;
   std::vector<std::vector<std::size_t>> of_bin_;  // states of each bin, from the surface down
   std::array<std::vector<double>, 2> bounce_;
-  std::vector<double> values_, vectors_, roots_, excess_matrix_;
+  std::vector<double> values_, vectors_, roots_, excess_matrix_, excess_quotients_;
 };
 
 }  // namespace halocline::acoustics

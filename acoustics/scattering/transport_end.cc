@@ -79,22 +79,24 @@ DecayIntegrals decay_integrals(double k, double decayed) {
 }
 
 // product_k = sum over l of matrix_kl phi(k, l) x_l of a symmetric matrix, phi the divided difference of e^(u
-// y) at the decays u_k and u_l.
+// y) at the decays u_k and u_l. Between two of the decays from `lasting` on it is 0.
 void multiply_by_divided_differences(const AngleTransport& transport, const std::vector<double>& decays,
-                                     double y, const std::vector<double>& x, std::vector<double>& product) {
+                                     std::size_t lasting, double y, const std::vector<double>& x,
+                                     std::vector<double>& product) {
   constexpr double kClose = 1e-3;
   const std::size_t n = transport.size();
   std::fill(product.begin(), product.end(), 0.0);
+  const double* values = transport.values().data();
   for (std::size_t l = 0; l < n; ++l) {
     const double* row = &transport.excess_matrix()[l * n];
-    const double u = transport.values()[l];
-    const double* values = transport.values().data();
-    const double decay = decays[l], weight = x[l];
-    for (std::size_t k = 0; k < n; ++k) {
-      const double apart = values[k] - u, scaled = apart * y;
-      const double far = (decays[k] - decay) / apart;
-      const double near = y * (0.5 * (decays[k] + decay)) * (1 - scaled * scaled / 12);
-      product[k] += row[k] * (std::abs(scaled) > kClose ? far : near) * weight;
+    const double* quotients = &transport.excess_quotients()[l * n];
+    const double u = values[l], decay = decays[l], weight = x[l];
+    const std::size_t end = l < lasting ? n : lasting;
+    for (std::size_t k = 0; k < end; ++k) {
+      const double scaled = (values[k] - u) * y;
+      const double far = quotients[k] * (decay - decays[k]);
+      const double near = row[k] * y * (0.5 * (decays[k] + decay)) * (1 - scaled * scaled / 12);
+      product[k] += (std::abs(scaled) > kClose ? far : near) * weight;
     }
   }
 }
@@ -148,10 +150,11 @@ CarriedMoments by_state(const AngleTransport& transport, const CarriedMoments& i
 CarriedMoments carried(const AngleTransport& transport, const CarriedMoments& from, double distance_m) {
   const std::size_t n = transport.size();
   std::vector<double> decays(n), turned(n), before(n), after(n);
-  for (std::size_t k = 0; k < n; ++k)
+  const std::size_t lasting = transport.lasting(distance_m);
+  for (std::size_t k = 0; k < lasting; ++k)
     decays[k] = elementary::exp((transport.values()[k] - transport.slowest()) * distance_m);
   CarriedMoments to = from;
-  multiply_by_divided_differences(transport, decays, distance_m, from.power, turned);
+  multiply_by_divided_differences(transport, decays, lasting, distance_m, from.power, turned);
   for (std::size_t k = 0; k < n; ++k) {
     to.power[k] = decays[k] * from.power[k];
     to.first[k] = decays[k] * from.first[k] + turned[k];
@@ -180,10 +183,10 @@ ReceptionTable::Place ReceptionTable::place_of(double distance) const {
   return {node, (distance - low) / (high - low)};
 }
 
-TransportEnd::TransportEnd(const AngleTransport& transport, double depth_m) {
+TransportEnd::TransportEnd(const AngleTransport& transport, double depth_m, bool tabulated) {
   launch(transport, depth_m);
   receive(transport, depth_m);
-  tabulate(transport);
+  if (tabulated) tabulate(transport);
 }
 
 // Angles a and b of each bin's edges at the depth follow from its speed; p = 2 (sin b - sin a), of rays up
@@ -304,9 +307,11 @@ void TransportEnd::tabulate(const AngleTransport& transport) {
       variance[octave * n + j] = std::max(here.second[j] / power - first * first, 0.0);
     }
   }
+  std::vector<double> weights(n), decayed(n);
   for (std::size_t j = 0; j < n; ++j) {
     const TransportState& state = transport.states()[j];
     const double quarter_m = state.cycle_m / 4;
+    for (std::size_t k = 0; k < n; ++k) weights[k] = start[k] * transport.vectors()[k * n + j];
     for (std::size_t node = 0; node < kNodes; ++node) {
       const double d = table_.distance_m(node), y = d - quarter_m, straight = std::min(d, quarter_m);
       double power = reception_[j], mean_s = 0, variance_s2 = 0, log_scale = -state.nepers_per_m * straight;
@@ -314,11 +319,12 @@ void TransportEnd::tabulate(const AngleTransport& transport) {
         const auto [at, share] = octave_of(table_, y);
         mean_s = mean[at * n + j] + share * (mean[(at + 1) * n + j] - mean[at * n + j]);
         variance_s2 = variance[at * n + j] + share * (variance[(at + 1) * n + j] - variance[at * n + j]);
+        const std::size_t lasting = transport.lasting(y);
+        const double slowest = transport.slowest();
+        for (std::size_t k = 0; k < lasting; ++k)
+          decayed[k] = weights[k] * fast_exp((transport.values()[k] - slowest) * y);
         power = 0;
-        for (std::size_t k = 0; k < n; ++k) {
-          const double decay = fast_exp((transport.values()[k] - transport.slowest()) * y);
-          power += start[k] * decay * transport.vectors()[k * n + j];
-        }
+        for (std::size_t k = 0; k < lasting; ++k) power += decayed[k];
         power /= transport.root_measures()[j];
         log_scale += transport.slowest() * y;
       }
@@ -351,19 +357,42 @@ FirstBounces mixed(const FirstBounces& a, const FirstBounces& b, double share) {
 
 }  // namespace
 
-TransportEnd TransportEnd::between(const TransportEnd& first, const TransportEnd& second, double share) {
+namespace {
+
+// ln(1 - w + w e^d), and the derivative by d, the second's part of the sum. Near d = 0 the series in the
+// cumulants of a draw of 0 or 1, within 2e-6.
+struct LogMean {
+  double log, part;
+};
+LogMean log_mean(double w, double d) {
+  constexpr double kNear = 0.25;
+  if (std::abs(d) < kNear) {
+    const double variance = w * (1 - w), third = variance * (1 - 2 * w),
+                 fourth = variance * (1 - 6 * variance);
+    return {d * (w + d * (variance / 2 + d * (third / 6 + d * fourth / 24))),
+            w + d * (variance + d * (third / 2 + d * fourth / 6))};
+  }
+  const double most = std::max(d, 0.0);
+  const double from_first = (1 - w) * fast_exp(-most), from_second = w * fast_exp(d - most);
+  const double sum = std::max(from_first + from_second, 1e-300);
+  return {most + fast_log(sum), from_second / sum};
+}
+
+}  // namespace
+
+TransportEnd TransportEnd::between(const TransportEnd& first, const TransportEnd& second, double share,
+                                   double reach_m) {
   TransportEnd end = first;
   mix(end.reception_, second.reception_, share);
   mix(end.never_, second.never_, share);
   for (std::size_t m = 0; m < kCells; ++m) end.cells_[m] = mixed(first.cells_[m], second.cells_[m], share);
   ReceptionTable& table = end.table_;
+  if (table.size == 0 || second.table_.size == 0) return end;
   const std::vector<double>& other = second.table_.log_power;
-  for (std::size_t i = 0; i < table.log_power.size(); ++i) {
-    // ln((1 - w) e^a + w e^b), and the second's part of the sum
-    const double a = table.log_power[i], b = other[i], most = std::max(a, b);
-    const double from_first = (1 - share) * fast_exp(a - most), from_second = share * fast_exp(b - most);
-    const double sum = std::max(from_first + from_second, 1e-300), part = from_second / sum;
-    table.log_power[i] = most + fast_log(sum);
+  const std::size_t size = (table.place_of(reach_m).node + 2) * table.size;
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto [log, part] = log_mean(share, other[i] - table.log_power[i]);
+    table.log_power[i] += log;
     const double apart = second.table_.mean_s[i] - table.mean_s[i];
     table.variance_s2[i] +=
         part * (second.table_.variance_s2[i] - table.variance_s2[i]) + part * (1 - part) * apart * apart;

@@ -69,13 +69,16 @@ class TransportEnd {
  public:
   static constexpr std::size_t kCells = 30;
 
-  // `depth_m` 0..the transport's depth.
-  TransportEnd(const AngleTransport& transport, double depth_m);
-  // The end between two of the same transport, by the power: `share` 0..1 of the second.
-  static TransportEnd between(const TransportEnd& first, const TransportEnd& second, double share);
+  // `depth_m` 0..the transport's depth. An end that is `tabulated` has a table; others serve links over
+  // several stretches of depth.
+  TransportEnd(const AngleTransport& transport, double depth_m, bool tabulated = true);
+  // The end between two of the same transport, by the power: `share` 0..1 of the second. Its table, where
+  // both have one, holds the distances up to `reach_m` alone.
+  static TransportEnd between(const TransportEnd& first, const TransportEnd& second, double share,
+                              double reach_m);
 
   const std::vector<double>& reception() const { return reception_; }  // R, by state
-  const ReceptionTable& table() const { return table_; }
+  const ReceptionTable& table() const { return table_; }               // empty unless tabulated
   const std::vector<FirstBounces>& first_bounces() const { return cells_; }
   // Launched power by state of the rays that meet no boundary.
   const std::vector<double>& never_bouncing() const { return never_; }

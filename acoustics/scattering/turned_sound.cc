@@ -55,10 +55,9 @@ void finish(TurnedSound& sound, const std::vector<double>& second) {
   }
 }
 
-Received received_at(const ReceptionTable& table, double distance_m) {
+void set_received(const ReceptionTable& table, double distance_m, Received& at) {
   const auto [node, share] = table.place_of(distance_m);
   const std::size_t n = table.size;
-  Received at{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
   const auto between = [&](const std::vector<double>& values, std::size_t j) {
     const double low = values[node * n + j], high = values[(node + 1) * n + j];
     return low + share * (high - low);
@@ -68,7 +67,17 @@ Received received_at(const ReceptionTable& table, double distance_m) {
     at.mean_s[j] = between(table.mean_s, j);
     at.variance_s2[j] = std::max(between(table.variance_s2, j), 0.0);
   }
-  return at;
+}
+
+// Launched power by state of the rays that bounce first beyond the range.
+std::vector<double> waiting_power(const TransportEnd& source, double range_m) {
+  std::vector<double> waiting(source.never_bouncing().size());
+  for (const FirstBounces& cell : source.first_bounces()) {
+    const double share = 1 - reached(cell, range_m).share;
+    if (!(share > 0 && cell.power > 0)) continue;
+    for (std::size_t j = 0; j < waiting.size(); ++j) waiting[j] += share * cell.launched[j];
+  }
+  return waiting;
 }
 
 // Power of the rays that have met no boundary yet: those of cells beyond the range, and those that never do.
@@ -76,11 +85,10 @@ double unbounced_power(const AngleTransport& transport, const TransportEnd& sour
                        const TransportEnd& receiver, double range_m) {
   double sum = 0;
   const std::vector<double>& reception = receiver.reception();
+  const std::vector<double> waiting = waiting_power(source, range_m);
   for (std::size_t j = 0; j < transport.size(); ++j) {
-    double waiting = 0;
-    for (const FirstBounces& cell : source.first_bounces())
-      waiting += (1 - reached(cell, range_m).share) * cell.launched[j];
-    sum += waiting * reception[j] * elementary::exp(-transport.states()[j].nepers_per_m * range_m);
+    if (waiting[j] > 0)
+      sum += waiting[j] * reception[j] * elementary::exp(-transport.states()[j].nepers_per_m * range_m);
     if (!(source.never_bouncing()[j] > 0)) continue;
     // F at y = r: at d = r + D / 4 of the table, less the absorption of that quarter
     const double quarter_m = transport.states()[j].cycle_m / 4;
@@ -180,7 +188,8 @@ std::vector<PlacedReception> placed_receptions(const std::vector<Stretch>& stret
   double decay = 0;
   for (std::size_t part = 0; part <= kSecondParts; ++part) {
     const double share = static_cast<double>(part) / kSecondParts, length_m = stretches[1].length_m;
-    const CarriedMoments here = by_state(second, carried(second, beyond_second, share * length_m));
+    const CarriedMoments here =
+        by_state(second, part == 0 ? beyond_second : carried(second, beyond_second, share * length_m));
     decay = nepers - second.slowest() * share * length_m;
     moments = in_eigenvectors(first,
                               {across_step(here.power, first, second), across_step(here.first, first, second),
@@ -227,12 +236,14 @@ TurnedSound turned_sound(const AngleTransport& transport, const TransportEnd& so
   TurnedSound sound;
   sound.reference_s = transport.reference_spm() * range_m;
   sound.parts.resize(transport.size());
-  std::vector<double> second(transport.size());
+  const std::size_t n = transport.size();
+  std::vector<double> second(n);
+  Received at{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
   for (const FirstBounces& cell : source.first_bounces()) {
     const Reached before = reached(cell, range_m);
-    if (before.share > 0)
-      add_cell(cell, before.share, received_at(receiver.table(), range_m - before.distance_m), range_m, sound,
-               second);
+    if (!(before.share > 0)) continue;
+    set_received(receiver.table(), range_m - before.distance_m, at);
+    add_cell(cell, before.share, at, range_m, sound, second);
   }
   finish(sound, second);
   sound.unbounced = unbounced_power(transport, source, receiver, range_m);
@@ -260,12 +271,12 @@ TurnedSound turned_sound(const std::vector<Stretch>& stretches, const TransportE
   finish(sound, second);
   // Rays without a bounce keep to the receiver's depth as those of the last stretch do.
   const std::vector<double> arrives = across_steps(receiver.reception(), stretches);
+  const std::vector<double> waiting = waiting_power(source, range_m);
   for (std::size_t j = 0; j < first.size(); ++j) {
-    double waiting = source.never_bouncing()[j];
-    for (const FirstBounces& cell : source.first_bounces())
-      waiting += (1 - reached(cell, range_m).share) * cell.launched[j];
-    sound.unbounced +=
-        waiting * arrives[j] / range_m * elementary::exp(-first.states()[j].nepers_per_m * range_m);
+    const double launched = waiting[j] + source.never_bouncing()[j];
+    if (launched > 0)
+      sound.unbounced +=
+          launched * arrives[j] / range_m * elementary::exp(-first.states()[j].nepers_per_m * range_m);
   }
   return sound;
 }

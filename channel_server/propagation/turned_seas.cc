@@ -20,7 +20,9 @@ namespace {
 
 constexpr std::size_t kMaxSeas = 64;  // cached, up to 3 MB each
 constexpr std::size_t kStretches = 8;
-constexpr double kDepthRatio = 1.05;   // between depths of transports over an uneven bottom
+constexpr double kDepthRatio = 1.05;  // between depths of transports over an uneven bottom
+constexpr double kAlike = 1.1;        // ratio of the greatest to the least depth of a stretch
+constexpr double kWindStepMps = 0.1;
 constexpr int kNodesOfDepth = 50;      // depths of ends
 constexpr double kNearBoundary = 0.2;  // share of the depth
 constexpr double kSlopeStep = 0.02;    // rms slopes of relief are counted in these
@@ -39,10 +41,16 @@ double relief_slope(const TurnedLink& link) {
   return kSlopeStep * std::round(std::sqrt(link.mean_square_slope) / kSlopeStep);
 }
 
+acoustics::RaySurface counted_surface(const TurnedLink& link) {
+  acoustics::RaySurface surface = link.surface;
+  surface.wind_mps = std::round(surface.wind_mps / kWindStepMps) * kWindStepMps;
+  return surface;
+}
+
 // Hash of all values that transports of the link depend on, but for depth and bins.
 std::uint64_t hash_of(const TurnedLink& link) {
   std::vector<double> values{link.frequency_hz,
-                             link.surface.wind_mps,
+                             counted_surface(link).wind_mps,
                              static_cast<double>(link.surface.model),
                              link.bottom.density_ratio,
                              link.bottom.sound_speed_ratio,
@@ -81,21 +89,36 @@ bool is_level(const TurnedLink& link) {
   return *most - *least < kLevelM;
 }
 
+// The depth to three digits.
+double three_digits(double depth_m) {
+  double unit_m = 1e-3;
+  while (unit_m * 999.5 < depth_m) unit_m *= 10;
+  return std::max(std::round(depth_m / unit_m), 1.0) * unit_m;
+}
+
+// The eighth of the link's depths.
+double depth_of_eighth(const TurnedLink& link, std::size_t i) {
+  return 0.5 * (link.depths_m[2 * i] + link.depths_m[2 * i + 1]);
+}
+
 std::vector<DepthStretch> stretches_of(const TurnedLink& link) {
   const double range_m = std::max(link.link.range_m, acoustics::kMinDistance);
-  if (is_level(link)) return {{link.depths_m.front(), range_m, link.depths_m.front()}};
+  if (is_level(link)) return {{link.depths_m.front(), range_m, three_digits(link.depths_m.front())}};
   std::vector<DepthStretch> stretches;
-  const double unit = elementary::log(kDepthRatio), length_m = range_m / kStretches;
-  for (std::size_t i = 0; i < kStretches; ++i) {
-    const double depth_m = 0.5 * (link.depths_m[2 * i] + link.depths_m[2 * i + 1]);
-    const double model_m = elementary::exp(unit * std::round(elementary::log(depth_m) / unit));
-    if (!stretches.empty() && stretches.back().model_m == model_m) {
-      DepthStretch& last = stretches.back();
-      last.depth_m = (last.depth_m * last.length_m + depth_m * length_m) / (last.length_m + length_m);
-      last.length_m += length_m;
-    } else {
-      stretches.push_back({depth_m, length_m, model_m});
+  const double unit = elementary::log(kDepthRatio);
+  for (std::size_t begin = 0, end = 0; begin < kStretches; begin = end) {
+    double least = depth_of_eighth(link, begin), most = least, sum = 0;
+    for (; end < kStretches; ++end) {
+      const double depth_m = depth_of_eighth(link, end);
+      least = std::min(least, depth_m);
+      most = std::max(most, depth_m);
+      if (most > kAlike * least) break;
+      sum += depth_m;
     }
+    const auto eighths = static_cast<double>(end - begin);
+    const double depth_m = sum / eighths;
+    const double model_m = elementary::exp(unit * std::round(elementary::log(depth_m) / unit));
+    stretches.push_back({depth_m, range_m * eighths / kStretches, model_m});
   }
   return stretches;
 }
@@ -116,7 +139,8 @@ std::vector<double> speed_deviations(const TurnedLink& link) {
 acoustics::TransportSea transport_sea(const TurnedLink& link, double depth_m, std::size_t bins) {
   const double slope = relief_slope(link);
   acoustics::TransportSea sea{
-      link.water, depth_m, link.frequency_hz, acoustics::scattering_surface(link.surface, link.frequency_hz),
+      link.water, depth_m, link.frequency_hz,
+      acoustics::scattering_surface(counted_surface(link), link.frequency_hz),
       acoustics::rough_bottom(link.bottom, link.water.speed_at(depth_m), link.fading.bottom_roughness_m,
                               link.fading.bottom_slope * link.fading.bottom_slope)};
   sea.bottom.relief_variance = slope * slope;
@@ -150,29 +174,29 @@ std::shared_ptr<TurnedSeas::Sea> TurnedSeas::sea_of(const TurnedLink& link, std:
   return seas_.find_or_make(key, [&] { return std::move(sea); });
 }
 
-std::shared_ptr<const acoustics::TransportEnd> TurnedSeas::node_of(Sea& sea, int node) {
+// Ends without a table have even slots.
+std::shared_ptr<const acoustics::TransportEnd> TurnedSeas::node_of(Sea& sea, int slot) {
   {
     const std::lock_guard lock(sea.mutex);
-    const auto known = sea.ends.find(node);
+    const auto known = sea.ends.find(slot);
     if (known != sea.ends.end()) return known->second;
   }
-  const double depth_m = sea.transport.depth_m() * node / kNodesOfDepth;
-  auto end = std::make_shared<const acoustics::TransportEnd>(sea.transport, depth_m);
+  const double depth_m = sea.transport.depth_m() * (slot / 2) / kNodesOfDepth;
+  auto end = std::make_shared<const acoustics::TransportEnd>(sea.transport, depth_m, slot % 2 == 1);
   const std::lock_guard lock(sea.mutex);
-  return sea.ends.emplace(node, std::move(end)).first->second;
-}
-
-acoustics::TransportEnd TurnedSeas::end_of(Sea& sea, double share_of_depth) {
-  const double place = std::clamp(share_of_depth, 0.0, 1.0) * kNodesOfDepth;
-  const int node = std::min(static_cast<int>(place), kNodesOfDepth - 1);
-  const double share = place - node;
-  constexpr double kAtNode = 1e-9;
-  if (share < kAtNode) return *node_of(sea, node);
-  if (share > 1 - kAtNode) return *node_of(sea, node + 1);
-  return acoustics::TransportEnd::between(*node_of(sea, node), *node_of(sea, node + 1), share);
+  return sea.ends.emplace(slot, std::move(end)).first->second;
 }
 
 namespace {
+
+// The greatest distance at which a link of `range_m` looks into the tables of its ends: of rays that never
+// bounce a quarter of a cycle more.
+double reach_of(const acoustics::AngleTransport& transport, double range_m) {
+  double cycle_m = 0;
+  for (const acoustics::TransportState& state : transport.states())
+    if (state.surface_sine == 0 && state.bottom_sine == 0) cycle_m = std::max(cycle_m, state.cycle_m);
+  return range_m + cycle_m / 4;
+}
 
 // Sound computed over model depths and ranges, as it is over the true ones: intensities go with the inverse
 // square of the scale in even water, delays with the range, absorption by the difference of range.
@@ -191,8 +215,8 @@ void rescale(acoustics::TurnedSound& sound, double power_scale, double delay_sca
 
 TurnedSeas::Turned TurnedSeas::turned(const TurnedLink& link) const {
   const std::vector<DepthStretch> parts = stretches_of(link);
-  const double source = link.link.source_depth_m / parts.front().depth_m;
-  const double receiver = link.link.receiver_depth_m / parts.back().depth_m;
+  const double source = link.link.source_depth_m / link.depths_m.front();
+  const double receiver = link.link.receiver_depth_m / link.depths_m.back();
   const auto is_near = [](double share) { return share < kNearBoundary || share > 1 - kNearBoundary; };
   const std::size_t bins = is_near(source) || is_near(receiver) ? 96 : 48;
   const std::uint64_t hash = hash_of(link);
@@ -209,7 +233,19 @@ TurnedSeas::Turned TurnedSeas::turned(const TurnedLink& link) const {
     absorbed_db += (part.length_m - length_m) * link.water.absorption_db_per_m(0.5 * part.model_m);
   }
   const std::vector<acoustics::Stretch> back(there.rbegin(), there.rend());
-  const acoustics::TransportEnd first = end_of(*seas.front(), source), last = end_of(*seas.back(), receiver);
+  const double reach_m = there.size() == 1 ? reach_of(seas.front()->transport, model_range_m) : 0;
+  // The end at a share of the depth, with a table up to `reach_m` or, where that is 0, without one.
+  const auto end_at = [reach_m](Sea& sea, double share_of_depth) {
+    const double place = std::clamp(share_of_depth, 0.0, 1.0) * kNodesOfDepth;
+    const int node = std::min(static_cast<int>(place), kNodesOfDepth - 1);
+    const int slot = 2 * node + (reach_m > 0 ? 1 : 0);
+    constexpr double kAtNode = 1e-9;
+    const double share = place - node;
+    if (share < kAtNode) return *node_of(sea, slot);
+    if (share > 1 - kAtNode) return *node_of(sea, slot + 2);
+    return acoustics::TransportEnd::between(*node_of(sea, slot), *node_of(sea, slot + 2), share, reach_m);
+  };
+  const acoustics::TransportEnd first = end_at(*seas.front(), source), last = end_at(*seas.back(), receiver);
   Turned turned;
   turned.depth_m = depth_m / range_m;
   if (there.size() == 1) {
@@ -268,24 +304,33 @@ int cycles_of(const acoustics::Eigenray& path) {
                   path.bottom_bounces + path.identity.lower_turns);
 }
 
-// What a traced path keeps of its power.
-double kept_of(const TurnedLink& link, const acoustics::Eigenray& path) {
-  if (bounces_of(path) < 2) return power_of(path);
+// What each traced path keeps of its power.
+std::vector<double> kept_powers(const TurnedLink& link, const std::vector<acoustics::Eigenray>& paths) {
   const double surface_m =
       surface_boundary(link.surface.wind_mps, link.surface.ice, link.frequency_hz).rms_height_m;
-  return power_of(path) * acoustics::coherent_share(link.fading, surface_m, link.frequency_hz,
-                                                    path.surface_sine_squares, path.bottom_sine_squares);
+  std::vector<double> kept;
+  for (const acoustics::Eigenray& path : paths) {
+    const double share = bounces_of(path) < 2
+                             ? 1
+                             : acoustics::coherent_share(link.fading, surface_m, link.frequency_hz,
+                                                         path.surface_sine_squares, path.bottom_sine_squares);
+    kept.push_back(share * power_of(path));
+  }
+  return kept;
 }
 
 // Scales down the paths of more than three cycles whose sum exceeds the transport's total by more than 3 dB.
-void limit_focus(const TurnedLink& link, double total, std::vector<acoustics::Eigenray>& paths) {
+void limit_focus(double total, std::vector<acoustics::Eigenray>& paths, std::vector<double>& kept) {
   double sum = 0;
-  for (const acoustics::Eigenray& path : paths)
-    if (cycles_of(path) > kCyclesOfFocus) sum += kept_of(link, path);
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    if (cycles_of(paths[i]) > kCyclesOfFocus) sum += kept[i];
   if (!(sum > kMaxFocus * total) || !(total > 0)) return;
-  const double scale = std::sqrt(kMaxFocus * total / sum);
-  for (acoustics::Eigenray& path : paths)
-    if (cycles_of(path) > kCyclesOfFocus) path.amplitude *= scale;
+  const double scale = kMaxFocus * total / sum;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (cycles_of(paths[i]) <= kCyclesOfFocus) continue;
+    paths[i].amplitude *= std::sqrt(scale);
+    kept[i] *= scale;
+  }
 }
 
 }  // namespace
@@ -302,20 +347,21 @@ std::vector<acoustics::Eigenray> TurnedSeas::with_turned_sound(const TurnedLink&
   const acoustics::DelaySpectrum spectrum(sound.forward, sound.backward);
   paths.erase(std::remove_if(paths.begin(), paths.end(), [](const auto& path) { return path.diffuse; }),
               paths.end());
-  limit_focus(link, sound.total(), paths);
+  std::vector<double> kept = kept_powers(link, paths);
+  limit_focus(sound.total(), paths, kept);
   double bounced = 0, all = 0, most = 0;
-  for (const acoustics::Eigenray& path : paths) {
-    const double kept = kept_of(link, path);
-    if (bounces_of(path) > 0) bounced += kept;
-    all += kept;
-    most = std::max(most, kept);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (bounces_of(paths[i]) > 0) bounced += kept[i];
+    all += kept[i];
+    most = std::max(most, kept[i]);
   }
   const double turned_power = spectrum.power();
   const double factor = turned_power > 0 ? std::clamp(1 - bounced / turned_power, 0.0, 1.0) : 0;
   const double least = std::min(kNegligible * (all + factor * turned_power), most);
-  paths.erase(std::remove_if(paths.begin(), paths.end(),
-                             [&](const auto& path) { return kept_of(link, path) < least; }),
-              paths.end());
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    if (kept[i] >= least) paths[left++] = paths[i];
+  paths.resize(left);
   const std::vector<acoustics::Eigenray> windows =
       paths_of(link, reference_of(sound.forward, sound.backward), sound.depth_m, factor, spectrum.windows());
   paths.insert(paths.end(), windows.begin(), windows.end());
