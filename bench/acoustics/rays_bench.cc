@@ -118,7 +118,7 @@ void flux_only_link(benchmark::State& state) {
     for (Situation& at : all) {
       at.link.range_m += 1e-6;
       benchmark::DoNotOptimize(energy_flux_eigenrays(
-          {at.sea.water, 150, at.sea.bottom, at.sea.surface, at.sea.options, 0.003}, at.link));
+          {at.sea.water, 150, at.sea.bottom, at.sea.surface, at.sea.options}, at.link));
     }
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
