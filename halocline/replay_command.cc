@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -112,17 +111,6 @@ RunOutcome run_replay(const ReplayOptions& options, const ScenarioConfig& config
   bus::catch_stop_signals();
   run.threads = nodes.threads();
   return run_embedded(nodes.nodes(), run);
-}
-
-// Selects sensors and batteries only when a vehicle's clock, noise or battery depends on them; other replays
-// ignore them.
-Played played_in(const ScenarioConfig& config) {
-  const auto& equipped = config.channel_server.vehicles;
-  const auto& vehicles = config.scenario.vehicles;
-  const bool goes_by_them =
-      std::any_of(equipped.begin(), equipped.end(), [](const auto& v) { return v.clock || v.noise; }) ||
-      std::any_of(vehicles.begin(), vehicles.end(), [](const auto& v) { return v.battery.has_value(); });
-  return goes_by_them ? Played::kWithEquipment : Played::kStatesAndPackets;
 }
 
 int replay(const ReplayOptions& options) {

@@ -7,8 +7,14 @@
 #include "bus/runtime/node.h"
 #include "bus/transport/node_identity.h"
 #include "runs/analysis/recording.h"
+#include "simulation/composition.h"
 
 namespace halocline::clients {
+
+// Returns which messages a replay of the scenario needs: GPS, BATTERY and SENSORS too where a vehicle's
+// clock, battery or noise depends on them. A propeller's noise at its vehicle's own hydrophone does by
+// default.
+Played played_in(const ScenarioConfig& config);
 
 class ReplayNode : public bus::Node {
  public:

@@ -36,7 +36,7 @@ void replay(benchmark::State& state, const char* name) {
     state.PauseTiming();
     lcm::LCM lcm("memq://");
     LogReader log(path);
-    ReplayNode node(lcm, {"replay", 1}, read_recording(log, config.scenario));
+    ReplayNode node(lcm, {"replay", 1}, read_recording(log, config.scenario, played_in(config)));
     Composition nodes(lcm, config, Composition::kReplay, &node);
     EmbeddedRun run{.end = SimTime() + config.scenario.duration, .log_path = temporary("-again.lcm")};
     run.quiet = true;

@@ -69,7 +69,7 @@ class EmbeddedTest : public ::testing::Test {
   }
   std::string replay(const ScenarioConfig& config, const std::string& original, const std::string& name) {
     LogReader log(original);
-    Recording recording = read_recording(log);
+    Recording recording = read_recording(log, config.scenario, played_in(config));
     EmbeddedRun settings{.end = recording.end, .log_path = log_path(name)};
     settings.quiet = true;
     lcm::LCM lcm("memq://");

@@ -122,20 +122,34 @@ TEST_F(ReplayTest, TheModemMovesDurationsAndLevels) {
   }
 }
 
-// Fading is drawn, too: what is received moves, its mean level does not.
-TEST_F(ReplayTest, TheSeedMovesDrawsAndFadingAndNothingElseOfTheWater) {
-  const Comparison comparison = replayed_with({"scenario.seed=8"});
-  std::set<std::string> names;
-  for (const auto& row : comparison.rows()) names.insert(row.moved.begin(), row.moved.end());
+// Fading is drawn, too: what is received moves, its mean level does not. Where the sea differs from hour to
+// hour, the seed draws which hours these are: noise and level move as well.
+TEST_F(ReplayTest, TheSeedMovesDrawsAndFadingAndNothingElseOfAStillSea) {
+  const std::string original = run(harbour(still_sea()), "original");
+  std::vector<std::string> other_seed = still_sea();
+  other_seed.emplace_back("scenario.seed=8");
+  const auto names = moved(compared(original, replay(harbour(other_seed), original, "again")));
   EXPECT_TRUE(names.contains("draws"));
   for (const char* of_water : {"level", "noise", "paths", "range", "duration", "doppler", "cutoff"})
     EXPECT_FALSE(names.contains(of_water)) << of_water;
 }
+TEST_F(ReplayTest, TheSeedMovesTheHoursOfTheSea) {
+  const auto names = moved(replayed_with({"scenario.seed=8"}));
+  for (const char* of_hours : {"draws", "level", "noise"}) EXPECT_TRUE(names.contains(of_hours)) << of_hours;
+  for (const char* of_vehicles : {"range", "duration", "cutoff"})
+    EXPECT_FALSE(names.contains(of_vehicles)) << of_vehicles;
+}
 
 TEST_F(ReplayTest, AMissionFromSeaWithUnixTimesAndNothingButStatesAndTransmissionsGivesTheOutcomesOfTheRun) {
-  // A log as a recorder at sea leaves it: no CLOCK, no answers, Unix stamps in microseconds.
+  // A log as a recorder at sea leaves it: no CLOCK, no answers, Unix stamps in microseconds. Without SENSORS
+  // nothing tells how fast propellers turn.
   constexpr std::int64_t kZero_us = 1'700'000'000'000'000;
-  const std::string original = run(harbour(), "original");
+  const auto silent = [&] {
+    ScenarioConfig config = harbour();
+    for (auto& vehicle : config.channel_server.vehicles) vehicle.own_noise = false;
+    return config;
+  };
+  const std::string original = run(silent(), "original");
   const std::string at_sea = filtered(original, "at-sea", [&](LoggedEvent& event) {
     const auto move = [&]<class Message>(Message message) {
       EXPECT_TRUE(decode_checked(event.data, message));
@@ -147,7 +161,7 @@ TEST_F(ReplayTest, AMissionFromSeaWithUnixTimesAndNothingButStatesAndTransmissio
     if (family_of(event.channel) == "SEND") return move(modem_send_t{}), true;
     return false;
   });
-  const std::string again = replay(harbour(), at_sea, "again");
+  const std::string again = replay(silent(), at_sea, "again");
   const Comparison comparison = compared(original, again);
   EXPECT_GT(comparison.rows().size(), 20u);
   for (const auto& row : comparison.rows()) {

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "bus/logs/log_reader.h"
 #include "bus/runtime/lockstep_runner.h"
 #include "core/sim_time.h"
+#include "simulation/composition.h"
 #include "tests/bus/logs/log_fixture.h"
 
 namespace halocline::clients {
@@ -42,6 +44,17 @@ TEST(ReplayNode, PublishesEachMessageAtItsTime) {
   runner.run_until(SimTime::from_seconds(1));
   EXPECT_EQ(received, (std::vector<SimTime>{SimTime::from_utime(100'000), SimTime::from_utime(100'000),
                                             SimTime::from_utime(250'000)}));
+}
+
+// The noise of propellers is on by default and goes by SENSORS.
+TEST(ReplayNode, PlaysSensorsWhereNoiseClocksOrBatteriesDependOnThem) {
+  const auto played = [](const std::vector<std::string>& overrides) {
+    return played_in(load_scenario(HALOCLINE_SOURCE_DIR "/scenarios/seamount.toml", overrides));
+  };
+  EXPECT_EQ(played({}), Played::kWithEquipment);
+  EXPECT_EQ(played({"propagation.fading=\"none\""}), Played::kStatesAndPackets);
+  for (const char* equipment : {"vehicle.0.clock.drift_ppm=1", "vehicle.0.battery.capacity_wh=100"})
+    EXPECT_EQ(played({"propagation.fading=\"none\"", equipment}), Played::kWithEquipment) << equipment;
 }
 
 }  // namespace
