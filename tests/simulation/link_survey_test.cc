@@ -139,10 +139,8 @@ TEST(LinkSurvey, ForecastIsThatOfTheChannelServersPredictor) {
     EXPECT_EQ(answer.forecast.delivery_probability, row.delivery_probability);
     EXPECT_EQ(answer.forecast.sinr_db, row.sinr_db);
     EXPECT_EQ(answer.forecast.best_rate_bps, row.best_rate_bps);
-    // Echoes later than the guard time are as loud as the signal: the generic modem has no code against them.
-    const bool echoes = model == channel_server::PropagationModel::kRays;
-    EXPECT_EQ(answer.forecast.delivery_probability > 0.9, !echoes);
-    EXPECT_GT(answer.forecast.delivery_probability, 0);
+    // The generic modem is coded and hops: echoes later than its guard time fall on other tones.
+    EXPECT_GT(answer.forecast.delivery_probability, 0.9);
     EXPECT_LT(answer.forecast.coherence_time_s, 1e6);
   }
 }
