@@ -143,8 +143,10 @@ void PlatformNoise::set_noise(Flight& flight, SimTime decided_at) {
 
 Interferers interferers_of(const Flight& flight, const ReceiverState& receiver, SimTime begin, SimTime end) {
   Interferers others = receiver.interferers_of(*flight.packet, begin, end);
+  const double loss = to_power_ratio(flight.modem.receiver_loss).value;
   for (const NoiseSound& sound : flight.noise) {
-    others.paths.push_back({flight.signal.begin, flight.signal.end, sound.power, others.packets.size()});
+    others.paths.push_back(
+        {flight.signal.begin, flight.signal.end, loss * sound.power, others.packets.size()});
     others.packets.push_back(sound.source);
   }
   return others;

@@ -6,9 +6,9 @@
 // mean power of all paths and the large-scale fading of the link, as the sound of packets does. Its departure
 // is taken as the arrival of the packet less the travel time along the straight line. It keeps the loudness
 // of that departure for the whole of the packet. It disturbs like a packet that sounds all the while, and is
-// named among the colliders.
-// Not modelled: changes of the noise during the packet, and its delays along several paths. Link tables state
-// the mean over fading.
+// named among the colliders; being noise, it meets the receiver's loss (Modem::receiver_loss) as the sea's
+// does. Not modelled: changes of the noise during the packet, and its delays along several paths. Link tables
+// state the mean over fading.
 #pragma once
 
 #include <cstdint>

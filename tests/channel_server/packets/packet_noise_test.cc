@@ -35,16 +35,19 @@ using testing::for_s;
 
 // 1 sends to 2, 750 m away; 3 is a ship without a modem, 300 m beside 2.
 struct Sea {
-  explicit Sea(std::vector<NoiseSource> noise, acoustics::NoiseVariation variation = {})
-      : fleet({for_s(0.05), for_s(5)}, modems(), {.noise = VehicleNoise(std::move(noise), for_s(0.05))}),
+  explicit Sea(std::vector<NoiseSource> noise, acoustics::NoiseVariation variation = {},
+               Decibels receiver_loss = {})
+      : fleet({for_s(0.05), for_s(5)}, modems(receiver_loss),
+              {.noise = VehicleNoise(std::move(noise), for_s(0.05))}),
         propagation(testing::even_water()),
         medium(fleet, propagation, {.noise = variation}) {
     testing::move_steadily(fleet, 1, Vec3(0, 0, 50), Vec3::Zero(), 0, 60);
     testing::move_steadily(fleet, 2, Vec3(750, 0, 50), Vec3::Zero(), 0, 60);
     testing::move_steadily(fleet, 3, Vec3(750, 300, 5), Vec3(2, 0, 0), 0, 60);
   }
-  static ConfiguredModems modems() {
+  static ConfiguredModems modems(Decibels receiver_loss) {
     ConfiguredModems modems{testing::quick_modem(), {}};
+    modems.standard.modem.receiver_loss = receiver_loss;
     VehicleModem none = testing::quick_modem();
     none.fitted = false;
     modems.of_vehicle.emplace("v3", none);
@@ -151,6 +154,18 @@ TEST(ShipNoise, ComesWithTheTransmissionLossOfItsLink) {
   const PacketOutcome outcome = with_noise.send();
   const double sent_db = 120 + 10 * std::log10(5000.0);
   EXPECT_NEAR(outcome.statistics.interference.value, sent_db - outcome.budget.transmission_loss.value,
+              tolerance(1e-6));
+}
+
+// Tables add it to the noise N of SINR = S / (N 10^(loss / 10)), and packets do alike.
+TEST(ShipNoise, MeetsTheReceiversLossAsTheSeasNoiseDoes) {
+  Sea with_noise({propeller_of(1, 80)}, {}, Decibels{3});
+  with_noise.turn(1, 20);
+  const PacketOutcome outcome = with_noise.send();
+  const double level_db = 80 + 10 * std::log10(5000.0) - outcome.budget.transmission_loss.value;
+  const Decibels noise = to_decibels({ambient_power() + power_of(Decibels{level_db})});
+  EXPECT_GT(power_of(Decibels{level_db}), ambient_power());
+  EXPECT_NEAR(outcome.statistics.sinr.value, (outcome.budget.received_level - noise).value - 3,
               tolerance(1e-6));
 }
 
