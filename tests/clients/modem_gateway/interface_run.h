@@ -30,7 +30,7 @@
 
 namespace halocline::modem_gateway::testing {
 
-// Shallow straight water, still and isovelocity: travel times are ranges over 1500 m/s.
+// Shallow straight water, isovelocity, and the same at every hour: travel times are ranges over 1500 m/s.
 inline constexpr const char* kStillWater = R"(
 [scenario]
 duration_s = 600
@@ -41,9 +41,14 @@ depth_m = 200.0
 [environment]
 profile = "isovelocity"
 isovelocity_mps = 1500.0
+profile_spread_mps = 0.0
+noise_spread_db = 0.0
 wind_mps = 5.0
 [propagation]
 model = "straight"
+slow_fading_db = 0.0
+tidal_fading_db = 0.0
+daily_fading_db = 0.0
 [channel_server]
 link_rate_hz = 0.1
 )";
