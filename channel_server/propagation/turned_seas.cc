@@ -11,6 +11,7 @@
 #include "acoustics/rays/traced_eigenray.h"
 #include "acoustics/sea/ice_cover.h"
 #include "acoustics/sea/surface/surface_boundary.h"
+#include "channel_server/propagation/seabed_profile.h"
 #include "core/elementary.h"
 #include "core/hash.h"
 #include "core/units.h"
@@ -29,6 +30,8 @@ constexpr double kSlopeStep = 0.02;    // rms slopes of relief are counted in th
 constexpr double kCyclesOfFocus = 3, kMaxFocus = 2;
 constexpr double kNegligible = 1e-6;  // share of the whole power below which a path is left out
 constexpr double kLevelM = 1e-6;
+constexpr double kShoal =
+    0.2;  // share of a stretch's mean depth below which its least depth holds sound back
 
 double power_of(const acoustics::Eigenray& path) {
   const double pressure = path.received_pressure();
@@ -121,6 +124,19 @@ std::vector<DepthStretch> stretches_of(const TurnedLink& link) {
     stretches.push_back({depth_m, range_m * eighths / kStretches, model_m});
   }
   return stretches;
+}
+
+// Share of the power that passes the shoals of a link: 0 over land, all where the least depth of each stretch
+// is a fifth of its mean or more (choice). Rays keep depth times sine, so that the steep ones do not pass.
+double passing_share(const TurnedLink& link) {
+  if (is_level(link)) return 1;
+  double share = 1;
+  for (std::size_t i = 0; i < kStretches; ++i) {
+    const double one_m = link.depths_m[2 * i], other_m = link.depths_m[2 * i + 1];
+    const double open_m = std::min(one_m, other_m) - kMinWaterM;
+    share = std::min(share, std::max(open_m, 0.0) / (kShoal * 0.5 * (one_m + other_m)));
+  }
+  return share;
 }
 
 // Deviation of the sound speed by the medium in each layer of the water, and below the last one.
@@ -257,8 +273,9 @@ TurnedSeas::Turned TurnedSeas::turned(const TurnedLink& link) const {
   }
   const double longer = range_m / model_range_m;
   const double absorbed = elementary::exp10(-absorbed_db / 10);
-  rescale(turned.forward, absorbed / longer * parts.back().model_m / parts.back().depth_m, longer);
-  rescale(turned.backward, absorbed / longer * parts.front().model_m / parts.front().depth_m, longer);
+  const double scale = absorbed / longer * passing_share(link);
+  rescale(turned.forward, scale * parts.back().model_m / parts.back().depth_m, longer);
+  rescale(turned.backward, scale * parts.front().model_m / parts.front().depth_m, longer);
   return turned;
 }
 

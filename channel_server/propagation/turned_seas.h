@@ -10,10 +10,10 @@
 //   they are scaled down to it. No focus of a perfect sea survives there.
 // - Paths below 1e-6 of the whole are left out, 0.1 dB of a sum at most for the 20 000 paths of a link.
 //
-// Depth. A link is divided into up to 8 stretches of depths alike to 10 %, and the mean depth of each counts,
-// to 5 %; over a level bottom to three digits. Geometry and range are scaled from there to the depth itself,
-// exactly in even water. Ends are tabulated at fiftieths of the depth and interpolated in power. 48 bins of
-// angle, 96 where an end lies within a fifth of the depth of a boundary. The wind counts to 0.1 m/s.
+// Depth. Over a level bottom the transport is that of its depth. Elsewhere the bottom's mean depths over up
+// to 8 stretches count, each to 5 %: geometry and range are scaled from there to the depth itself, exactly in
+// even water. Ends are tabulated at fiftieths of the depth and interpolated in power. 48 bins of angle, 96
+// where an end lies within a fifth of the depth of a boundary. Land between the ends lets nothing pass.
 //
 // Transports and ends are cached by the values they depend on, so results do not depend on the order of
 // queries. Calls may overlap between threads.
