@@ -364,8 +364,8 @@ std::vector<acoustics::Eigenray> TurnedSeas::with_turned_sound(const TurnedLink&
   const acoustics::DelaySpectrum spectrum(sound.forward, sound.backward);
   paths.erase(std::remove_if(paths.begin(), paths.end(), [](const auto& path) { return path.diffuse; }),
               paths.end());
-  std::vector<double> kept = kept_powers(link, paths);
-  limit_focus(sound.total(), paths, kept);
+  const double first_s = paths.empty() ? 0 : paths.front().delay_s;  // no sound is faster: Fermat
+  limit_focus(link, sound.total(), paths);
   double bounced = 0, all = 0, most = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (bounces_of(paths[i]) > 0) bounced += kept[i];
@@ -375,12 +375,12 @@ std::vector<acoustics::Eigenray> TurnedSeas::with_turned_sound(const TurnedLink&
   const double turned_power = spectrum.power();
   const double factor = turned_power > 0 ? std::clamp(1 - bounced / turned_power, 0.0, 1.0) : 0;
   const double least = std::min(kNegligible * (all + factor * turned_power), most);
-  std::size_t left = 0;
-  for (std::size_t i = 0; i < paths.size(); ++i)
-    if (kept[i] >= least) paths[left++] = paths[i];
-  paths.resize(left);
-  const std::vector<acoustics::Eigenray> windows =
+  paths.erase(std::remove_if(paths.begin(), paths.end(),
+                             [&](const auto& path) { return kept_of(link, path) < least; }),
+              paths.end());
+  std::vector<acoustics::Eigenray> windows =
       paths_of(link, reference_of(sound.forward, sound.backward), sound.depth_m, factor, spectrum.windows());
+  for (acoustics::Eigenray& window : windows) window.delay_s = std::max(window.delay_s, first_s);
   paths.insert(paths.end(), windows.begin(), windows.end());
   std::stable_sort(paths.begin(), paths.end(),
                    [](const auto& a, const auto& b) { return a.delay_s < b.delay_s; });

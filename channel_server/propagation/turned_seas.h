@@ -6,6 +6,7 @@
 // - Paths of one bounce keep their scattered share, at their own delay; of paths of several bounces the
 //   coherent share E stays. What the search left unresolved (Eigenray::diffuse) is in A.
 // - Windows of delay have f A, f = 1 - (power that bounced traced paths keep) / A, within 0 and 1.
+//   None comes before the first traced path.
 // - Beyond 3 cycles of a path no sum of traced paths exceeds the transport's total by more than 3 dB:
 //   they are scaled down to it. No focus of a perfect sea survives there.
 // - Paths below 1e-6 of the whole are left out, 0.1 dB of a sum at most for the 20 000 paths of a link.

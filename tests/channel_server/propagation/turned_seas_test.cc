@@ -164,6 +164,20 @@ TEST(TurnedSeas, FadeFullyInTheirWindows) {
   EXPECT_LE(windows, 16);
 }
 
+// Warm water on top bends all direct sound down: the first path is one of a bounce, and no window of turned
+// sound comes before it.
+TEST(TurnedSeas, ComeAfterTheFirstPath) {
+  const TurningSea sea{
+      90, 5, 25'000, "MediumSand", {{0, 1508}, {5, 1506}, {10, 1490}, {20, 1483}, {90, 1480}}};
+  RayPropagation propagation = sea.propagation();
+  const Reception reception = over_level(sea, propagation, 850, 5, 10);
+  ASSERT_FALSE(reception.paths.empty());
+  EXPECT_FALSE(reception.paths.front().diffuse);
+  EXPECT_GT(reception.paths.front().bottom_bounces, 0);
+  EXPECT_TRUE(std::any_of(reception.paths.begin(), reception.paths.end(),
+                          [](const Arrival& path) { return path.diffuse; }));
+}
+
 // Power of the turned sound of a link of 1500 m over even water, 40 m deep less `rise_m` of the place.
 double turned_power(const TurnedSeas& seas, const std::function<double(std::size_t)>& rise_m) {
   const acoustics::RayWater water({{0, 1500}, {100, 1500}}, [](double) { return 5.0; });
