@@ -165,6 +165,29 @@ void visit_extra_loss(bus::ConfigVisitor& v, ExtraLoss& loss) {
   loss.end = until_s > 0 ? SimTime::from_seconds(until_s) : SimTime::never();
 }
 
+void visit_calibration(bus::ConfigVisitor& v, ReceiverCalibration& calibration) {
+  v.number("receiver_loss_db", calibration.loss_db,
+           {-20, 40, "dB", "loss of all receivers on top of receiver_loss_db of their modems"});
+  v.number("echo_factor", calibration.echo_factor,
+           {0, 100, "", "factor on late_echo_share of all modems, whose product ends at 8"});
+}
+
+void calibrate(const ReceiverCalibration& calibration, acoustics::Modem& modem) {
+  modem.receiver_loss.value = std::clamp(modem.receiver_loss.value + calibration.loss_db,
+                                         acoustics::kMinReceiverLossDb, acoustics::kMaxReceiverLossDb);
+  modem.late_echo_share =
+      std::min(modem.late_echo_share * calibration.echo_factor, acoustics::kMaxLateEchoShare);
+}
+
+VehicleModem calibrated(const ReceiverCalibration& calibration, VehicleModem vehicle) {
+  if (calibration.loss_db == 0 && calibration.echo_factor == 1) return vehicle;
+  calibrate(calibration, vehicle.modem);
+  std::vector<ModemRate> rates(vehicle.rates.all().begin(), vehicle.rates.all().end());
+  for (ModemRate& rate : rates) calibrate(calibration, rate.modem);
+  vehicle.rates = RateSet(std::move(rates));
+  return vehicle;
+}
+
 // Returns the kind of the place; empty when it is left to the depth.
 std::optional<acoustics::NoisePlace> noise_place(const EnvironmentConfig& config) {
   for (const acoustics::NoisePlace place : acoustics::kNoisePlaces) {
@@ -220,13 +243,18 @@ bool needs_depth(const EnvironmentConfig& config) {
 }
 
 void use_depth(double depth_m, EnvironmentConfig& config) {
-  if (needs_depth(config)) config.noise_place = to_name(acoustics::place_of_depth(depth_m));
+  if (!needs_depth(config)) return;
+  const bool is_fast_ice = config.ice.kind == acoustics::IceKind::kFast;
+  config.noise_place =
+      to_name(is_fast_ice ? acoustics::NoisePlace::kFastIce : acoustics::place_of_depth(depth_m));
 }
 
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config) {
   visit_water(v, config);
   v.section("modem", "Modem of every vehicle that does not set its own",
             [&](bus::ConfigVisitor& s) { visit_modem(s, config.modem); });
+  v.section("calibration", "Receivers of all modems at this place, as `halocline calibrate` finds them",
+            [&](bus::ConfigVisitor& s) { visit_calibration(s, config.calibration); });
   v.list(
       "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
       [&](bus::ConfigVisitor& item, std::size_t i) {
@@ -254,10 +282,10 @@ void visit(bus::ConfigVisitor& v, ChannelServerConfig& config) {
 
 ConfiguredModems make_modems(const ChannelServerConfig& config) {
   validate(config.modem.modem);
-  ConfiguredModems modems{config.modem, {}};
+  ConfiguredModems modems{calibrated(config.calibration, config.modem), {}};
   for (const auto& vehicle : config.vehicles) {
     if (!vehicle.has_modem && vehicle.carries_modem) continue;
-    VehicleModem modem = vehicle.has_modem ? vehicle.modem : config.modem;
+    VehicleModem modem = calibrated(config.calibration, vehicle.has_modem ? vehicle.modem : config.modem);
     modem.fitted = vehicle.carries_modem;
     validate(modem.modem);
     modems.of_vehicle.emplace(vehicle.name, std::move(modem));

@@ -139,6 +139,12 @@ struct ServerRules {
   double receiver_margin_db = 0;
 };
 
+// What a calibration changes in all modems: those of vehicles and their rates, too.
+struct ReceiverCalibration {
+  double loss_db = 0;      // added to Modem::receiver_loss
+  double echo_factor = 1;  // on Modem::late_echo_share
+};
+
 // The whole configuration of the channel server.
 struct ChannelServerConfig {
   struct OfVehicle {
@@ -157,6 +163,7 @@ struct ChannelServerConfig {
   std::vector<ChangeConfig> changes;
   VehicleModem modem = load_modem(kGenericProfile);  // coded and hopped, unlike the struct's ideal default
   std::vector<OfVehicle> vehicles;
+  ReceiverCalibration calibration;
   ServerRules rules;
 };
 
@@ -176,7 +183,7 @@ void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
 std::vector<acoustics::TimedSpectrum> noise_table(const EnvironmentConfig& config);
 // True when the noise of the place is left to the depth of the water.
 bool needs_depth(const EnvironmentConfig& config);
-// Sets the place that is left to the depth: a shelf in water of up to 500 m, else open.
+// Sets the place that is left to the depth: below fast ice that, a shelf in water of up to 500 m, else open.
 void use_depth(double depth_m, EnvironmentConfig& config);
 
 // Returns the noise sources at the start, with the first spectrum of noise_file.
@@ -200,11 +207,11 @@ RayModel make_rays(const ChannelServerConfig& config);
 acoustics::FadingModel fading_of(const ChannelServerConfig& config);
 
 // Returns the ends of a scenario's links among its waves; empty where nothing near the surface acts on sound:
-// along straight paths, and without fading.
+// along straight paths, without fading, and with scattering = "none".
 std::optional<SurfaceEnds> make_surface_ends(const ChannelServerConfig& config,
                                              const bus::Scenario& scenario);
 
-// Returns the scenario's modem and those of its vehicles.
+// Returns the scenario's modem and those of its vehicles, with what the calibration changes in them.
 ConfiguredModems make_modems(const ChannelServerConfig& config);
 
 // Returns the variation of the ambient noise: the configured one, with what the place adds. A reef is louder

@@ -191,7 +191,8 @@ acoustics::FadingModel fading_of(const ChannelServerConfig& config) {
 std::optional<SurfaceEnds> make_surface_ends(const ChannelServerConfig& config,
                                              const bus::Scenario& scenario) {
   const PropagationConfig& p = config.propagation;
-  if (!p.rays.near_surface || p.model != PropagationModel::kRays || !p.fading.enabled) return std::nullopt;
+  const bool is_rough = p.model == PropagationModel::kRays && p.fading.enabled && p.fading.turns;
+  if (!p.rays.near_surface || !is_rough) return std::nullopt;
   SurfaceEnds ends{.seed = scenario.seed};
   for (const bus::VehicleEntry& vehicle : scenario.vehicles) {
     const bool is_floating = vehicle.mount == bus::Mount::kFloating;

@@ -15,6 +15,7 @@
 #include "simulation/calibration/trial_data.h"
 #include "simulation/calibration/trial_log.h"
 #include "simulation/composition.h"
+#include "simulation/link_survey.h"
 
 namespace halocline::clients {
 namespace {
@@ -30,7 +31,15 @@ std::vector<TrialRow> rows_of(const CalibrateOptions& options, const ScenarioCon
     throw InvalidArgument(options.data + ": cannot be read: " + reason);
   if (options.data.ends_with(".csv")) {
     std::ifstream file(options.data);
-    return read_trial_csv(file, options.data);
+    const auto terrain = make_terrain(config).terrain;
+    return read_trial_csv(file, options.data, [&](const std::string& end) -> std::string {
+      try {
+        require_above_seabed(*terrain, link_end(config, end));
+      } catch (const InvalidArgument& error) {
+        return error.what();
+      }
+      return {};
+    });
   }
   LogReader log(options.data);
   TrialLog trial = read_trial_log(log, config);
@@ -76,9 +85,9 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   add_force_option(*command, options->force);
   command->footer(
-      "Times in CSV are numbers of seconds or dates such as 2026-05-03T14:00:00Z; from and to are vehicles "
-      "of the\n"
-      "scenario or places \"NORTH,EAST,DOWN\" in quotes. The scenario then begins with include = "
+      "Times in CSV are numbers of seconds or dates such as 2026-05-03T14:00:00Z, in any order; from and to "
+      "are vehicles\n"
+      "of the scenario or places \"NORTH,EAST,DOWN\" in quotes. The scenario then begins with include = "
       "\"FILE.toml\".\n\n" +
       footer("  halocline calibrate first_days.csv bay.toml --write bay_calibrated.toml\n"
              "  halocline link bay.toml --from a --to b --ensemble 20"));

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/modem/error_model.h"
 
-#include <algorithm>
-
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/block_code.h"
 #include "acoustics/modem/convolutional_code.h"
@@ -29,10 +27,10 @@ double never(PowerRatio) { return 0; }
 double bch64(PowerRatio eb_over_n0) { return coded_bit_error_rate(bch_64_10(), eb_over_n0); }
 double orthogonal16(PowerRatio eb_over_n0) { return orthogonal16_bit_error_rate(eb_over_n0); }
 
-// Of the pulse's detector.
 constexpr double kPulseFalseAlarm = 1e-3;
+// A pulse in noise alone is there by a false alarm only: a code is not guessed as bits are.
 double pulses(PowerRatio pulse_over_n0) {
-  return std::min(0.5, 1 - detection_probability(1, kPulseFalseAlarm, pulse_over_n0));
+  return 1 - detection_probability(1, kPulseFalseAlarm, pulse_over_n0);
 }
 
 double hamming14(PowerRatio eb_over_n0) { return coded_bit_error_rate(hamming_14_9(), eb_over_n0); }

@@ -35,9 +35,10 @@ void validate_hopping(const Modem& modem) {
 }
 
 void validate_receiver(const Modem& modem) {
-  require_in_range(modem.receiver_loss.value, -20, 40, "loss of the receiver", "dB");
+  require_in_range(modem.receiver_loss.value, kMinReceiverLossDb, kMaxReceiverLossDb, "loss of the receiver",
+                   "dB");
   require_in_range(modem.receiver_channels, 1, 64, "hydrophones of the receiver");
-  require_in_range(modem.late_echo_share, 0, 1, "share of late echoes that disturbs");
+  require_in_range(modem.late_echo_share, 0, kMaxLateEchoShare, "share of late echoes that disturbs");
   require_in_range(modem.echo_cancelled, 0, 1, "share of late echoes that is cancelled");
   require_in_range(modem.impulse_loss.value, 0, 40, "loss in impulsive noise", "dB");
 }

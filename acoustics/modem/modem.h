@@ -29,6 +29,9 @@ namespace halocline::acoustics {
 
 // The largest payload of any packet, bytes.
 inline constexpr std::int32_t kMaxPayloadBytes = 32'768;
+// Bounds of Modem::receiver_loss, dB, and Modem::late_echo_share. A calibration (simulation/calibration) may
+// find receivers better than their theory, and late echoes that disturb more than by their power.
+inline constexpr double kMinReceiverLossDb = -20, kMaxReceiverLossDb = 40, kMaxLateEchoShare = 8;
 
 // Structure of a packet. A frame is always sent whole, even if few of its bytes are used.
 struct FrameLayout {
@@ -93,7 +96,7 @@ struct Modem {
   // Loss against the theory of its error model, dB, -20..40, of acquisition and decoding alike.
   Decibels receiver_loss{0};
   std::int32_t receiver_channels = 1;  // hydrophones combined, 1..64
-  double late_echo_share = 1;          // kappa: share of a late echo's power that disturbs, 0..1
+  double late_echo_share = 1;          // kappa: share of a late echo's power that disturbs, 0..8
   double echo_cancelled = 0;           // eta: share that feedback takes away of an echo it can follow, 0..1
   Decibels impulse_loss{0};            // in impulsive noise, on top of receiver_loss, dB, 0..40
   FrameLayout layout;

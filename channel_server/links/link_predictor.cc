@@ -208,18 +208,19 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
             ? predict_link(rule_.fading, paths, receiver, windows, transmitter.band(), noise_power, curves,
                            shifts)
             : predict_link(rule_.fading, paths, {&receiver, window}, transmitter.band(), noise_power, curves);
-    predicted.acquisition_probability *= reception.share_under_water;
-    predicted.delivery_probability *= reception.share_under_water;
+    if (own && from_table && shifts.any()) {
+      predicted.delivery_low = shifted_delivery(one_path, paths, noise_power, shifts.low_db, *from_table);
+      predicted.delivery_high = shifted_delivery(one_path, paths, noise_power, shifts.high_db, *from_table);
+    }
+    for (double* share : {&predicted.acquisition_probability, &predicted.delivery_probability,
+                          &predicted.delivery_low, &predicted.delivery_high})
+      *share *= reception.share_under_water;
     if (own) {
       forecast.sinr_db = level_of(predicted.sinr).value;
       forecast.acquisition_probability = predicted.acquisition_probability;
       forecast.delivery_probability = predicted.delivery_probability;
       forecast.delivery_low = predicted.delivery_low;
       forecast.delivery_high = predicted.delivery_high;
-      if (from_table && shifts.any()) {
-        forecast.delivery_low = shifted_delivery(one_path, paths, noise_power, shifts.low_db, predicted);
-        forecast.delivery_high = shifted_delivery(one_path, paths, noise_power, shifts.high_db, predicted);
-      }
       const DisturbingPowers& d = predicted.disturbances;
       forecast.powers = {.noise = d.noise / impulses,
                          .late_echoes = d.late_echoes,

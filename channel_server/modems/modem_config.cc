@@ -80,12 +80,14 @@ void visit_receiver(bus::ConfigVisitor& v, acoustics::Modem& a) {
   bus::choice(v, "receiver", a.receiver, bus::names_of(acoustics::kReceiverKinds),
               "paths that the receiver collects: hops and equaliser those of the guard time");
   v.number("receiver_loss_db", a.receiver_loss.value,
-           {-20, 40, "dB", "loss of the receiver against the theory of its error_model"});
+           {acoustics::kMinReceiverLossDb, acoustics::kMaxReceiverLossDb, "dB",
+            "loss of the receiver against the theory of its error_model"});
   bus::integer_as(v, "receiver_channels", a.receiver_channels,
                   {1, 64, "", "hydrophones that the receiver combines"});
   v.advanced([&] {
     v.number("late_echo_share", a.late_echo_share,
-             {0, 1, "", "share of the power of an echo outside of the guard time that disturbs"});
+             {0, acoustics::kMaxLateEchoShare, "",
+              "share of the power of an echo outside of the guard time that disturbs"});
     v.number("echo_cancelled", a.echo_cancelled,
              {0, 1, "", "share of such echoes that an equaliser takes away, of those it can track"});
     v.number("impulse_loss_db", a.impulse_loss.value,

@@ -20,6 +20,9 @@
 namespace halocline::clients {
 namespace {
 
+constexpr double kLeastInside = 0.5;     // share of pairs, for which bands are believed
+constexpr std::size_t kLeastChecks = 3;  // from which the share tells
+
 std::string number_line(const CalibratedNumber& number) {
   const auto spread = [&](double value, double deviation) {
     return number.is_logarithmic
@@ -54,9 +57,13 @@ std::string checks_text(const Calibration& calibration) {
     text += check_line(check);
     inside += check.is_inside() ? 1 : 0;
   }
-  return text +
-         fmt::format("inside the band of 80 %: {} of {} pairs, {:.0f} %\n", inside, calibration.checks.size(),
-                     100.0 * static_cast<double>(inside) / static_cast<double>(calibration.checks.size()));
+  const double share = static_cast<double>(inside) / static_cast<double>(calibration.checks.size());
+  text += fmt::format("inside the band of 80 %: {} of {} pairs, {:.0f} %\n", inside,
+                      calibration.checks.size(), 100.0 * share);
+  if (share < kLeastInside && calibration.checks.size() >= kLeastChecks)
+    text +=
+        "  pairs differ by more than these numbers and their errors tell: take the bands for too narrow\n";
+  return text;
 }
 
 // Collects keys by section, and prints them in order of the sections.
@@ -93,7 +100,7 @@ void write_offset(const Calibration& calibration, KeyWriter& keys) {
   const CalibratedNumber *noise = calibration.told(kNoiseDb), *receiver = calibration.told(kReceiverDb);
   const auto add = [](double term) { return [term](double value) { return value + term; }; };
   if (noise != nullptr) keys.change("environment", "noise_offset_db", add(noise->value));
-  if (receiver != nullptr) keys.change("modem", "receiver_loss_db", add(receiver->value));
+  if (receiver != nullptr) keys.change("calibration", "receiver_loss_db", add(receiver->value));
 }
 
 void write_bottom(const Calibration& calibration, KeyWriter& keys) {
@@ -123,7 +130,7 @@ void write_slow(const Calibration& calibration, KeyWriter& keys) {
 void write_echoes(const Calibration& calibration, KeyWriter& keys) {
   const CalibratedNumber* echoes = calibration.told(kLnEcho);
   if (echoes == nullptr) return;
-  keys.change("modem", "late_echo_share", [echoes](double value) { return value * echoes->value; });
+  keys.change("calibration", "echo_factor", [echoes](double value) { return value * echoes->value; });
 }
 
 void write_uncertainty(const Calibration& calibration, const Uncertainty& before, KeyWriter& keys) {
@@ -169,7 +176,8 @@ std::string to_toml(const Calibration& calibration, const ScenarioConfig& config
   std::string text =
       "# Calibration of '" + without_controls(config.scenario.name) + "' by " + without_controls(source) +
       ", " + std::to_string(calibration.pairs) +
-      " pairs. The scenario includes it by\n#   include = \"THIS FILE\"\n# before its first section.\n";
+      " pairs. The scenario includes it by\n#   include = \"THIS FILE\"\n# before its first section. "
+      "For another place leave out [uncertainty], which is this one's.\n";
   if (keys.empty()) text += "# These data tell none of the numbers.\n";
   return text + keys.text();
 }

@@ -24,15 +24,16 @@ struct Columns {
 // Reader of the rows of one table, which collects their errors.
 class RowReader {
  public:
-  RowReader(const std::string& file, const Columns& columns, std::vector<std::string>& errors)
-      : file_(file), columns_(columns), errors_(errors) {}
+  RowReader(const std::string& file, const Columns& columns, const EndCheck& why_no_end,
+            std::vector<std::string>& errors)
+      : file_(file), columns_(columns), why_no_end_(why_no_end), errors_(errors) {}
 
   // Reads a row, but for its time; empty when it has an error.
   std::optional<TrialRow> read(const CsvLine& line) {
     const std::size_t before = errors_.size();
     TrialRow row{.from = line.cells[*columns_.from], .to = line.cells[*columns_.to]};
-    if (row.from.empty()) refuse(line, *columns_.from, "a vehicle or a place is needed");
-    if (row.to.empty()) refuse(line, *columns_.to, "a vehicle or a place is needed");
+    check_end(line, *columns_.from);
+    check_end(line, *columns_.to);
     if (!row.from.empty() && row.from == row.to) refuse(line, *columns_.to, "it is the sender itself");
     read_packets(line, row);
     row.level_db = number(line, columns_.level);
@@ -49,6 +50,14 @@ class RowReader {
   }
 
  private:
+  void check_end(const CsvLine& line, std::size_t column) {
+    const std::string& end = line.cells[column];
+    if (end.empty()) return refuse(line, column, "a vehicle or a place is needed");
+    if (!why_no_end_) return;
+    const auto [known, is_new] = ends_.try_emplace(end);
+    if (is_new) known->second = why_no_end_(end);
+    if (!known->second.empty()) refuse(line, column, known->second);
+  }
   static bool has(const CsvLine& line, const std::optional<std::size_t>& column) {
     return column && !line.cells[*column].empty();
   }
@@ -75,6 +84,8 @@ class RowReader {
 
   const std::string& file_;
   const Columns& columns_;
+  const EndCheck& why_no_end_;
+  std::map<std::string, std::string> ends_;  // reasons of those that were checked
   std::vector<std::string>& errors_;
 };
 
@@ -87,6 +98,10 @@ Columns columns_of(const CsvTable& table, const std::string& file, std::vector<s
                         table.column("sent"),     table.column("received"), either("level_db", "level"),
                         either("snr_db", "snr")};
   const std::string at = file + ":" + std::to_string(table.header.number) + ":1: ";
+  if (table.header.cells.size() == 1 && table.header.text.find_first_of(";\t") != std::string::npos) {
+    errors.push_back(at + "cells are parted by semicolons or tabs; commas are needed, and points in numbers");
+    return columns;
+  }
   if (!columns.time || !columns.from || !columns.to)
     errors.push_back(at + "the columns time, from and to are needed");
   if (columns.sent.has_value() != columns.received.has_value())
@@ -165,7 +180,7 @@ std::optional<double> seconds_of_date(std::string_view text) {
   return seconds + *time - *zone_s;
 }
 
-std::vector<TrialRow> read_trial_csv(std::istream& in, const std::string& file) {
+std::vector<TrialRow> read_trial_csv(std::istream& in, const std::string& file, const EndCheck& why_no_end) {
   std::vector<std::string> errors, problems;
   const CsvTable table = read_csv(in, problems);
   for (const std::string& problem : problems) {
@@ -178,7 +193,7 @@ std::vector<TrialRow> read_trial_csv(std::istream& in, const std::string& file) 
   std::size_t dates = 0;
   if (columns.time && columns.from && columns.to &&
       columns.sent.has_value() == columns.received.has_value()) {
-    RowReader reader(file, columns, errors);
+    RowReader reader(file, columns, why_no_end, errors);
     for (const CsvLine& line : table.rows) {
       const std::string& time = line.cells[*columns.time];
       const auto number = parse_number(time, -1e12, 1e12),

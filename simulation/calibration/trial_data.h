@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
@@ -29,8 +30,13 @@ struct TrialRow {
   std::optional<double> level_db = {}, snr_db = {};  // of the received signal
 };
 
-// Reads CSV. Throws InvalidArgument with a line for each error (at most 20): "file:line:column: what".
-std::vector<TrialRow> read_trial_csv(std::istream& in, const std::string& file);
+// Reason why a text names no end of a link; empty where it does.
+using EndCheck = std::function<std::string(const std::string& end)>;
+
+// Reads CSV, rows in any order; `why_no_end` may be empty. Throws InvalidArgument with a line for each error
+// (at most 20): "file:line:column: what".
+std::vector<TrialRow> read_trial_csv(std::istream& in, const std::string& file,
+                                     const EndCheck& why_no_end = {});
 
 // Returns seconds since 1970 of a date of ISO 8601; empty when the text is none.
 std::optional<double> seconds_of_date(std::string_view text);

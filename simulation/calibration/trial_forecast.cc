@@ -22,7 +22,7 @@ namespace halocline::clients {
 namespace {
 
 constexpr std::size_t kMiddle = kLnFactors.size() / 2;
-const std::string kEchoKey = "modem.late_echo_share";
+const std::string kEchoKey = "calibration.echo_factor";
 
 // Weights of the factors at ln_factor by Catmull and Rom's cubic, whose slope has no steps. Beyond the ends
 // of the table, and for a factor that the cubic lacks there, the line through the last two holds, so that a
@@ -57,7 +57,7 @@ PairForecast::Values weights_at(double ln_factor) {
 }
 
 void scale_echoes(channel_server::ChannelServerConfig& config, double factor) {
-  change_keys(config, {scaled(kEchoKey, factor), scaled("vehicle." + kEchoKey, factor)});
+  change_keys(config, {scaled(kEchoKey, factor)});
 }
 
 // Returns the scenario as it is from a time on, without changes to come.
@@ -158,7 +158,10 @@ bool has_bottom_factor(const ScenarioConfig& config) {
 }
 
 bool has_echo_factor(const ScenarioConfig& config) {
-  return number_of_key(config.channel_server, kEchoKey).value_or(0) > 0;
+  const channel_server::ConfiguredModems modems = make_modems(config.channel_server);
+  return modems.standard.modem.late_echo_share > 0 ||
+         std::any_of(modems.of_vehicle.begin(), modems.of_vehicle.end(),
+                     [](const auto& own) { return own.second.modem.late_echo_share > 0; });
 }
 
 std::vector<double> changes_of_sea(const ScenarioConfig& config) {

@@ -230,6 +230,42 @@ keel_draft_m = 4
   EXPECT_THAT(errors_of("[ice]\ncover = \"thin\"\n"), HasSubstr("ice.cover"));
 }
 
+TEST(ChannelServerConfig, BelowFastIceIsItsNoise) {
+  const auto place_of = [](const std::string& toml) {
+    ChannelServerConfig config = read(toml);
+    use_depth(30, config.environment);
+    return config.environment.noise_place;
+  };
+  EXPECT_EQ(place_of("[ice]\ncover = \"fast\"\n"), "fast-ice");
+  EXPECT_EQ(place_of("[ice]\ncover = \"pack\"\n"), "shelf");
+  EXPECT_EQ(place_of("[environment]\nnoise_place = \"harbour\"\n[ice]\ncover = \"fast\"\n"), "harbour");
+}
+
+// Modems of vehicles and rates included; the bounds of both keys hold.
+TEST(ChannelServerConfig, CalibratedReceiversAreThoseOfAllModems) {
+  const auto modems_of = [](const std::string& calibration) {
+    return make_modems(read("[calibration]\n" + calibration +
+                            "[[vehicle]]\nname = \"a\"\nid = 1\n[vehicle.modem]\nprofile = "
+                            "\"micromodem-psk-1\"\n[[vehicle]]\nname = \"b\"\nid = 2\n"));
+  };
+  const ConfiguredModems before = modems_of(""),
+                         after = modems_of("receiver_loss_db = -2.5\necho_factor = 0.5\n"),
+                         most = modems_of("receiver_loss_db = 40\necho_factor = 100\n");
+  const auto expect_changed = [](const acoustics::Modem& old, const acoustics::Modem& now) {
+    EXPECT_EQ(now.receiver_loss.value, old.receiver_loss.value - 2.5);
+    EXPECT_EQ(now.late_echo_share, 0.5 * old.late_echo_share);
+  };
+  for (const char* name : {"a", "b"}) {
+    const VehicleModem &old = before.of(name), &now = after.of(name);
+    expect_changed(old.modem, now.modem);
+    ASSERT_EQ(now.rates.all().size(), old.rates.all().size());
+    for (std::size_t i = 0; i < old.rates.all().size(); ++i)
+      expect_changed(old.rates.all()[i].modem, now.rates.all()[i].modem);
+    EXPECT_EQ(most.of(name).modem.receiver_loss.value, acoustics::kMaxReceiverLossDb);
+    EXPECT_EQ(most.of(name).modem.late_echo_share, acoustics::kMaxLateEchoShare);
+  }
+}
+
 TEST(ChannelServerConfig, EndsNearTheSurfaceAreThoseOfTheScenario) {
   ChannelServerConfig config;
   bus::Scenario scenario;
@@ -250,6 +286,9 @@ TEST(ChannelServerConfig, EndsNearTheSurfaceAreThoseOfTheScenario) {
   config.propagation.fading.enabled = false;
   EXPECT_FALSE(make_surface_ends(config, scenario));
   config.propagation.fading.enabled = true;
+  config.propagation.fading.turns = false;
+  EXPECT_FALSE(make_surface_ends(config, scenario));
+  config.propagation.fading.turns = true;
   config.propagation.model = PropagationModel::kStraight;
   EXPECT_FALSE(make_surface_ends(config, scenario));
 }

@@ -85,6 +85,8 @@ TEST(LinkPredictor, APulseCodeHasTheEnergyOfItsChip) {
   tag.hop_clearing = SimDuration::from_milliseconds(250);
   EXPECT_GT(forecast_of(predictor, tag, tag, reception_of(60)).delivery_probability, 0.8);
   EXPECT_LT(forecast_of(predictor, tag, tag, reception_of(105)).delivery_probability, 0.1);
+  // A code is not guessed: 8 pulses in noise alone are 8 false alarms of 1e-3.
+  EXPECT_LT(forecast_of(predictor, tag, tag, reception_of(160)).delivery_probability, 1e-20);
 }
 
 // In impulsive noise a receiver has its further loss; it is told apart from the noise.

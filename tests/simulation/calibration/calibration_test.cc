@@ -114,6 +114,61 @@ TEST(Calibration, IsWrittenAsKeysOfAScenario) {
   EXPECT_LT(read.uncertainty.bottom_octaves, 1);
 }
 
+// Numbers at the edges of what a fit may find: the keys stay within their ranges.
+TEST(Calibration, WhateverItFindsCanBeReadAgain) {
+  ScenarioConfig config;
+  for (const double sign : {-1.0, 1.0}) {
+    Calibration found;
+    const auto tell = [&](SeaNumber number, double value, bool is_factor) {
+      found.numbers.push_back({.number = number,
+                               .is_logarithmic = is_factor,
+                               .is_told = true,
+                               .value = is_factor ? std::exp(sign * value) : sign * value,
+                               .deviation = 0.5,
+                               .prior_deviation = 1,
+                               .fitted_deviation = 0.5});
+    };
+    tell(kNoiseDb, 100, false);
+    tell(kReceiverDb, 50, false);
+    tell(kLnBottom, 6, true);
+    tell(kLnSlowDb, 6, true);
+    tell(kLnEcho, 6, true);
+    auto file = bus::ConfigFile::parse(to_toml(found, config, "trial.csv"), "calibrated.toml");
+    ScenarioConfig read;
+    EXPECT_NO_THROW({
+      file.read([&](bus::ConfigVisitor& v) { visit(v, read); });
+      file.check(/*whole_file=*/true);
+    }) << to_toml(found, config, "trial.csv");
+    EXPECT_EQ(read.channel_server.calibration.loss_db, sign < 0 ? -20 : 40);
+  }
+}
+
+// The numbers hold for the modems that vehicles have of their own, too: scaled echoes cost a link between
+// them what they cost one of [modem].
+TEST(Calibration, EchoesAreThoseOfVehiclesWithModemsOfTheirOwn) {
+  const auto config_of = [](const std::string& modems) {
+    auto file = bus::ConfigFile::parse("[terrain]\nkind = \"flat\"\n[terrain.flat]\ndepth_m = 20\n" + modems,
+                                       "own.toml");
+    ScenarioConfig config;
+    file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
+    file.check(/*whole_file=*/true);
+    return config;
+  };
+  const auto vehicle = [](const char* name, int id, const std::string& modem) {
+    return std::string("[[vehicle]]\nname = \"") + name + "\"\nid = " + std::to_string(id) +
+           "\nmodel = \"fixed\"\nstart_ned_m = [" + std::to_string(1500.0 * id) + ", 0.0, 15.0]\n" + modem;
+  };
+  const std::string own = "[vehicle.modem]\nprofile = \"unet-data\"\n";
+  const ScenarioConfig with_own = config_of(vehicle("a", 1, own) + vehicle("b", 2, own)),
+                       shared = config_of("[modem]\nprofile = \"unet-data\"\n" + vehicle("a", 1, "") +
+                                          vehicle("b", 2, ""));
+  const auto pairs = pairs_of({{.from = "a", .to = "b", .sent = 1}}, 7200);
+  const PairForecast one = pair_forecasts(with_own, pairs, {0}, {{0}})[0][0],
+                     other = pair_forecasts(shared, pairs, {0}, {{0}})[0][0];
+  EXPECT_EQ(one.by_echo, other.by_echo);
+  EXPECT_NE(one.by_echo.front(), one.by_echo.back());
+}
+
 // A whole chain on a small scenario: as many packets as the forecast says leave the offset near 0.
 TEST(Calibration, OfAScenarioWithoutMistakesIsNearNothing) {
   ScenarioConfig config;

@@ -67,6 +67,27 @@ TEST(TrialData, OtherFaultsAreRefused) {
   EXPECT_NE(error_of("time,from,to,sent,received\n1,a,b,1,1\n2026-05-03,a,b,1,1\n"), "");
 }
 
+TEST(TrialData, FilesOfSpreadsheetsAreRead) {
+  const auto rows = read("\xEF\xBB\xBFtime,from,to,sent,received\r\n20,a,b,3,1\r\n10,a,b,2,2\r\n");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[1].received, 2);
+  const std::string error = error_of("time;from;to;sent;received\n1;a;b;3;1\n");
+  EXPECT_NE(error.find("days.csv:1:1: cells are parted by semicolons"), std::string::npos) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
+TEST(TrialData, EndsThatTheScenarioLacksAreNamedByLine) {
+  std::istringstream in("time,from,to,sent,received\n1,a,b,1,1\n2,a,buoy,1,1\n");
+  try {
+    read_trial_csv(in, "days.csv", [](const std::string& end) {
+      return end == "buoy" ? std::string("no such vehicle") : std::string();
+    });
+    FAIL();
+  } catch (const InvalidArgument& error) {
+    EXPECT_STREQ(error.what(), "days.csv:3:3: 'buoy': no such vehicle");
+  }
+}
+
 TEST(TrialData, BinsSumPacketsAndAverageLevels) {
   const auto pairs =
       pairs_of({{.time_s = 10, .from = "a", .to = "b", .sent = 5, .received = 2, .level_db = 90},
