@@ -287,7 +287,7 @@ TEST(ModemProfile, ErrorsFallAsTheRatioRisesForEveryProfile) {
   for (const std::string& name : built_in_modems()) {
     const Modem modem = modem_of(name);
     double before = bit_error_rate(modem, {0});
-    EXPECT_DOUBLE_EQ(before, 0.5) << name;
+    EXPECT_DOUBLE_EQ(before, modem.error_model == ErrorModel::kPulses ? 0.999 : 0.5) << name;
     for (int step = -400; step <= 400; ++step) {
       const double now = bit_error_rate(modem, to_power_ratio(Decibels{step * 0.1}));
       ASSERT_LE(now, before) << name << " at " << step * 0.1 << " dB";
