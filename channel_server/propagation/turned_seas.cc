@@ -336,18 +336,45 @@ std::vector<double> kept_powers(const TurnedLink& link, const std::vector<acoust
   return kept;
 }
 
-// Scales down the paths of more than three cycles whose sum exceeds the transport's total by more than 3 dB.
-void limit_focus(double total, std::vector<acoustics::Eigenray>& paths, std::vector<double>& kept) {
-  double sum = 0;
-  for (std::size_t i = 0; i < paths.size(); ++i)
-    if (cycles_of(paths[i]) > kCyclesOfFocus) sum += kept[i];
-  if (!(sum > kMaxFocus * total) || !(total > 0)) return;
-  const double scale = kMaxFocus * total / sum;
+// Share q of a path that the transport limits: all of one of more than three cycles, and of others what fine
+// structure spreads over the whole depth H. It spreads a ray by sigma_z = sqrt(mu r^3 / 3), to both sides:
+//   q = 1 - exp(-(2 sigma_z / H)^2).
+double limited_share(const TurnedLink& link, double depth_m, const acoustics::Eigenray& path) {
+  if (cycles_of(path) > kCyclesOfFocus) return 1;
+  if (link.medium.is_perfect()) return 0;
+  const double r = std::max(link.link.range_m, acoustics::kMinDistance);
+  const double mu = cycle_turning_rate(link.water, link.medium, depth_m, link.link.source_depth_m,
+                                       path.launch_slowness_spm);
+  return -elementary::expm1(-4 * mu * r * r * r / (3 * depth_m * depth_m));
+}
+
+// The power that paths may have, of which a share has bounced, so that they and the windows, which make up
+// for what bounced paths lack of the turned power A, have twice the transport's total T.
+double greatest_sum(double total, double turned, double bounced_share) {
+  const double most = kMaxFocus * total;
+  return bounced_share * most < turned ? (most - turned) / (1 - bounced_share) : most;
+}
+
+// Limits what focuses beyond the transport's sound. A path keeps (1 - q) + q min(1, X / S) of its power, S
+// the sum of all paths' shares q and X their greatest_sum().
+void limit_focus(const TurnedLink& link, double depth_m, double total, double turned,
+                 std::vector<acoustics::Eigenray>& paths) {
+  std::vector<double> kept;
+  double all = 0;
+  for (const acoustics::Eigenray& path : paths) all += kept.emplace_back(kept_of(link, path));
+  if (!(total > 0) || !(all > greatest_sum(total, turned, 0))) return;
+  std::vector<double> shares;
+  double sum = 0, bounced = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (cycles_of(paths[i]) <= kCyclesOfFocus) continue;
-    paths[i].amplitude *= std::sqrt(scale);
-    kept[i] *= scale;
+    const double limited = kept[i] * shares.emplace_back(limited_share(link, depth_m, paths[i]));
+    sum += limited;
+    if (bounces_of(paths[i]) > 0) bounced += limited;
   }
+  if (!(sum > 0)) return;
+  const double most = greatest_sum(total, turned, bounced / sum);
+  if (!(sum > most)) return;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    paths[i].amplitude *= std::sqrt(1 - shares[i] * (1 - most / sum));
 }
 
 }  // namespace
@@ -364,8 +391,7 @@ std::vector<acoustics::Eigenray> TurnedSeas::with_turned_sound(const TurnedLink&
   const acoustics::DelaySpectrum spectrum(sound.forward, sound.backward);
   paths.erase(std::remove_if(paths.begin(), paths.end(), [](const auto& path) { return path.diffuse; }),
               paths.end());
-  const double first_s = paths.empty() ? 0 : paths.front().delay_s;  // no sound is faster: Fermat
-  limit_focus(link, sound.total(), paths);
+  limit_focus(link, sound.depth_m, sound.total(), spectrum.power(), paths);
   double bounced = 0, all = 0, most = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (bounces_of(paths[i]) > 0) bounced += kept[i];

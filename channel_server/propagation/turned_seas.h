@@ -6,9 +6,11 @@
 // - Paths of one bounce keep their scattered share, at their own delay; of paths of several bounces the
 //   coherent share E stays. What the search left unresolved (Eigenray::diffuse) is in A.
 // - Windows of delay have f A, f = 1 - (power that bounced traced paths keep) / A, within 0 and 1.
-//   None comes before the first traced path.
-// - Beyond 3 cycles of a path no sum of traced paths exceeds the transport's total by more than 3 dB:
-//   they are scaled down to it. No focus of a perfect sea survives there.
+// - Where fine structure spreads rays over the whole depth H, by sigma_z = sqrt(mu r^3 / 3) to both sides,
+//   and beyond 3 cycles of a path, traced paths and windows have at most twice the transport's total: no
+//   focus of a perfect sea survives there. Of its power a path keeps
+//     (1 - q) + q min(1, X / S),  q = 1 - exp(-(2 sigma_z / H)^2), or 1 beyond 3 cycles,
+//   S the sum of all paths' shares q and X what the windows leave of that limit.
 // - Paths below 1e-6 of the whole are left out, 0.1 dB of a sum at most for the 20 000 paths of a link.
 //
 // Depth. Over a level bottom the transport is that of its depth. Elsewhere the bottom's mean depths over up

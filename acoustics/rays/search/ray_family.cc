@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLongestStep = 2.4;   // sigma_z beyond which a step is halved
 constexpr int kMaxHalvings = 7;        // of steps on one side of a family
-constexpr int kMaxEdgeHalvings = 3;    // of those towards its edge
+constexpr int kMaxEdgeHalvings = 3;    // of those towards its edge, once a ray of that side is found
 constexpr int kMaxSteps = 48;          // on one side
 constexpr double kSteepest = 1.4;      // rad: families end there
 constexpr double kBendReach = 2.5;     // sigma_z within which rays tell how zeta is bent
@@ -63,7 +63,9 @@ void RayFamily::add_side(FamilyRays& rays, const FamilyRay& seed, double sigma, 
     const std::optional<FamilyRay> ray = rays.at(last.theta + step);
     const bool same = ray && ray->bounces == bounces_;
     if (!same || std::abs(ray->off_m - last.off_m) > kLongestStep * sigma) {
-      if (++halvings > kMaxHalvings || (!same && ++edge_halvings > kMaxEdgeHalvings)) return;
+      // A first step may be wider than the whole family, that of a focus.
+      const bool is_first = last.theta == seed.theta;
+      if (++halvings > kMaxHalvings || (!same && !is_first && ++edge_halvings > kMaxEdgeHalvings)) return;
       step *= 0.5;
       continue;
     }

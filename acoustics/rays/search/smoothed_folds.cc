@@ -46,12 +46,13 @@ struct SmoothedLink {
   double bottom_m, source_mps, receiver_mps;
   int most_bottom_bounces;  // of paths that are smoothed
 
-  double sigma_m(double theta) const {
+  // Spread of rays before the depth of the water limits it, m.
+  double free_sigma_m(double theta) const {
     const double r = link.range_m, xi = elementary::cos(theta) / source_mps;
     const double mu = cycle_turning_rate(water, options.fine_structure, bottom_m, link.source_depth_m, xi);
     const double fresnel = 0.5 * std::sqrt(receiver_mps / options.frequency_hz * r / (2 * pi));
     const double still = std::max(std::sqrt(mu * r * r * r / 3), fresnel), moved = options.platform_jitter_m;
-    return std::min(std::sqrt(still * still + 2 * moved * moved), 0.5 * bottom_m);
+    return std::sqrt(still * still + 2 * moved * moved);
   }
   // Launch angle beyond which rays meet both boundaries, rad; 0 where the source has the greatest speed.
   double steepest_turning() const {
@@ -103,19 +104,21 @@ class FoldSmoother {
     const double steeper = std::abs(path.launch_angle_rad) - steepest_;
     return steeper < 0 || steeper < kFamilyReach * step_of(path, sigma_of(path.launch_angle_rad));
   }
-  // sigma_z changes slowly with the angle: it is interpolated between kSigmas angles.
-  double sigma_of(double theta);
+  // The spread of rays changes slowly with the angle: it is interpolated between kSigmas angles.
+  double free_sigma_of(double theta);
+  // sigma_z, which is at most half of the depth.
+  double sigma_of(double theta) { return std::min(free_sigma_of(theta), 0.5 * link_.bottom_m); }
   // True when the rays `step` to both sides of a path end `off_m` above and below the receiver, as the width
   // of its tube has it.
   bool is_straight(const Eigenray& path, double step, double off_m);
   RayFamily family_of(const FamilyRay& seed, double sigma, double step) {
     return {rays_, seed, {sigma, link_.link.receiver_depth_m, link_.bottom_m}, step};
   }
-  // Weight of the smoothed power against that of the family's folds.
-  double weight_of(const RayFamily& family, double sigma) const {
+  // Weight of the smoothed power of the family of a ray against that of the family's folds.
+  double weight_of(const RayFamily& family, double theta) {
     if (family.is_empty()) return 0;
     const double length = family.airy_length_m(link_.options.frequency_hz, link_.receiver_mps);
-    return ramp(sigma / length, kFoldStays, kFoldGone);
+    return ramp(free_sigma_of(theta) / length, kFoldStays, kFoldGone);
   }
   void smooth_beside(const Eigenray& path);
   void share_among_paths(const RayFamily& family, double weight);
@@ -129,18 +132,18 @@ class FoldSmoother {
   const SmoothedLink& link_;
   std::vector<Eigenray>& paths_;
   double steepest_;
-  std::array<double, kSigmas> sigmas_{};  // sigma_z at angles 0..steepest_, m; 0: not computed yet
+  std::array<double, kSigmas> sigmas_{};  // free ones at angles 0..steepest_, m; 0: not computed yet
   std::vector<bool> done_;                // one for each path
   std::vector<RayFamily> families_;
   std::vector<Window> windows_;
 };
 
-double FoldSmoother::sigma_of(double theta) {
+double FoldSmoother::free_sigma_of(double theta) {
   const double place = std::min(std::abs(theta) / steepest_, 1.0) * (kSigmas - 1);
   const auto below = std::min(static_cast<std::size_t>(place), kSigmas - 2);
   for (const std::size_t i : {below, below + 1}) {
     if (sigmas_[i] == 0)
-      sigmas_[i] = link_.sigma_m(steepest_ * static_cast<double>(i) / static_cast<double>(kSigmas - 1));
+      sigmas_[i] = link_.free_sigma_m(steepest_ * static_cast<double>(i) / static_cast<double>(kSigmas - 1));
   }
   return sigmas_[below] + (place - static_cast<double>(below)) * (sigmas_[below + 1] - sigmas_[below]);
 }
@@ -163,7 +166,7 @@ void FoldSmoother::smooth_beside(const Eigenray& path) {
   const std::optional<FamilyRay> ray = rays_.at(path.launch_angle_rad);
   if (!ray || ray->bounces != bounces_of(path)) return;
   RayFamily family = family_of(*ray, sigma, 0.5 * step);
-  const double weight = weight_of(family, sigma);
+  const double weight = weight_of(family, path.launch_angle_rad);
   if (weight > 0) {
     share_among_paths(family, weight);
     families_.push_back(std::move(family));
@@ -232,7 +235,7 @@ void FoldSmoother::seek_shadow(const FamilyRay& a, const FamilyRay& b, const Fam
 void FoldSmoother::add_shadow(const FamilyRay& turn, double step) {
   const double sigma = sigma_of(turn.theta);
   RayFamily family = family_of(turn, sigma, step);
-  const double weight = weight_of(family, sigma);
+  const double weight = weight_of(family, turn.theta);
   if (weight <= 0) return;
   const std::optional<Eigenray> ray = rays_.representative(turn.theta);
   if (!ray) return;

@@ -20,7 +20,7 @@
 // Only where it matters. A ray that meets both surface and bottom of a level sea has no fold beside it. For
 // the others two rays at 2 sigma_z to both sides tell e, by how much zeta is bent there in units of 2
 // sigma_z. Below kStraight a path is left as it is, to the bit; the change is faded in up to kBent. It is
-// faded out, too, where sigma_z is below the Airy length of the fold, whose field
+// faded out, too, where sigma_z, depth or not, is below the Airy length of the fold, whose field
 // (acoustics/math/fold_field.h) is wider then. Rays on the shadow side are sought among kMinShadowRays to
 // kMaxShadowRays launch angles.
 //

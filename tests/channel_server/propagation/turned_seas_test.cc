@@ -12,7 +12,14 @@
 
 #include "acoustics/fading/arrival.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/rays/search/eigenray_search.h"
+#include "acoustics/scattering/angle_transport.h"
+#include "acoustics/scattering/transport_end.h"
+#include "acoustics/scattering/turned_sound.h"
+#include "acoustics/sea/profile_drift.h"
+#include "acoustics/sea/ray_water.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "acoustics/sea/surface/surface_boundary.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
@@ -211,22 +218,97 @@ TEST(TurnedSeas, ChangeSmoothlyWithTheDepthAlongALink) {
   }
 }
 
-// A ridge in the middle of a link lets less and less sound pass as it rises; from 39.9 m on, as land,
-// none. Scenario relay had 62 dB through its island.
-TEST(TurnedSeas, DoNotPassThroughLand) {
-  const TurnedSeas seas;
-  const auto behind = [&](double ridge_m) {
-    return turned_power(seas, [&](std::size_t i) { return i == 7 ? ridge_m : 0; });
-  };
-  double before = behind(30);
-  EXPECT_GT(before, 0);
-  for (const double ridge_m : {36.0, 38.0, 39.0, 39.5, 39.8}) {
-    const double power = behind(ridge_m);
-    EXPECT_LT(power, before) << ridge_m;
-    EXPECT_GT(power, 0) << ridge_m;
-    before = power;
+// 12 m of sandy mud whose water drifts by 0.3 m/s, 25 kHz, wind 5 m/s.
+class DriftingHarbour : public ::testing::Test {
+ protected:
+  static constexpr double kDepthM = 12, kEndM = 6, kFrequencyHz = 25'000;
+
+  acoustics::RayWater water_of(std::uint64_t member) const {
+    acoustics::Environment environment;
+    environment.profile = acoustics::SoundSpeedProfile::from_water(
+        {{0, 12, 30}, {kDepthM, 12, 30}}, acoustics::SoundSpeedModel::kMackenzie1981, 0);
+    const acoustics::ProfileDrift drift{.spread_mps = 0.3, .depth_m = kDepthM, .seed = member};
+    environment.profile =
+        environment.profile.with_change(drift_rows(kDepthM, acoustics::drift_amplitudes(drift, 0)));
+    return ray_water(environment, kFrequencyHz, 0);
   }
-  EXPECT_EQ(behind(40 - kMinWaterM / 2), 0);
+  TurnedLink link_of(const acoustics::RayWater& water, double range_m) const {
+    TurnedLink link{water, bottom_, surface_, fading_, kFrequencyHz, {kEndM, kEndM, range_m}, {}, 0, medium_};
+    link.depths_m.fill(kDepthM);
+    return link;
+  }
+  // Traced paths, before anything of them is scattered.
+  std::vector<acoustics::Eigenray> traced(const acoustics::RayWater& water, double range_m) const {
+    acoustics::RayOptions options;
+    options.frequency_hz = kFrequencyHz;
+    options.max_bounces = bounces_for(range_m, kDepthM);
+    options.fine_structure = medium_;
+    const acoustics::RaySea sea{water, acoustics::BottomProfile::flat(kDepthM), bottom_, surface_, options};
+    return eigenrays(sea, {kEndM, kEndM, range_m}).paths;
+  }
+  // All sound of the transport, bounced or not, the mean of both directions.
+  double transported(const TurnedLink& link) const {
+    acoustics::TransportSea sea{
+        link.water, kDepthM, kFrequencyHz, acoustics::scattering_surface(link.surface, kFrequencyHz),
+        acoustics::rough_bottom(link.bottom, link.water.speed_at(kDepthM), link.fading.bottom_roughness_m,
+                                link.fading.bottom_slope * link.fading.bottom_slope)};
+    for (const double gradient : link.water.gradients_per_s())
+      sea.speed_deviation_mps.push_back(std::sqrt(link.medium.speed_variance(gradient)));
+    const acoustics::AngleTransport transport(sea);
+    const acoustics::TransportEnd end(transport, kEndM);
+    const acoustics::TurnedSound sound = turned_sound(transport, end, end, link.link.range_m);
+    return sound.power + sound.unbounced;
+  }
+  // What arrives by the paths: of bounced ones that are traced the coherent share.
+  double power_of(const std::vector<acoustics::Eigenray>& paths) const {
+    const double waves_m = surface_boundary(surface_.wind_mps, surface_.ice, kFrequencyHz).rms_height_m;
+    double power = 0;
+    for (const acoustics::Eigenray& path : paths) {
+      const bool keeps_all = path.diffuse || path.surface_bounces + path.bottom_bounces < 2;
+      power += path.received_pressure() * path.received_pressure() *
+               (keeps_all ? 1
+                          : acoustics::coherent_share(fading_, waves_m, kFrequencyHz,
+                                                      path.surface_sine_squares, path.bottom_sine_squares));
+    }
+    return power;
+  }
+
+  const acoustics::FluidBottom bottom_ = *acoustics::sediment("SandyMud");
+  const acoustics::RaySurface surface_{acoustics::SurfaceModel::kAplBubbles, 5};
+  const acoustics::FineStructure medium_{0.05, 0.5};
+  acoustics::FadingModel fading_{.enabled = true, .bottom_roughness_m = 0.03, .turns = true};
+  const TurnedSeas seas_;
+};
+
+// Drawn profiles focus few grazing paths up to 50 dB above the transport's total at 8 km. Fine structure
+// spreads their rays over the whole depth from 3 km on, where no focus survives it; at 2 km a tenth of one
+// does.
+TEST_F(DriftingHarbour, FocusesNoMoreThanTwiceTheSoundOfTheTransport) {
+  for (const double range_m : {2000.0, 4000.0, 8000.0}) {
+    double most_traced_db = -100, most_db = -100;
+    for (std::uint64_t member = 0; member < 30; ++member) {
+      const acoustics::RayWater water = water_of(member);
+      const TurnedLink link = link_of(water, range_m);
+      const std::vector<acoustics::Eigenray> paths = traced(water, range_m);
+      const double total = transported(link);
+      most_traced_db = std::max(most_traced_db, 10 * std::log10(power_of(paths) / total));
+      most_db = std::max(most_db, 10 * std::log10(power_of(seas_.with_turned_sound(link, paths)) / total));
+    }
+    EXPECT_GT(most_traced_db, 9) << range_m << " m";
+    EXPECT_LT(most_db, 3.01 + (range_m > 3000 ? 0.05 : 1.5)) << range_m << " m";
+  }
+}
+
+// What survives of a focus changes smoothly over the ranges in which fine structure comes to spread it.
+TEST_F(DriftingHarbour, LosesItsFocusesSmoothlyWithRange) {
+  const acoustics::RayWater water = water_of(24);
+  double before_db = 0;
+  for (double range_m = 1500; range_m < 1600; range_m += 1) {
+    const auto paths = seas_.with_turned_sound(link_of(water, range_m), traced(water, range_m));
+    const double db = 10 * std::log10(power_of(paths));
+    if (range_m > 1500) EXPECT_NEAR(db, before_db, 1) << range_m << " m";
+    before_db = db;
+  }
 }
 
 }  // namespace
