@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Incoherent energy flux (Weston 1971) of a flux-only link: one over a rough bottom that is too weak to be
-// worth tracing rays for.
+// worth tracing rays for. It serves seas whose scattered sound keeps its angle (scattering = "none"); where
+// sound turns, the windows of acoustics/scattering replace it, and it bounds their loss.
 //
 // Model: that of acoustics/rays/diffuse_windows.h for all rays, in water of the mean depth between the ends.
 // A ray of Snell's invariant xi alternates between the points where it turns, or meets surface and bottom;

@@ -125,6 +125,7 @@ Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment&
   }
   if (model.reverberation.enabled) gain_db += 10;
   if (environment.spreading_exponent < 1.5) gain_db += 6;
+  if (turns_sound(model)) gain_db += 2;
   return Decibels{gain_db};
 }
 

@@ -201,6 +201,11 @@ double mean_depth_m(const acoustics::BottomProfile& bottom, double range_m);
 // (acoustics/link/least_loss.h). The values are our choices: 10 dB where phasors are added, 3 dB where only
 // paths whose fading is coherent add as phasors; plus 10 dB for the tail of reverberation; plus 6 dB where
 // the straight path, which is used without a bottom, spreads by less than 1.5 * 10 log r.
+//
+// Where scattered sound turns, 2 dB more. Of rays that turn at random between the angles a lossless sea would
+// fill evenly, exp(-loss) is on the mean at most that of rays which keep their angles, by Jensen's
+// inequality; a receiver's factor 1 / cos(angle), whose mean is pi / 2, may then meet sound that has lost
+// less.
 Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment& environment);
 
 // Returns the wanted solver where it can solve the link, else the simplest that can; empty: the simplest.

@@ -310,7 +310,7 @@ class SlopingRaster : public ::testing::Test {
 
 // Links that deliver a fifth and a half of their packets.
 TEST_F(SlopingRaster, DeliveryDoesNotJumpAcrossItsEnd) {
-  for (const double source_level_db : {145.0, 150.0}) {
+  for (const double source_level_db : {142.0, 145.0}) {
     config_.channel_server.modem.modem.source_level = Decibels{source_level_db};
     double before = link(1978).forecast.delivery_probability;
     for (double north_m = 1980; north_m <= 2030; north_m += 2) {

@@ -56,12 +56,12 @@ TEST(EnergyFluxLink, OfOneSpeedIsTheIntegralOverTheChannel) {
   }
 }
 
-// Of links 0.9 to 1.1 of the range long over rough bottoms with `relief` times 5 m: what mixed rays bring
-// beside all rays.
+// Mixed rays beside all rays, over links 0.9 to 1.1 of the range long above bottoms with 5 m of relief. Less
+// relief mixes rays less: over 2 m the deviation from place to place is 2 dB.
 struct MeanError {
   double db = 0, rms_db = 0;
 };
-MeanError error_over(double range_m, double relief) {
+MeanError error_over(double range_m) {
   constexpr std::uint32_t kLinks = 40;
   MeanError error;
   double squares = 0;
@@ -70,11 +70,7 @@ MeanError error_over(double range_m, double relief) {
       return uniform_at({.seed = 3, .purpose = purpose_of("mixed"), .who = i, .which = which});
     };
     const RayLink link{20 + 80 * draw(0), 20 + 80 * draw(1), range_m * (0.9 + 0.2 * draw(2))};
-    std::vector<ProfiledDepth> points;
-    const BottomProfile rough = rough_bottom(i, link.range_m);
-    for (const ProfiledDepth& point : rough.points())
-      points.push_back({point.range_m, 150 + relief * (point.depth_m - 150)});
-    RaySea sea = sea_of(kRoughWater, BottomProfile(std::move(points)));
+    RaySea sea = sea_of(kRoughWater, rough_bottom(i, link.range_m));
     sea.options = RayOptions{};
     double depth = 0;
     for (int place = 0; place < 16; ++place)
@@ -93,8 +89,8 @@ MeanError error_over(double range_m, double relief) {
 // of 1000 draws.
 TEST(EnergyFluxLink, IsOnTheMeanWhatEveryRayBringsOverRoughBottoms) {
   for (const double range : {2000.0, 3000.0, 4000.0}) {
-    const MeanError error = error_over(range, 0.4);
-    EXPECT_NEAR(error.db, 0, tolerance(1)) << range;
+    const MeanError error = error_over(range);
+    EXPECT_NEAR(error.db, 0, tolerance(0.75)) << range;
     EXPECT_LT(error.rms_db, tolerance(2)) << range;
   }
 }

@@ -306,7 +306,9 @@ TEST_F(DriftingHarbour, LosesItsFocusesSmoothlyWithRange) {
   for (double range_m = 1500; range_m < 1600; range_m += 1) {
     const auto paths = seas_.with_turned_sound(link_of(water, range_m), traced(water, range_m));
     const double db = 10 * std::log10(power_of(paths));
-    if (range_m > 1500) EXPECT_NEAR(db, before_db, 1) << range_m << " m";
+    if (range_m > 1500) {
+      EXPECT_NEAR(db, before_db, 1) << range_m << " m";
+    }
     before_db = db;
   }
 }

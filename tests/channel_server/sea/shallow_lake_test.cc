@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // 69 kHz transmitters in 2.5 m of fresh water. Receivers there lose half of the codes at 250 to 350 m, where
-// ambient noise alone leaves some 46 dB. Reverberation takes 7 to 12 dB of that ratio; the loss of half the
-// codes it does not explain (docs/validation.md).
+// ambient noise alone leaves some 44 dB: rough boundaries turn sound to angles at which the bottom takes it,
+// 2 dB of that at wind of 3 m/s. Reverberation takes 4 to 7 dB of the ratio; the loss of half the codes it
+// does not explain (docs/validation.md).
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -31,7 +32,7 @@ constexpr std::size_t kCodeBytes = 2;
 // A code of 16 pulses of 10 ms, each detected by itself over a band of 1 kHz.
 acoustics::Modem transmitter() {
   acoustics::Modem modem = load_modem("uncoded").modem;
-  modem.source_level = {141};  // 46 dB of SNR at 250 m
+  modem.source_level = {141};  // 44 dB of SNR at 250 m
   modem.min_receivable_level = {-200};
   modem.centre_frequency_hz = 69'000;
   modem.bandwidth_hz = 1000;
@@ -82,8 +83,8 @@ TEST(ShallowLake, ReverberationLimitsWhatAmbientNoiseLeaves) {
       EXPECT_LE(with.sinr_db, without.sinr_db + 0.1);
       EXPECT_LE(with.delivery, without.delivery + 0.01);
       if (range_m == 250) {
-        EXPECT_NEAR(without.snr_db, 46, 2);
-        EXPECT_LT(with.sinr_db, without.snr_db - 6) << "own sound limits, not noise";
+        EXPECT_NEAR(without.snr_db, 44, 1.5);
+        EXPECT_LT(with.sinr_db, without.snr_db - 3) << "own sound limits, not noise";
       }
     }
   }

@@ -113,7 +113,7 @@ class Predictor {
   }
 
  private:
-  RayModel model_ = make_rays(ChannelServerConfig());
+  RayModel model_ = with_turned_seas(make_rays(ChannelServerConfig()));
   std::vector<acoustics::Modem> modems_;
   std::vector<acoustics::ReceptionCurves> curves_;
 };
