@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "acoustics/math/fast_functions.h"
 
@@ -20,9 +21,10 @@ constexpr std::array<double, 8> kParts{-1.5341205443525463, -0.8871465590188759,
 constexpr std::array<double, kMaxDelayWindows + 1> kCuts{0,   0.01, 0.04, 0.1,  0.17, 0.24, 0.32, 0.4, 0.5,
                                                          0.6, 0.68, 0.76, 0.84, 0.91, 0.96, 0.99, 1};
 
-std::size_t bin_of(double excess_s) {
-  const double place = (fast_log(std::max(excess_s, 1e-12)) - kShortestLog) * kBinsPerFold;
-  return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(kBins - 1)));
+// Place of a delay among the middles of the bins, from 0 to below the last one.
+double place_of(double excess_s) {
+  const double place = (fast_log(std::max(excess_s, 1e-12)) - kShortestLog) * kBinsPerFold - 0.5;
+  return std::clamp(place, 0.0, kBins - 1.001);
 }
 
 // Quantiles of a gamma distribution of unit mean and relative variance v = 1 / shape, with unit mean:
@@ -53,11 +55,16 @@ void DelaySpectrum::add(const TurnedSound& sound, bool forward) {
     const double mean = std::max(part.excess_s, 1e-9), power = kShare * part.power;
     power_ += 0.5 * part.power;
     for (const double place : gamma_parts(part.variance_s2 / (mean * mean))) {
-      Bin& bin = bins_[bin_of(mean * place)];
-      bin.power += power;
-      bin.delay += power * mean * place;
-      (forward ? bin.launch : bin.arrival) += power * part.sine_squares;
-      (forward ? bin.launch_power : bin.arrival_power) += power;
+      const double at = place_of(mean * place);
+      const auto below = static_cast<std::size_t>(at);
+      const double above = at - static_cast<double>(below);
+      for (const auto& [bin, share] : {std::pair(below, 1 - above), {below + 1, above}}) {
+        Bin& shared = bins_[bin];
+        shared.power += share * power;
+        shared.delay += share * power * mean * place;
+        (forward ? shared.launch : shared.arrival) += share * power * part.sine_squares;
+        (forward ? shared.launch_power : shared.arrival_power) += share * power;
+      }
     }
   }
 }

@@ -14,7 +14,9 @@ namespace {
 
 constexpr double kLongestStep = 2.4;   // sigma_z beyond which a step is halved
 constexpr int kMaxHalvings = 7;        // of steps on one side of a family
-constexpr int kMaxEdgeHalvings = 3;    // of those towards its edge, once a ray of that side is found
+constexpr int kMaxEdgeHalvings = 3;    // of those towards its edge
+constexpr int kMaxFirstHalvings = 7;   // of the first step, until it stays within the family
+constexpr int kMaxNarrowHalvings = 5;  // towards the edge of a family narrower than its first step
 constexpr int kMaxSteps = 48;          // on one side
 constexpr double kSteepest = 1.4;      // rad: families end there
 constexpr double kBendReach = 2.5;     // sigma_z within which rays tell how zeta is bent
@@ -58,14 +60,15 @@ RayFamily::RayFamily(FamilyRays& rays, const FamilyRay& seed, const FamilySpread
 void RayFamily::add_side(FamilyRays& rays, const FamilyRay& seed, double sigma, double step) {
   FamilyRay last = seed;
   double slope_before = 0;
-  int halvings = 0, edge_halvings = 0;
+  int halvings = 0, edge_halvings = 0, first_halvings = 0;
   for (int i = 0; i < kMaxSteps && std::abs(last.theta + step) < kSteepest; ++i) {
     const std::optional<FamilyRay> ray = rays.at(last.theta + step);
     const bool same = ray && ray->bounces == bounces_;
     if (!same || std::abs(ray->off_m - last.off_m) > kLongestStep * sigma) {
-      // A first step may be wider than the whole family, that of a focus.
-      const bool is_first = last.theta == seed.theta;
-      if (++halvings > kMaxHalvings || (!same && !is_first && ++edge_halvings > kMaxEdgeHalvings)) return;
+      // The first step may be wider than the whole family, that of a focus.
+      const bool is_narrow = !same && last.theta == seed.theta && ++first_halvings <= kMaxFirstHalvings;
+      const int most_at_edge = first_halvings > 0 ? kMaxNarrowHalvings : kMaxEdgeHalvings;
+      if (!is_narrow && (++halvings > kMaxHalvings || (!same && ++edge_halvings > most_at_edge))) return;
       step *= 0.5;
       continue;
     }
@@ -77,7 +80,7 @@ void RayFamily::add_side(FamilyRays& rays, const FamilyRay& seed, double sigma, 
     if (std::abs(last.off_m) > kFamilyReach * sigma) return;
     const double wanted = kFamilyStep * sigma;
     const double next = 2 * wanted / (slope + std::sqrt(slope * slope + 2 * bend * wanted));
-    const double most = halvings > 0 ? std::abs(step) : 2 * std::abs(step);
+    const double most = halvings + first_halvings > 0 ? std::abs(step) : 2 * std::abs(step);
     step = std::copysign(std::min({next, most, kWidestFamilyStep}), step);
   }
 }
@@ -95,6 +98,22 @@ std::size_t RayFamily::fold_between(const Eigenray& a, const Eigenray& b) const 
     if (std::abs(rays_[i].off_m) > std::abs(rays_[furthest].off_m)) furthest = i;
   }
   return furthest;
+}
+
+// The fold is where the parabola through the furthest ray and the two beside it turns, so that what the two
+// paths have changes without steps as the rays of the family move.
+double RayFamily::integral_to_fold(const Eigenray& a, const Eigenray& b) const {
+  const std::size_t i = fold_between(a, b);
+  if (i == 0 || i + 1 >= rays_.size()) return sums_[i];
+  const auto distance = [this](std::size_t ray) { return std::abs(rays_[ray].off_m); };
+  const double before = rays_[i].theta - rays_[i - 1].theta, after = rays_[i + 1].theta - rays_[i].theta;
+  const double rise = (distance(i) - distance(i - 1)) / before;
+  const double fall = (distance(i) - distance(i + 1)) / after;
+  if (!(rise + fall > 0)) return sums_[i];
+  // The slopes `rise` and -`fall` hold in the middles of the two steps.
+  const double turn = 0.5 * (rise * after - fall * before) / (rise + fall);
+  const double share = std::clamp(turn / (turn < 0 ? before : after), -1.0, 1.0);
+  return sums_[i] + std::abs(share) * (sums_[share < 0 ? i - 1 : i + 1] - sums_[i]);
 }
 
 double RayFamily::bend_at(double theta) const {

@@ -41,7 +41,7 @@ class RayFamily {
   // Integral of sqrt(2 pi) times the density at the receiver over the launch angles, rad/m: of all rays, and
   // of those up to the fold between two paths, the ray between them that ends furthest from the receiver.
   double integral() const { return sums_.back(); }
-  double integral_to_fold(const Eigenray& a, const Eigenray& b) const { return sums_[fold_between(a, b)]; }
+  double integral_to_fold(const Eigenray& a, const Eigenray& b) const;
 
   // How far zeta is bent about the ray launched at `theta`, in units of 2 sigma_z: the greatest distance of
   // rays within reach from the straight line through the two beside it.

@@ -236,5 +236,20 @@ TEST(DelaySpectrum, MovesWithoutSteps) {
   }
 }
 
+// A part whose delay passes from bin to bin takes its angle along without steps.
+TEST(DelaySpectrum, AnglesOfWindowsMoveWithoutSteps) {
+  std::vector<DelayWindow> before;
+  for (double excess_s = 1e-3; excess_s < 1.2e-3; excess_s *= 1.0002) {
+    TurnedSound sound;
+    sound.parts = {{.power = 1, .excess_s = 1.1e-3, .sine_squares = 0.01},
+                   {.power = 1, .excess_s = excess_s, .sine_squares = 0.2}};
+    const std::vector<DelayWindow> now = DelaySpectrum(sound, sound).windows();
+    for (std::size_t i = 0; i < before.size(); ++i)
+      EXPECT_NEAR(now[i].launch_sine, before[i].launch_sine, 0.02) << excess_s << " " << i;
+    before = now;
+  }
+  EXPECT_EQ(before.size(), kMaxDelayWindows);
+}
+
 }  // namespace
 }  // namespace halocline::acoustics
