@@ -300,10 +300,10 @@ void add_patterns(const PacketLevels& packet, const std::array<BlockFading, kPat
   }
 }
 
-// Likewise from four of the states, each in the place of a quarter of them: for the quantiles over hours.
+// Likewise from half of the states, each in the place of two: for the quantiles over hours.
 void add_few_patterns(const PacketLevels& packet, const std::array<BlockFading, kPatterns>& patterns,
                       StratifiedAverage& mean) {
-  constexpr std::array<std::size_t, 4> kFew{2, 5, 10, 13};
+  constexpr std::array<std::size_t, 8> kFew{0, 3, 4, 7, 8, 11, 12, 15};
   Level preamble;
   for (const std::size_t i : kFew) {
     const auto levels = mean.levels([&](std::size_t at) { return packet.bits(patterns[i], mean.noise(at)); });
@@ -337,18 +337,8 @@ double shifted_delivery(const PacketLevels& packet, BlockStates& states, double 
   } else {
     add_few_patterns(packet, *states.patterns, shifted);
   }
-  return shifted.delivery_probability();
-}
-
-double sinr_of(const ReceptionStatistics& sound, double noise) {
-  const double signal = sound.block_fading.mean + sound.fast;
-  return signal / (noise + sound.bits_echoes + sound.untracked * signal);
-}
-
-DisturbingPowers disturbances_of(const ReceptionStatistics& sound, double noise) {
-  const double signal = sound.block_fading.mean + sound.fast;
-  if (!(signal > 0)) return {};
-  return {.noise = noise / signal, .late_echoes = sound.bits_echoes / signal, .fast_fading = sound.untracked};
+  const double then = shifted.delivery_probability();
+  return shift_db < 0 ? std::min(then, now) : std::max(then, now);
 }
 
 // Prediction without fading: only the set of echoes present varies.
@@ -429,8 +419,10 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<Arrival>
   }
   mean.delivery_low = mean.delivery_high = mean.delivery_probability;
   if (!shifts.any()) return mean;
-  mean.delivery_low = best.delivery_low;
-  mean.delivery_high = best.delivery_high;
+  // The other windows lose and gain in proportion.
+  const double now = best.delivery_probability, all = mean.delivery_probability;
+  if (now > 0) mean.delivery_low = all * (best.delivery_low / now);
+  mean.delivery_high = now < 1 ? std::max(1 - (1 - all) * ((1 - best.delivery_high) / (1 - now)), all) : all;
   return mean;
 }
 

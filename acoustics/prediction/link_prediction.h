@@ -59,9 +59,10 @@ struct LinkPrediction {
 
 // Changes of a link's margin, dB, at which delivery is predicted beside that of the link as it is: slow
 // fading at its quantiles (acoustics/fading/slow_fading.h). Both 0: none are predicted. The states of block
-// fading are those of the link as it is, in frequency-shift keying four of them: together the two cost a
-// third of a prediction (coded frequency-shift keying) to a whole one (phase-shift keying). They are within
-// 0.01 rms of predictions of their own. Of several windows the best one stands for all.
+// fading are those of the link as it is, in frequency-shift keying half of them: together the two cost about
+// two thirds of a prediction (coded frequency-shift keying) to a whole one (phase-shift keying). They are
+// within 0.015 rms of predictions of their own. Of several windows the others lose and gain in proportion to
+// the best one. Delivery is never less than at the lower margin nor more than at the higher one.
 struct MarginShifts {
   double low_db = 0, high_db = 0;
   bool any() const { return low_db != 0 || high_db != 0; }

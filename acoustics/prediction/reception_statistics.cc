@@ -259,6 +259,7 @@ ReceptionStatistics reception_statistics(const std::vector<Arrival>& paths, cons
            .steady = fading.coherent,
            .turned = turned_share,
            .scattered = fast,
+           .medium = fading.medium,
            .delay_s = excess_s,
            .phase_rad = path.phase_rad - 2 * pi * turned(band.centre_hz() * excess_s, 1),
            .launch_angle_rad = path.launch_angle_rad,
@@ -304,6 +305,17 @@ GammaPower ReceptionStatistics::power(double block_power, double kept) const {
   return {block_power + fast, kept * own + longer * mixed,
           fast * third_share(over_band) *
               (2 * fast * fast * third_share(kept) + 3 * mixed / over_band * third_share(longer))};
+}
+
+double sinr_of(const ReceptionStatistics& sound, double noise) {
+  const double signal = sound.block_fading.mean + sound.fast;
+  return signal / (noise + sound.bits_echoes + sound.untracked * signal);
+}
+
+DisturbingPowers disturbances_of(const ReceptionStatistics& sound, double noise) {
+  const double signal = sound.block_fading.mean + sound.fast;
+  if (!(signal > 0)) return {};
+  return {.noise = noise / signal, .late_echoes = sound.bits_echoes / signal, .fast_fading = sound.untracked};
 }
 
 double rms_delay_spread_s(const std::vector<Arrival>& paths) {

@@ -16,6 +16,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/prediction/equalizer_statistics.h"
 #include "acoustics/prediction/gamma_power.h"
+#include "acoustics/reception/disturbing_powers.h"
 #include "acoustics/reception/signal_history.h"
 
 namespace halocline::acoustics {
@@ -68,6 +69,11 @@ struct ReceptionStatistics {
 //   SINR = n S / (N + I) = S / (N / n + I / n).
 ReceptionStatistics reception_statistics(const std::vector<Arrival>& paths, const Synchronisation& sync,
                                          const Band& band, const PacketTiming& timing);
+
+// Ratio of the mean signal to noise and mean interference, and the powers that disturb over that signal;
+// `noise` over the band, uPa^2, for one hydrophone of all (noise_factor() of acoustics/modem/modem.h).
+double sinr_of(const ReceptionStatistics& sound, double noise);
+DisturbingPowers disturbances_of(const ReceptionStatistics& sound, double noise);
 
 // Variance reduction by averaging over a time T: the share of the variance that remains in the mean of a
 // power with the autocorrelation

@@ -67,7 +67,8 @@ TEST(MarginShifts, DeliveryIsNearlyThatOfAPredictionAtTheOtherNoise) {
       EXPECT_EQ(alone.delivery_low, alone.delivery_probability);
       const double low = predicted(noise * std::pow(10, 0.5), {}).delivery_probability,
                    high = predicted(noise * std::pow(10, -0.6), {}).delivery_probability;
-      EXPECT_LE(now.delivery_low, now.delivery_high);
+      EXPECT_LE(now.delivery_low, now.delivery_probability);
+      EXPECT_LE(now.delivery_probability, now.delivery_high);
       EXPECT_NEAR(now.delivery_low, low, tolerance(0.1)) << name << " " << place;
       EXPECT_NEAR(now.delivery_high, high, tolerance(0.1)) << name << " " << place;
       squares += std::pow(now.delivery_low - low, 2) + std::pow(now.delivery_high - high, 2);
