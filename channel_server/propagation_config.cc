@@ -13,7 +13,7 @@
 #include "acoustics/fading/slow_fading.h"
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/noise/place_noise.h"
-#include "acoustics/prediction/steady_band.h"
+#include "acoustics/prediction/platform_jitter.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/fine_structure.h"

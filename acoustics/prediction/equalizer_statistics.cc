@@ -8,6 +8,7 @@
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
+#include "acoustics/prediction/platform_jitter.h"
 #include "acoustics/prediction/steady_band.h"
 
 namespace halocline::acoustics {
@@ -23,7 +24,7 @@ constexpr double kJitterSkewness = 1;    // skewness of a cross term, which is b
 struct Member {
   std::size_t path;
   double steady, turned, fast;  // powers
-  double steady_root, turned_root;
+  double steady_root, medium_root;
   // Phase at the centre of the band; phase change over the band in turns, and half of its angle.
   double cos_phase, sin_phase, turns, cos_half, sin_half;
   double launch_sine, arrival_sine;
@@ -32,15 +33,15 @@ struct Member {
 
 Member member_of(const EqualizerPath& path, std::size_t index, const Band& band, double reference_s) {
   const double turns = band.width_hz() * (path.delay_s - reference_s), half = pi * turned(turns, 2);
-  const double steady = path.signal * path.steady, medium = path.signal * path.turned,
+  const double steady = path.signal * path.steady, turned_power = path.signal * path.turned,
                fast = path.signal * path.scattered;
   const auto phase = fast_turn(path.phase_rad), half_turn = fast_turn(half);
   return {.path = index,
           .steady = steady,
-          .turned = medium,
+          .turned = turned_power,
           .fast = fast,
           .steady_root = std::sqrt(steady),
-          .turned_root = std::sqrt(medium),
+          .medium_root = std::sqrt(path.signal * path.medium),
           .cos_phase = phase.cosine,
           .sin_phase = phase.sine,
           .turns = turns,
@@ -48,7 +49,7 @@ Member member_of(const EqualizerPath& path, std::size_t index, const Band& band,
           .sin_half = half_turn.sine,
           .launch_sine = fast_turn(path.launch_angle_rad).sine,
           .arrival_sine = fast_turn(path.arrival_angle_rad).sine,
-          .cross_terms = steady + medium,
+          .cross_terms = steady + turned_power,
           .unit = fast};
 }
 
@@ -56,8 +57,7 @@ Member member_of(const EqualizerPath& path, std::size_t index, const Band& band,
 class PairSums {
  public:
   explicit PairSums(const Band& band, double power)
-      : exponent_(-squared(2 * pi * band.centre_hz() / kSoundSpeedMps * kPlatformJitterM) / 2),
-        least_(kNegligible * power) {}
+      : jitter_(2 * pi * band.centre_hz() / kSoundSpeedMps), least_(kNegligible * power) {}
 
   void add(Member& p, Member& q) {
     // sinc(W tau) by the sine of the difference of the two half angles.
@@ -73,24 +73,23 @@ class PairSums {
     // Correlation of the medium's fading of two paths: exp(-distance^2 / 2) over delay and both angles.
     const double apart = squared(2 * x / pi) + squared((p.launch_sine - q.launch_sine) / kAngle) +
                          squared((p.arrival_sine - q.arrival_sine) / kAngle);
-    const double shared = p.turned_root * q.turned_root * fast_exp(-apart / 2);
+    const double shared = p.medium_root * q.medium_root * fast_exp(-apart / 2);
     const double product = 2 * (p.steady_root * q.steady_root + shared);
     if (product < least_) return;
-    const double sines = squared(p.launch_sine - q.launch_sine) + squared(p.arrival_sine - q.arrival_sine);
-    const double kept = fast_exp(exponent_ * sines), interference = product * sinc,
-                 cosine = p.cos_phase * q.cos_phase + p.sin_phase * q.sin_phase;
-    crossed += interference * kept * cosine;
-    // Variance of 2 a cos(phase) by jitter, 4 a^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2, with
-    //   cos(2 phase) = 2 cos(phase)^2 - 1.
-    jitter_variance +=
-        squared(interference) * (1 - squared(kept)) * (1 - squared(kept) * (2 * squared(cosine) - 1)) / 2;
+    const double interference = product * sinc,
+                 cosine_part = interference * (p.cos_phase * q.cos_phase + p.sin_phase * q.sin_phase),
+                 sine_part = interference * (p.sin_phase * q.cos_phase - p.cos_phase * q.sin_phase);
+    crossed += cosine_part * jitter_.add(cosine_part, sine_part, p.launch_sine - q.launch_sine,
+                                         p.arrival_sine - q.arrival_sine);
   }
 
-  double crossed = 0, jitter_variance = 0, turned_variance = 0, mixed_variance = 0;
+  double jitter_variance() const { return jitter_.variance(); }
+  double crossed = 0, turned_variance = 0, mixed_variance = 0;
 
  private:
   static constexpr double kAngle = 4 * pi / 180;  // angle over which the medium's fading decorrelates
-  double exponent_, least_;
+  JitterVariance jitter_;
+  double least_;
 };
 
 }  // namespace
@@ -117,12 +116,14 @@ EqualizerStatistics equalizer_statistics(const std::vector<EqualizerPath>& paths
     }
   }
   const double apart = steady + turned, together = std::max(apart + pairs.crossed, 0.0);
+  const double louder = apart > 0 ? together / apart : 0;
   sound.block_fading.mean = together;
   if (apart > 0) {
-    const double louder = together / apart, own = pairs.turned_variance * squared(louder),
+    const double own = pairs.turned_variance * squared(louder),
                  mixed = pairs.mixed_variance * squared(louder), medium = turned * louder;
-    sound.block_fading.variance = own + mixed + pairs.jitter_variance;
-    sound.block_fading.third = kJitterSkewness * pairs.jitter_variance * std::sqrt(pairs.jitter_variance);
+    const double jitter_variance = pairs.jitter_variance();
+    sound.block_fading.variance = own + mixed + jitter_variance;
+    sound.block_fading.third = kJitterSkewness * jitter_variance * std::sqrt(jitter_variance);
     if (medium > 1e-9 * together) {
       const double kept = own / squared(medium), share = third_share(kept);
       sound.block_fading.third += medium * share * (2 * medium * medium + 3 * mixed / kept);
@@ -139,7 +140,7 @@ EqualizerStatistics equalizer_statistics(const std::vector<EqualizerPath>& paths
       if (member.fast > 0) {
         term.signal = member.fast;
         term.unit = member.unit;
-        term.signal_cross_terms = member.fast * member.cross_terms / member.unit;
+        term.signal_cross_terms = louder * member.fast * member.cross_terms / member.unit;
         sound.own += member.fast * member.unit;
         sound.cross_terms += 2 * member.fast * member.cross_terms;
       }

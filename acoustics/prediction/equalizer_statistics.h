@@ -8,14 +8,11 @@
 // part. Scattering so slow that it stays constant through a packet counts as turned by the medium.
 // - Block fading (constant through a packet): the steady parts and the parts turned by the medium. Pairs of
 //   paths that are less than kNearCycles apart over the band count, with the medium fading that they share
-//   (acoustics/fading/link_fading.h). Both ends move vertically by kPlatformJitterM rms (our choice) from
-//   packet to packet: platform jitter. It reduces the mean interference of two paths by the factor
-//     g = exp(-(k kPlatformJitterM)^2 ((sin launch_p - sin launch_q)^2 + (sin arrival_p - sin arrival_q)^2) /
-//     2)
-//   relative to its value at the given positions, and the term 2 a cos(phase) has the variance
-//     4 a^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2.
+//   (acoustics/fading/link_fading.h). Both ends move vertically from packet to packet: platform jitter
+//   (platform_jitter.h).
 // - Fast fading (within a packet): the variance of S is the sum over pairs of x_p s_p x_q s_q sinc^2, s the
-//   scattered share, plus that of the cross terms with the block-fading power.
+//   scattered share, plus that of the cross terms with the block-fading power. Where paths cancel each other
+//   so do their cross terms: all shrink as the block-fading power does against that of the paths apart.
 #pragma once
 
 #include <vector>
@@ -29,6 +26,7 @@ namespace halocline::acoustics {
 struct EqualizerPath {
   double signal = 0, interference = 0;  // mean powers, uPa^2
   double steady = 1, turned = 0, scattered = 0;
+  double medium = 0;  // share of `turned` that fades with other paths; the rest is slow scattering
   // Delay, and phase at the centre of the band, which includes that of the delay.
   double delay_s = 0, phase_rad = 0;
   double launch_angle_rad = 0, arrival_angle_rad = 0;

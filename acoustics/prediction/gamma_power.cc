@@ -28,6 +28,7 @@ double mix(double a, double b, double part) { return a + part * (b - a); }
 
 constexpr double kMinZ = -4.5, kStepZ = 0.25, kMinSkewness = 0.1, kStepSkewness = 0.1;
 constexpr std::size_t kZs = 37, kSkewnesses = 20;
+constexpr double kLow = 0.3;  // share of the mean below which the gamma variable's constant may be too low
 
 // Logarithms of the quantiles of gamma variables of mean 1, whose variance is skewness^2 / 4.
 using QuantileTable = std::array<std::array<double, kZs>, kSkewnesses>;
@@ -67,6 +68,26 @@ class LogQuantiles {
   double part_;
 };
 
+// Least quantiles of a positive power of mean 1: those of Rice's of the same variance v <= 1, of which the
+// part t = 1 - sqrt(1 - v) is diffuse and K = (1 - t) / t, near 0:
+//   probability p = e^-K (y + (K - 1) y^2 / 2 + ..), y = x / t.
+// Above v = 1 a power may be lower than any of Rice's: the bound goes to 0 at v = 2.
+class LeastQuantiles {
+ public:
+  explicit LeastQuantiles(double variance)
+      : diffuse_(1 - std::sqrt(std::max(1 - variance, 0.0))),
+        share_(std::clamp(2 - variance, 0.0, 1.0)),
+        steady_((1 - diffuse_) / diffuse_) {}
+  double at(double z) const {
+    const double first = normal_probability(z) * fast_exp(std::min(steady_, kMaxSteady));
+    return share_ * diffuse_ * first / (1 + (steady_ - 1) * first / 2);
+  }
+
+ private:
+  static constexpr double kMaxSteady = 100;  // keeps the exponential finite
+  double diffuse_, share_, steady_;
+};
+
 }  // namespace
 
 double GammaPower::at(double z) const { return at(std::array{z})[0]; }
@@ -82,8 +103,11 @@ void GammaPower::replace(std::span<double> scores) const {
   }
   const double sign = skewness < 0 ? -1 : 1, unit = deviation * 2 / skewness;
   const LogQuantiles logs(sign * skewness);
-  for (double& z : scores) z = logs.at(sign * z);
-  for (double& z : scores) z = mean + unit * (fast_exp(z) - 1);
+  const LeastQuantiles least(variance / (mean * mean));
+  for (double& z : scores) {
+    const double power = mean + unit * (fast_exp(logs.at(sign * z)) - 1);
+    z = skewness > 0 && power < kLow * mean ? std::max(power, mean * least.at(z)) : power;
+  }
 }
 
 double third_share(double kept) { return kept > 0.5 ? (3 * kept - 1) / 2 : kept * kept; }

@@ -3,9 +3,11 @@
 //
 // The normal score of a probability is the quantile of the standard normal distribution for it. The
 // distribution here is exact for one scattered path (exponential) and for equal ones (gamma); for a steady
-// path with a scattered one (Rice) it is within 0.5 dB from the 1 % quantile upwards. A negative third
-// cumulant mirrors the distribution: interference that fades more than the signal. Quantiles are tabulated
-// once over the normal score, -4.5..4.5, and the skewness, 0.1..2, with an error below 0.05 dB.
+// path with a scattered one (Rice) it is within 0.5 dB from the 1 % quantile upwards; where the gamma
+// variable falls below the low quantiles of Rice's distribution of the same variance, down to negative power,
+// those hold. A negative third cumulant mirrors the distribution: interference that fades more than the
+// signal. Quantiles are tabulated once over the normal score, -4.5..4.5, and the skewness, 0.1..2, with an
+// error below 0.05 dB.
 #pragma once
 
 #include <array>

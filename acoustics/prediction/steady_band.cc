@@ -10,6 +10,7 @@
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 #include "acoustics/modem/receiver_kind.h"
+#include "acoustics/prediction/platform_jitter.h"
 #include "core/vector_clones.h"
 
 namespace halocline::acoustics {
@@ -65,29 +66,22 @@ void add_samples(std::size_t samples, Complex step, const Frequencies& first_re,
   }
 }
 
-// Constants of the pairs: the exponent of g per squared difference of sines, and the least product that
-// counts.
-struct PairRule {
-  double exponent = 0, least = 0;
-};
-
-// Adds the effect of jitter on a path's pairs with the paths before it, I = 2 a_p a_q sinc(cycles):
-//   change   = -I cos(phase) (1 - g)
-//   variance = I^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2,  cos(2 phase) = 2 cos(phase)^2 - 1.
-void add_pairs(const SteadyBand::Member& p, std::span<const SteadyBand::Member> before, const PairRule& rule,
-               SteadyBand::JitterEffect& jitter) {
+// Accumulates the effect of jitter on a path's pairs with the paths before it; returns the change of the
+// mean, -I cos(phase) (1 - g). Pairs whose product is below `least` do not count.
+double add_pairs(const SteadyBand::Member& p, std::span<const SteadyBand::Member> before, double least,
+                 JitterVariance& variance) {
+  double change = 0;
   for (const SteadyBand::Member& q : before) {
-    const double most = 2 * p.pressure * q.pressure;
-    if (most < rule.least) continue;
+    if (2 * p.pressure * q.pressure < least) continue;
     const double x = p.half - q.half,
                  sinc = std::abs(x) < 1e-6 ? 1 : (p.sine * q.cosine - p.cosine * q.sine) / x;
-    const double sines = squared(p.launch_sine - q.launch_sine) + squared(p.arrival_sine - q.arrival_sine);
-    const double kept = fast_exp(rule.exponent * sines), kept_squares = kept * kept,
-                 interference = squared(most * sinc), here = 2 * (p.re * q.re + p.im * q.im) * sinc;
-    jitter.change -= here * (1 - kept);
-    jitter.variance +=
-        (1 - kept_squares) * (interference - kept_squares * (2 * here * here - interference)) / 2;
+    const double cosine_part = 2 * (p.re * q.re + p.im * q.im) * sinc,
+                 sine_part = 2 * (p.im * q.re - p.re * q.im) * sinc;
+    const double kept =
+        variance.add(cosine_part, sine_part, p.launch_sine - q.launch_sine, p.arrival_sine - q.arrival_sine);
+    change -= cosine_part * (1 - kept);
   }
+  return change;
 }
 
 // Sums over the samples of each part, of the power and of its square.
@@ -172,14 +166,16 @@ std::array<SteadyBand::Part, kSignalFrequencies> SteadyBand::parts(const JitterE
 // middle of the band. The wave number k is that at the centre.
 SteadyBand::JitterEffect SteadyBand::jitter() const {
   const double wave_number = 2 * pi * band_.centre_hz() / kSoundSpeedMps;
-  PairRule rule{.exponent = -squared(wave_number * kPlatformJitterM) / 2, .least = 0};
-  for (const Member& member : members_) rule.least += kNegligible * squared(member.pressure);
+  double least = 0;
+  for (const Member& member : members_) least += kNegligible * squared(member.pressure);
   JitterEffect jitter;
+  JitterVariance variance(wave_number);
   std::size_t from = 0;  // first path that is near enough
   for (std::size_t p = 0; p < members_.size(); ++p) {
     while (members_[p].half - members_[from].half >= pi * kNearCycles) ++from;
-    add_pairs(members_[p], std::span(members_).subspan(from, p - from), rule, jitter);
+    jitter.change += add_pairs(members_[p], std::span(members_).subspan(from, p - from), least, variance);
   }
+  jitter.variance = variance.variance();
   return jitter;
 }
 

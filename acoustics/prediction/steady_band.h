@@ -10,12 +10,8 @@
 // the steady and the diffuse part of a signal (Rice 1945) of the same S and V. For paths that interfere many
 // times over a part both follow the delays, not the phases: they do not change when a vehicle moves by a
 // wavelength. Paths that interfere less than kNearCycles times over the band do change, by their angles. Both
-// ends move vertically by kPlatformJitterM rms (our choice) from packet to packet: platform jitter. It
-// reduces the mean interference of two paths p, q by the factor
-//   g = exp(-(k kPlatformJitterM)^2 ((sin launch_p - sin launch_q)^2 + (sin arrival_p - sin arrival_q)^2) /
-//   2)
-// relative to its value at the given positions, and 2 a_p a_q cos(phase) sinc(cycles) has the variance
-//   4 a_p^2 a_q^2 sinc(cycles)^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2.
+// ends move vertically by kPlatformJitterM rms from packet to packet: platform jitter (platform_jitter.h). It
+// reduces the mean interference of two paths by the factor g relative to its value at the given positions.
 // All parts lose the same, since jitter moves interference that alternates over the band only between parts.
 // Close paths, such as those of a distant buoy just below the surface, keep g near 1: Lloyd's mirror is
 // preserved.
@@ -32,9 +28,8 @@
 
 namespace halocline::acoustics {
 
-// Vertical platform jitter, m rms, and the number of interference cycles over the band below which a pair of
-// paths counts as near.
-inline constexpr double kPlatformJitterM = 0.2, kNearCycles = 4;
+// Number of interference cycles over the band below which a pair of paths counts as near.
+inline constexpr double kNearCycles = 4;
 
 // Phase factors exp(j 2 pi m turns), m = 0..7, and that of half a turn, exp(j pi turns).
 struct BandTurns {

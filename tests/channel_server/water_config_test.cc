@@ -18,7 +18,7 @@
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/noise/place_noise.h"
 #include "acoustics/sea/absorption.h"
-#include "acoustics/prediction/steady_band.h"
+#include "acoustics/prediction/platform_jitter.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/fine_structure.h"
 #include "acoustics/sea/noise.h"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/prediction/steady_band.h"
 
+#include <array>
 #include <cmath>
+#include <complex>
 #include <cstdint>
 #include <numbers>
 
@@ -9,6 +11,7 @@
 
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/prediction/platform_jitter.h"
 #include "core/random.h"
 #include "core/sim_time.h"
 
@@ -93,6 +96,36 @@ TEST(SteadyBand, JitterTurnsPathsOfOtherAnglesAgainstEachOther) {
     EXPECT_NEAR(mean, jittered, 0.02) << apart;
     EXPECT_NEAR(band.jitter_variance(), square - jittered * jittered, 0.02) << apart;
   }
+}
+
+// A direct path and those by surface and bottom, as of a shallow basin, which partly cancel: their pairs turn
+// together, so that the power varies by a quarter of its mean, not by one and a half as independent pairs
+// would. Within a quarter of the deviation: orders above the second are taken as independent.
+TEST(SteadyBand, JitterHardlyTurnsPathsThatCancelEachOther) {
+  constexpr double kWaveNumber = 2 * pi * 25'000 / 1500;
+  struct Ray {
+    double pressure, phase_rad, sine;
+  };
+  constexpr std::array<Ray, 3> kRays{{{1, 0, 0.0044}, {0.728, pi - 0.7, 0.0172}, {0.605, pi - 0.3, -0.0128}}};
+  SteadyBand band(receiver(), {23'000, 23'000 + kBandwidthHz});
+  for (const Ray& ray : kRays) band.add({ray.pressure, ray.phase_rad, 0, ray.sine, -ray.sine});
+  double mean = 0, square = 0;
+  constexpr int kEnds = 200'000;
+  for (int i = 0; i < kEnds; ++i) {
+    const auto jitter_m = [&](std::uint64_t end) {
+      return kPlatformJitterM *
+             normal_at(
+                 {.seed = 3, .who = static_cast<std::uint32_t>(end), .which = static_cast<std::uint64_t>(i)});
+    };
+    const double turn = kWaveNumber * (jitter_m(0) - jitter_m(1));
+    std::complex<double> sum;
+    for (const Ray& ray : kRays) sum += std::polar(ray.pressure, ray.phase_rad + turn * ray.sine);
+    mean += std::norm(sum) / kEnds;
+    square += std::norm(sum) * std::norm(sum) / kEnds;
+  }
+  const double deviation = std::sqrt(square - mean * mean);
+  EXPECT_LT(deviation, mean / 4);
+  EXPECT_NEAR(std::sqrt(band.jitter_variance()), deviation, deviation / 4);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/modem/packet_format.h"
 #include "acoustics/modem/receiver_kind.h"
-#include "acoustics/prediction/steady_band.h"
+#include "acoustics/prediction/platform_jitter.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
 #include "channel_server/modems/modem_config.h"
@@ -76,7 +76,7 @@ struct Case {
 
 class PredictedLink : public ::testing::TestWithParam<Case> {};
 
-// Platform jitter moves the ends (acoustics/prediction/steady_band.h): phases of the paths as packet `i`
+// Platform jitter moves the ends (acoustics/prediction/platform_jitter.h): phases of the paths as packet `i`
 // meets them.
 std::vector<Arrival> jittered(std::vector<Arrival> paths, double frequency_hz, std::uint64_t i) {
   const auto jitter_m = [&](std::uint64_t end) {
