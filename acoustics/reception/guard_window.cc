@@ -113,6 +113,17 @@ std::vector<double> window_powers(const std::vector<Arrival>& paths, const std::
   return sums;
 }
 
+// Powers that differ by less than this are equal: the delay windows of turned sound are cut into equal
+// powers, and rounding must not choose between them.
+constexpr double kEqualPowers = 1 - 1e-6;
+
+// Index of the first of the greatest values, which are not all negative.
+std::size_t first_greatest(const std::vector<double>& values) {
+  const double least = kEqualPowers * *std::max_element(values.begin(), values.end());
+  const auto first = std::find_if(values.begin(), values.end(), [&](double value) { return value >= least; });
+  return static_cast<std::size_t>(first - values.begin());
+}
+
 GuardWindow window_from(std::size_t first, const std::vector<Arrival>& paths,
                         const std::vector<double>& powers, const Modem& modem, const Guard& guard) {
   GuardWindow window{.first = first, .strongest = first, .shares = {}};
@@ -123,7 +134,7 @@ GuardWindow window_from(std::size_t first, const std::vector<Arrival>& paths,
     const double w = i < first ? 0 : guard.weight(after_s);
     const double disturbs = w < 1 ? disturbing_share(modem, paths[i], std::abs(after_s)) : 0;
     window.shares.push_back({w, (1 - w * w) * (disturbs + chip_leakage(modem, std::abs(after_s)))});
-    if (w * w * powers[i] > strongest) {
+    if (kEqualPowers * w * w * powers[i] > strongest) {
       strongest = w * w * powers[i];
       window.strongest = i;
     }
@@ -156,20 +167,19 @@ GuardWindow best_window(const std::vector<Arrival>& paths, const Modem& modem) {
   if (paths.size() == 1) return {.first = 0, .strongest = 0, .shares = {{1, 0}}};
   const Guard guard(modem);
   const std::vector<double> powers = mean_powers(paths), sums = window_powers(paths, powers, guard);
-  const auto best = std::max_element(sums.begin(), sums.end());
-  return window_from(static_cast<std::size_t>(best - sums.begin()), paths, powers, modem, guard);
+  return window_from(first_greatest(sums), paths, powers, modem, guard);
 }
 
 std::vector<LikelyWindow> likely_windows(const std::vector<Arrival>& paths, const Modem& modem) {
   const Guard guard(modem);
   const std::vector<double> powers = mean_powers(paths), sums = window_powers(paths, powers, guard);
-  const auto best = static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+  const std::size_t best = first_greatest(sums);
   std::vector<LikelyWindow> windows{{window_from(best, paths, powers, modem, guard), 1}};
   const double strongest_s = paths[windows[0].window.strongest].delay_s;
   std::size_t other = best;
   for (std::size_t first = 0; first < paths.size(); ++first) {
     if (guard.weight(strongest_s - paths[first].delay_s) > kShared) continue;
-    if (other == best || sums[first] > sums[other]) other = first;
+    if (other == best || kEqualPowers * sums[first] > sums[other]) other = first;
   }
   if (other == best || !(sums[other] > 0)) return windows;
   const double close = 1 - to_decibels({sums[best] / sums[other]}).value / kEqualDb;

@@ -64,6 +64,7 @@ std::shared_ptr<const acoustics::RayWater> LinkSearches::water_of(SimTime at, do
 
 void LinkSearches::forget_unused(SimTime at) {
   if (at < next_forgetting_) return;
+  ray_waters_.forget_unused();
   own_.forget_unused();
   shared_.forget_unused();
   next_forgetting_ = at + kKept;

@@ -208,6 +208,10 @@ std::shared_ptr<const acoustics::LinkKernel> StraightPropagation::kernel_of(
   if (last_ && water == last_water_ && are_alike(last_->transmitter(), transmitter) &&
       are_alike(last_->receiver(), receiver))
     return last_;
+  if (at >= next_forgetting_) {
+    kernels_.forget_unused();
+    next_forgetting_ = at + kKept;
+  }
   last_ = kernels_.find_or_make({water, key_of(transmitter), key_of(receiver)}, [&] {
     return std::make_shared<const acoustics::LinkKernel>(waters_->at(at), transmitter, receiver);
   });

@@ -34,10 +34,12 @@ namespace halocline::channel_server {
 // (acoustics/link/bottom_echo.h), for which they wait for the seabed between the ends.
 //
 // Constructing a LinkKernel takes a millisecond and evaluating it a fraction of a microsecond, so one is kept
-// for each pair of different modems, `max_kernels` at most.
+// for each pair of different modems, `max_kernels` at most. A drifting profile is another water every ten
+// minutes; kernels that were not used for kKept are forgotten.
 class StraightPropagation : public Propagation {
  public:
   static constexpr std::size_t kMaxKernels = 1024;
+  static constexpr SimDuration kKept = SimDuration::from_milliseconds(600'000);
   // Throws InvalidArgument when the environment is out of range.
   explicit StraightPropagation(acoustics::Environment environment, std::size_t max_kernels = kMaxKernels);
   // Without a `seabed`, echoes are unknown and nothing waits.
@@ -92,6 +94,7 @@ class StraightPropagation : public Propagation {
   acoustics::FadingModel fading_;
   std::shared_ptr<SeabedMap> seabed_;
   LruCache<PairKey, std::shared_ptr<const acoustics::LinkKernel>> kernels_;
+  SimTime next_forgetting_ = SimTime() + kKept;
   // Most recent kernel, which most calls use again.
   EnvironmentTimeline::WaterId last_water_ = 0;
   std::shared_ptr<const acoustics::LinkKernel> last_;

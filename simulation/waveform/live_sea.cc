@@ -13,6 +13,7 @@
 #include "acoustics/waveform/linear_phase_filter.h"
 #include "bus/messages/channels.h"
 #include "bus/transport/subscription.h"
+#include "channel_server/vehicles/vehicle_equipment.h"
 #include "core/check.h"
 #include "simulation/vehicle_track.h"
 #include "simulation/waveform/recorded_noise.h"
@@ -47,8 +48,7 @@ LiveSea::LiveSea(const ScenarioConfig& config, const bathymetry::PreparedTerrain
         keep(bus::channels::kState.of(std::string(vehicle)), state);
       },
       bus::Wakeup::kStoreOnly);
-  const auto& vehicles = config_.channel_server.vehicles;
-  if (std::none_of(vehicles.begin(), vehicles.end(), [](const auto& v) { return v.noise.has_value(); }))
+  if (channel_server::make_equipment(config_.channel_server, config_.scenario).noise.sources().empty())
     return;
   bus.subscribe<vehicle_sensors_t>(
       bus::channels::kSensors,

@@ -50,6 +50,16 @@ TEST(GuardWindow, BeginsAtAPrecursorWithinTheGuardTime) {
   EXPECT_EQ(mean_interference(paths, window), 0);
 }
 
+// Delay windows of turned sound have equal powers but for rounding.
+TEST(GuardWindow, TakesTheFirstOfEqualPowersWhateverTheLastDigit) {
+  for (const double digit : {-1e-9, 0.0, 1e-9}) {
+    const std::vector<Arrival> paths{path_at(1, 0), path_at(1.05, digit), path_at(1.1, -digit)};
+    const GuardWindow window = best_window(paths, modem());
+    EXPECT_EQ(window.first, 0u);
+    EXPECT_EQ(window.strongest, 0u);
+  }
+}
+
 TEST(GuardWindow, WeightsAnEchoByARaisedCosineAfterTheGuardTime) {
   for (const double late : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     const std::vector<Arrival> paths{path_at(1, 0), path_at(1.010 + 0.010 * late, -10)};

@@ -96,7 +96,9 @@ const Differences kInterpolated{tolerance(0.1), tolerance(1e-6), tolerance(0.01)
 
 TEST(Coverage, OfLevelSeaEqualsLinksIn1000RandomCells) {
   CoverageArea area{.middle_north_m = -3250, .cell_m = 50, .side = 80, .depths_m = {5, 20, 40, 90}};
-  expect_links_in_random_cells(level_sea(), "buoy", area, kInterpolated);
+  Differences most = kInterpolated;
+  most.of_other_paths = 2;  // one cell, drawn twice, where two guard windows are as good as each other
+  expect_links_in_random_cells(level_sea(), "buoy", area, most);
 }
 
 ScenarioConfig sea_over_a_ridge() {
