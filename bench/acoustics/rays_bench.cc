@@ -117,8 +117,8 @@ void flux_only_link(benchmark::State& state) {
   for (auto _ : state) {
     for (Situation& at : all) {
       at.link.range_m += 1e-6;
-      benchmark::DoNotOptimize(energy_flux_eigenrays(
-          {at.sea.water, 150, at.sea.bottom, at.sea.surface, at.sea.options}, at.link));
+      benchmark::DoNotOptimize(
+          energy_flux_eigenrays({at.sea.water, 150, at.sea.bottom, at.sea.surface, at.sea.options}, at.link));
     }
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
