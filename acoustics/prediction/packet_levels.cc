@@ -258,7 +258,7 @@ void PacketLevels::bits(std::span<const StateAndNoise> states, std::span<Level> 
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BlockFading& block_fading = *states[i].block_fading;
     const double power = block_fading.block_power + sound_.fast;
-    const double disturbance = states[i].noise + sound_.bits_echoes + sound_.untracked * power;
+    const double disturbance = states[i].noise + sound_.untracked * power;
     ratios[i] = power / disturbance;
     cells.add(block_fading, (coded_ ? chip_ : slope_) / disturbance);
   }

@@ -102,8 +102,9 @@ class PacketLevels {
   };
   // Upper bound of the result over the ratio to the mean signal.
   static constexpr double kMaxGainDb = 3;
-  // Frequency-shift keying: equivalent ratios for at most ExponentialMeans::kMax states, each with its noise,
-  // uPa^2.
+  // Frequency-shift keying: equivalent ratios for at most ExponentialMeans::kMax states, each with its noise
+  // and late echoes, uPa^2. The equivalent ratio falls by less than a decibel as they rise by one: fades
+  // decide on it.
   void bits(std::span<const StateAndNoise> states, std::span<Level> levels) const;
   Level bits(const BlockFading& block_fading, double noise) const;
 

@@ -47,11 +47,9 @@ void exponentiate(std::size_t begin, std::size_t end, Strata& values) {
 
 }  // namespace
 
-// The levels, and the strata between which they are interpolated, each paired with normal scores of the fast
-// fading.
+// Strata of large-scale fading, each paired with normal scores of the late echoes and the fast fading.
 struct StratifiedAverage::Scores {
   static constexpr std::size_t kOrders = 8;
-  std::array<double, kLevels> levels{-2.4, -1.6, -0.8, 0, 0.8, 1.6, 2.4};  // in standard deviations
   Strata strata = normal_strata<kStrata>();
   // Scores paired with stratum i: of late echoes; by state, of the preamble and of even and odd blocks.
   Strata echoes{};
@@ -78,52 +76,35 @@ const StratifiedAverage::Scores& StratifiedAverage::scores() {
 StratifiedAverage::StratifiedAverage(double deviation, const ReceptionCurves& curves,
                                      const ReceptionStatistics& sound, double noise)
     : curves_(curves) {
+  // Frequency-shift keying adds the untracked power of each state (packet_levels.cc).
+  const bool collects = !is_frequency_shift_keying(curves.modem().error_model);
   const double untracked = sound.untracked * (sound.block_fading.mean + sound.fast);
-  Strata quiet, mean, all;
+  Strata quiet, all;
   set_quiet(noise, deviation, untracked, scores().strata, quiet);
-  mean = all = quiet;
+  set_quiet(noise, deviation, collects ? untracked : 0, scores().strata, all);
   if (sound.preamble_echoes > 0) {
     add_gamma(sound.preamble_echoes, sound.preamble_echo_variance, 0, scores().echoes, quiet);
   }
   set_decibels(quiet, preamble_db_);
   most_preamble_db_ = *std::max_element(preamble_db_.begin(), preamble_db_.end());
-  for (double& power : mean) power += sound.late_echoes;
-  all = mean;
+  for (double& power : all) power += sound.late_echoes;
   if (sound.fading_echoes > 0) {
     add_gamma(sound.fading_echoes, sound.bits_echo_variance, 1, scores().echoes, all);
   }
-  if (is_frequency_shift_keying(curves.modem().error_model)) {
-    const auto& levels = scores().levels;
-    for (std::size_t k = 0; k < kLevels; ++k) {
-      noise_[k] = noise / loudness(deviation, levels[k]);
-      disturbance_db_[k] = fast_decibels(noise_[k] + sound.late_echoes + untracked);
-    }
-    Strata places;
-    for (std::size_t i = 0; i < kStrata; ++i)
-      places[i] = (scores().strata[i] - levels[0]) / (levels[1] - levels[0]);
-    set_places(places);
-    if (sound.fading_echoes > 0) {
-      for (std::size_t i = 0; i < kStrata; ++i) all[i] /= mean[i];
-      set_decibels(all, echoes_db_);
-    }
-    const auto [least, most] = std::minmax_element(echoes_db_.begin(), echoes_db_.end());
-    least_echoes_db_ = *least;
-    most_echoes_db_ = *most;
-  } else {
-    turns_ = 2;
-    // Levels are equidistant in dB of all noise and interference, from the greatest to the least.
-    Strata all_db;
-    set_decibels(all, all_db);
-    const auto [least, most] = std::minmax_element(all_db.begin(), all_db.end());
-    const double step_db = (*most - *least) / (kLevels - 1);
-    for (std::size_t k = 0; k < kLevels; ++k) {
-      disturbance_db_[k] = *most - step_db * static_cast<double>(k);
-      noise_[k] = fast_power(disturbance_db_[k]);
-    }
-    Strata places{};
-    for (std::size_t i = 0; i < kStrata && step_db > 1e-9; ++i) places[i] = (*most - all_db[i]) / step_db;
-    set_places(places);
+  turns_ = collects ? 2 : 1;
+  // Levels are equidistant in dB of all noise and interference, from the greatest to the least.
+  Strata all_db;
+  set_decibels(all, all_db);
+  const auto [least, most] = std::minmax_element(all_db.begin(), all_db.end());
+  const double step_db = (*most - *least) / (kLevels - 1);
+  for (std::size_t k = 0; k < kLevels; ++k) {
+    disturbance_db_[k] = *most - step_db * static_cast<double>(k);
+    noise_[k] = fast_power(disturbance_db_[k]);
+    if (!collects) disturbance_db_[k] = fast_decibels(noise_[k] + untracked);
   }
+  Strata places{};
+  for (std::size_t i = 0; i < kStrata && step_db > 1e-9; ++i) places[i] = (*most - all_db[i]) / step_db;
+  set_places(places);
   const auto all_bits = static_cast<double>(curves.timing().information_bits);
   for (const std::int64_t bits : curves.blocks()) {
     const double part = static_cast<double>(bits) / all_bits, kept = sound.bits_variance;
@@ -200,7 +181,7 @@ void StratifiedAverage::ratios_of_block(const Levels& bits, std::size_t state, s
     const Level &low = bits[below_[i]], &high = bits[below_[i] + 1];
     const double median = low.median_db + parts_[i] * (high.median_db - low.median_db),
                  deviation = low.deviation_db + parts_[i] * (high.deviation_db - low.deviation_db);
-    ratios_db[j] = median + normals[i] * wider * deviation - echoes_db_[i];
+    ratios_db[j] = median + normals[i] * wider * deviation;
   }
 }
 

@@ -48,25 +48,21 @@ inline double on_parabola(double low, double middle, double high, double x) {
 class StratifiedAverage {
  public:
   static constexpr std::size_t kLevels = 7;
-  using Levels = std::array<Level, kLevels>;  // levels of the bits, from the quietest to the loudest
+  using Levels = std::array<Level, kLevels>;  // levels of the bits, from the most disturbance to the least
 
   // `deviation` is the standard deviation of large-scale fading in nepers of power, `noise` the noise over
   // the band, uPa^2. `curves` must outlive it.
   StratifiedAverage(double deviation, const ReceptionCurves& curves, const ReceptionStatistics& sound,
                     double noise);
 
-  // Noise at a level of large-scale fading, divided by the gain of that level; in phase-shift keying, the
-  // noise and interference together.
+  // Noise over the gain of large-scale fading, with the late echoes, at a level of both together; in
+  // phase-shift keying with the untracked power, too.
   double noise(std::size_t level) const { return noise_[level]; }
   // True when the preamble is certain to be detected, the bits certain to be correct, or certain to be lost,
   // for every stratum of the other fading.
   bool finds(const Level& preamble) const;
-  bool decodes(const Level& bits) const {
-    return bits.at(-widest_) - most_echoes_db_ > curves_.bits_flank().high_db;
-  }
-  bool loses(const Level& bits) const {
-    return bits.at(widest_) - least_echoes_db_ < curves_.bits_flank().low_db;
-  }
+  bool decodes(const Level& bits) const { return bits.at(-widest_) > curves_.bits_flank().high_db; }
+  bool loses(const Level& bits) const { return bits.at(widest_) < curves_.bits_flank().low_db; }
   // Levels of one state of block fading; `at(k)` computes the level `k`.
   template <typename At>
   Levels levels(At at) const {
@@ -134,9 +130,7 @@ class StratifiedAverage {
   const ReceptionCurves& curves_;
   Strata preamble_db_{};  // noise and interference of the preamble at each stratum
   double most_preamble_db_ = 0;
-  Strata echoes_db_{};     // interference of the bits over its mean, as late echoes fade
   std::size_t turns_ = 1;  // number of state classes among which the strata alternate
-  double least_echoes_db_ = 0, most_echoes_db_ = 0;
   std::array<double, kLevels> noise_{}, disturbance_db_{};
   // The level below each stratum, and the fraction of the way to the next level.
   std::array<std::size_t, kStrata> below_{};

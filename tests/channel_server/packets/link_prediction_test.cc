@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -24,14 +23,13 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/modem/packet_format.h"
 #include "acoustics/modem/receiver_kind.h"
-#include "acoustics/prediction/platform_jitter.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/reception_decision.h"
-#include "core/random.h"
 #include "core/sim_time.h"
+#include "tests/channel_server/sea/jittered_paths.h"
 #include "tests/support/doc_table.h"
 
 namespace halocline::channel_server {
@@ -76,22 +74,6 @@ struct Case {
 
 class PredictedLink : public ::testing::TestWithParam<Case> {};
 
-// Platform jitter moves the ends (acoustics/prediction/platform_jitter.h): phases of the paths as packet `i`
-// meets them.
-std::vector<Arrival> jittered(std::vector<Arrival> paths, double frequency_hz, std::uint64_t i) {
-  const auto jitter_m = [&](std::uint64_t end) {
-    return acoustics::kPlatformJitterM *
-           normal_at({.seed = end, .purpose = purpose_of("test-sway"), .which = i});
-  };
-  const double turn_per_m = 2 * std::numbers::pi * frequency_hz / 1500, from_m = jitter_m(1),
-               to_m = jitter_m(2);
-  for (Arrival& path : paths) {
-    path.phase_rad +=
-        turn_per_m * (from_m * std::sin(path.launch_angle_rad) + to_m * std::sin(path.arrival_angle_rad));
-  }
-  return paths;
-}
-
 // Mean of the packets' probabilities.
 struct Share {
   double mean = 0, squares = 0;
@@ -124,9 +106,9 @@ TEST_P(PredictedLink, DeliversAsManyPacketsAsRealised) {
     const acoustics::FadingLink link{.seed = 12, .lower_id = i, .higher_id = 99'999};
     const acoustics::LinkFading fading(model, link);
     ReceivedSignal signal{shared, 0, begin, begin + timing.preamble, begin + timing.duration, true, {}, {}};
-    signal.history =
-        signal_history(model, link, fading.large_scale(begin), jittered(paths, modem.centre_frequency_hz, i),
-                       sync, modem.band(), begin, {timing.preamble.seconds(), timing.duration.seconds()});
+    signal.history = signal_history(
+        model, link, fading.large_scale(begin), testing::jittered(paths, modem.centre_frequency_hz, i), sync,
+        modem.band(), begin, {timing.preamble.seconds(), timing.duration.seconds()});
     for (std::size_t k = 0; k < kNoiseDb.size(); ++k) {
       signal.noise = std::pow(10, kNoiseDb[k] / 10);
       const double acquisition = acquisition_probability(signal, {});
@@ -154,7 +136,7 @@ TEST_P(PredictedLink, DeliversAsManyPacketsAsRealised) {
     return std::string(text.data());
   };
   if (GetParam().turn != nullptr) return;
-  testing::doc_row(
+  halocline::testing::doc_row(
       "predicted",
       {std::string(GetParam().profile) + ", sea " + std::to_string(GetParam().sea + 1), cell(promised[half]),
        cell(delivered[half].mean), cell(worst_acquired), cell(worst_delivered)});
