@@ -57,14 +57,21 @@ double hop_overlap(const Modem& modem, double apart_s) {
   return (1 - raised_cosine(back_s / chip_s)) * modem.bandwidth_hz * chip_s / (2 * modem.hop_count);
 }
 
-// Leakage of an echo's chip that ends within the chip that is listened to, into the other tone of its pair:
-// B T sin^2(pi d / T) / pi^2 of the echo's power.
+// Distance of the two tones of a pair, in widths 1 / T of a tone: 2 N tones share the band, and tones of one
+// chip do not disturb each other, so it is a whole number.
+double tone_distance(const Modem& modem) {
+  const double even = modem.bandwidth_hz * modem.chip.seconds() / (2 * modem.hop_count);
+  return std::max(std::round(even), 1.0);
+}
+
+// Leakage of an echo's chip that ends within the chip that is listened to, into the other tone of its pair, n
+// widths away: B T sin^2(pi n d / T) / (pi n)^2 of the echo's power.
 double chip_leakage(const Modem& modem, double apart_s) {
   const double chip_s = modem.chip.seconds();
   if (modem.hop_count == 0 || !(apart_s < chip_s)) return 0;
-  const double sine = fast_turn(std::numbers::pi * apart_s / chip_s).sine;
-  return modem.late_echo_share * modem.bandwidth_hz * chip_s * sine * sine /
-         (std::numbers::pi * std::numbers::pi);
+  const double turn = std::numbers::pi * tone_distance(modem);
+  const double part = fast_turn(turn * apart_s / chip_s).sine / turn;
+  return modem.late_echo_share * modem.bandwidth_hz * chip_s * part * part;
 }
 
 // Disturbing share of a late echo's power: kappa (1 - eta rho) of what falls on the tones of its packet.

@@ -17,11 +17,12 @@
 // white noise over the band B that is
 //   B T / (2 N)
 // of the echo's power (1 for JANUS); the transition takes one more chip, as a raised cosine. An echo that is
-// d < T late also cuts off a chip's end: its tone leaks into the other tone of the pair, sin^2(pi d / T) /
-// pi^2 of its power (correlation of a part d of the chip with a tone 1 / T away), as white noise over the
+// d < T late also cuts off a chip's end: its tone leaks into the other tone of the pair, sin^2(pi n d / T) /
+// (pi n)^2 of its power (correlation of a part d of the chip with a tone n / T away), as white noise over the
 // band
-//   B T sin^2(pi d / T) / pi^2
-// of the share 1 - w^2. (Leakage of a path within the window fades as the signal does and is left out.)
+//   B T sin^2(pi n d / T) / (pi n)^2,  n the whole number nearest to B T / (2 N), at least 1
+// (JANUS 1, tones 160 Hz apart; Micromodem 2, 320 Hz) of the share 1 - w^2. (Leakage of a path within the
+// window fades as the signal does and is left out.)
 // Against 100 JANUS packets summed chip by chip and tone by tone over an exponential profile of 31 ms, the
 // interference is 1.2 dB too little and the signal 0.8 dB too much. A receiver of the strongest path has a
 // window of the resolution of its band, Modem::window_s.

@@ -136,6 +136,9 @@ TEST(GuardWindow, AnEchoThatEndsWithinAChipLeaksIntoTheOtherTone) {
   // 4.5 ms late its weight is 1/2, and sin^2(3 pi / 4) = 1/2.
   EXPECT_NEAR(interference_after(0.0045), 0.75 * half_chip / 2, 1e-6 * half_chip);
   EXPECT_EQ(interference_after(0.003), 0);
+  // Seven pairs of tones in the same band lie 2 / T apart: sin^2(6 pi / 4) / (2 pi)^2 of its power leaks.
+  hopping.hop_count = 7;
+  EXPECT_NEAR(interference_after(0.0045), 0.75 * half_chip / 4, 1e-6 * half_chip);
 }
 
 TEST(GuardWindow, OfOnePathIsThatPath) {
