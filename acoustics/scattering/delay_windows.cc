@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "acoustics/math/fast_functions.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -17,6 +18,12 @@ constexpr std::size_t kBins = 288;                                     // to 60 
 constexpr std::array<double, 8> kParts{-1.5341205443525463, -0.8871465590188759, -0.4887764111146696,
                                        -0.1573106846101707, 0.1573106846101707,  0.4887764111146696,
                                        0.8871465590188759,  1.5341205443525463};
+// Logarithms of the probabilities of these medians.
+constexpr std::array<double, 8> kLogShares{-2.772588722239781,  -1.6739764335716716, -1.1631508098056809,
+                                           -0.8266785731844679, -0.5753641449035618, -0.3746934494414107,
+                                           -0.2076393647782445, -0.06453852113757118};
+constexpr double kWide = 0.5;    // v below which the cubes are beyond the power law
+constexpr double kWidest = 100;  // v above which only the last part is late
 // Shares of the power between which windows lie: finer at both ends, which decide how long echoes last.
 constexpr std::array<double, kMaxDelayWindows + 1> kCuts{0,   0.01, 0.04, 0.1,  0.17, 0.24, 0.32, 0.4, 0.5,
                                                          0.6, 0.68, 0.76, 0.84, 0.91, 0.96, 0.99, 1};
@@ -29,13 +36,18 @@ double place_of(double excess_s) {
 
 // Quantiles of a gamma distribution of unit mean and relative variance v = 1 / shape, with unit mean:
 //   x = (1 - v / 9 + z sqrt(v) / 3)^3
+// Low quantiles of wide distributions are those of its power law instead, a lower bound at any probability p:
+//   x = v (p Gamma(1 + 1 / v))^v
+// Without it a part would fall by decades of delay at a small change of v.
 std::array<double, 8> gamma_parts(double v) {
   std::array<double, 8> parts{};
-  const double root = std::sqrt(v) / 3, base = 1 - v / 9;
+  const double root = std::sqrt(v) / 3, base = 1 - v / 9, wide = std::min(v, kWidest);
+  const double log_gamma = v > kWide ? elementary::lgamma(1 + 1 / wide) : 0;
   double sum = 0;
   for (std::size_t q = 0; q < parts.size(); ++q) {
-    const double x = std::max(base + kParts[q] * root, 1e-3);
-    sum += parts[q] = x * x * x;
+    const double x = std::max(base + kParts[q] * root, 0.0);
+    const double least = v > kWide ? wide * fast_exp(wide * (kLogShares[q] + log_gamma)) : 0;
+    sum += parts[q] = std::max(x * x * x, least);
   }
   for (double& part : parts) part *= static_cast<double>(parts.size()) / sum;
   return parts;

@@ -2,10 +2,11 @@
 // Windows of delay of turned sound.
 //
 // Model. The sound that arrives by way of one state has a gamma distribution of delay, of its mean and
-// variance, here as eight parts of equal power at its quantiles (Wilson and Hilferty 1931), scaled to the
-// mean. All parts of both directions of a link stand in a histogram, 16 bins an e-fold of excess delay, each
-// part in the two bins beside it; windows are cut at quantiles of the whole. A bin that a quantile cuts is
-// divided in proportion, so windows move without steps.
+// variance, here as eight parts of equal power at its quantiles (Wilson and Hilferty 1931; the low
+// ones of a wide distribution by its power law), scaled to the mean. All parts of both directions of a link
+// stand in a histogram, 16 bins an e-fold of excess delay, each part in the two bins beside it; windows are
+// cut at quantiles of the whole. A bin that a quantile cuts is divided in proportion, so windows move without
+// steps.
 #pragma once
 
 #include <vector>

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "acoustics/math/fast_functions.h"
@@ -21,6 +20,8 @@ constexpr int kMaxSteps = 48;          // on one side
 constexpr double kSteepest = 1.4;      // rad: families end there
 constexpr double kBendReach = 2.5;     // sigma_z within which rays tell how zeta is bent
 constexpr double kLeastLength = 1e-3;  // m
+// sigma_z over the Airy length of a fold between which its field gives way.
+constexpr double kFoldStays = 1, kFoldGone = 2;
 
 // sqrt(2 pi) times the normal density of a ray that ends `off_m` below the receiver, reflected at surface and
 // bottom.
@@ -105,7 +106,8 @@ std::size_t RayFamily::fold_between(const Eigenray& a, const Eigenray& b) const 
 double RayFamily::integral_to_fold(const Eigenray& a, const Eigenray& b) const {
   const std::size_t i = fold_between(a, b);
   if (i == 0 || i + 1 >= rays_.size()) return sums_[i];
-  const auto distance = [this](std::size_t ray) { return std::abs(rays_[ray].off_m); };
+  const double side = rays_[i].off_m > 0 ? 1 : -1;
+  const auto distance = [&](std::size_t ray) { return side * rays_[ray].off_m; };
   const double before = rays_[i].theta - rays_[i - 1].theta, after = rays_[i + 1].theta - rays_[i].theta;
   const double rise = (distance(i) - distance(i - 1)) / before;
   const double fall = (distance(i) - distance(i + 1)) / after;
@@ -137,18 +139,22 @@ double RayFamily::bend_at(double theta) const {
   return bend;
 }
 
-double RayFamily::airy_length_m(double frequency_hz, double receiver_mps) const {
-  double least = std::numeric_limits<double>::infinity(), length = kLeastLength;
+double RayFamily::share_beyond_folds(double sigma_m, double frequency_hz, double receiver_mps) const {
+  double all = 0, beyond = 0;
   for (std::size_t i = 1; i + 1 < rays_.size(); ++i) {
     const FamilyRay &a = rays_[i - 1], &b = rays_[i], &c = rays_[i + 1];
-    const double before = slope_between(a, b), after = slope_between(b, c), steep = std::abs(before + after);
-    if (steep >= least) continue;
-    least = steep;
-    const double width = c.theta - a.theta;
-    const Fold fold{2 * (after - before) / width, (c.sine - a.sine) / width / receiver_mps};
-    if (fold.slowness_slope != 0) length = fold.length_m(frequency_hz);
+    const double power = sums_[i + 1] - sums_[i - 1], width = c.theta - a.theta;
+    // The sine may turn between the three rays, where zeta does not: the slopes on both sides count.
+    const double before = (b.sine - a.sine) / (b.theta - a.theta);
+    const double after = (c.sine - b.sine) / (c.theta - b.theta);
+    const Fold fold{2 * (slope_between(b, c) - slope_between(a, b)) / width,
+                    std::sqrt(0.5 * (before * before + after * after)) / receiver_mps};
+    all += power;
+    if (fold.slowness_slope == 0) continue;
+    const double lengths = sigma_m / std::max(fold.length_m(frequency_hz), kLeastLength);
+    beyond += power * std::clamp((lengths - kFoldStays) / (kFoldGone - kFoldStays), 0.0, 1.0);
   }
-  return std::max(length, kLeastLength);
+  return all > 0 ? beyond / all : 0;
 }
 
 }  // namespace halocline::acoustics

@@ -46,8 +46,10 @@ class RayFamily {
   // How far zeta is bent about the ray launched at `theta`, in units of 2 sigma_z: the greatest distance of
   // rays within reach from the straight line through the two beside it.
   double bend_at(double theta) const;
-  // Airy length of the fold, in depth, where zeta turns or is the least steep, m; above 0.
-  double airy_length_m(double frequency_hz, double receiver_mps) const;
+  // Share of the integral, 0..1, of rays that a spread of `sigma_m` takes out of the field of their fold:
+  // about each ray zeta is taken as a fold, whose field gives way where its Airy length is less than sigma_m,
+  // and is gone at half of it.
+  double share_beyond_folds(double sigma_m, double frequency_hz, double receiver_mps) const;
 
  private:
   void add_side(FamilyRays& rays, const FamilyRay& seed, double sigma, double step);

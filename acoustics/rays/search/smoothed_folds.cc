@@ -21,9 +21,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr std::size_t kSigmas = 7;  // launch angles at which sigma_z is computed
-// sigma_z over the Airy length of a fold between which its field gives way.
-constexpr double kFoldStays = 1, kFoldGone = 1.5;
+constexpr std::size_t kSigmas = 7;    // launch angles at which sigma_z is computed
 constexpr double kNegligible = 1e-4;  // of the strongest power: windows below are left out
 constexpr int kFirstWindow = 8192;    // of identities: the windows of a rough bottom are fewer
 constexpr int kWindowNumbers = 8000;
@@ -117,8 +115,7 @@ class FoldSmoother {
   // Weight of the smoothed power of the family of a ray against that of the family's folds.
   double weight_of(const RayFamily& family, double theta) {
     if (family.is_empty()) return 0;
-    const double length = family.airy_length_m(link_.options.frequency_hz, link_.receiver_mps);
-    return ramp(free_sigma_of(theta) / length, kFoldStays, kFoldGone);
+    return family.share_beyond_folds(free_sigma_of(theta), link_.options.frequency_hz, link_.receiver_mps);
   }
   void smooth_beside(const Eigenray& path);
   void share_among_paths(const RayFamily& family, double weight);

@@ -19,10 +19,10 @@
 //
 // Only where it matters. A ray that meets both surface and bottom of a level sea has no fold beside it. For
 // the others two rays at 2 sigma_z to both sides tell e, by how much zeta is bent there in units of 2
-// sigma_z. Below kStraight a path is left as it is, to the bit; the change is faded in up to kBent. It is
-// faded out, too, where sigma_z, depth or not, is below the Airy length of the fold, whose field
-// (acoustics/math/fold_field.h) is wider then. Rays on the shadow side are sought among kMinShadowRays to
-// kMaxShadowRays launch angles.
+// sigma_z. Below kStraight a path is left as it is, to the bit; the change is faded in up to kBent. It
+// fades out, too, where sigma_z, depth or not, is from twice to once the Airy length of the fold, whose field
+// (acoustics/math/fold_field.h) is wider then: in the mean over the family's power. Rays on the shadow side
+// are sought among kMinShadowRays to kMaxShadowRays launch angles.
 //
 // Accuracy: 0.1 dB of the integral. Left out: shadows of folds narrower than those launch angles, kinks of
 // the profile, and paths of more than one bounce on a bottom that is not level.
