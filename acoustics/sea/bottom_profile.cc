@@ -18,6 +18,9 @@ constexpr double kLongestInDepths = 2;
 // Least ratio of a neighbouring turn to this one where a curve is sampled.
 constexpr double kMinShareOfBend = 0.5;
 constexpr double kPatienceAmongBends = 3;  // factor on both limits between such neighbours
+// The bend becomes continuous where it changes little from facet to facet, and fades back to its step where
+// it changes by an eighth of itself, as over a rough bottom, of which cubics would make more than it has.
+constexpr double kIrregular = 16;
 
 // The straight facet from one point to the next.
 Facet facet_between(const ProfiledDepth& a, const ProfiledDepth& b) {
@@ -30,6 +33,8 @@ Facet facet_between(const ProfiledDepth& a, const ProfiledDepth& b) {
           std::min(a.depth_m, b.depth_m),
           slope / hypotenuse,
           1 / hypotenuse,
+          0,
+          0,
           0,
           0,
           0,
@@ -103,6 +108,15 @@ void BottomProfile::bend_facets() {
   // Change of the turn along the facet, d(turn)/ds = (turn1 - turn0) / length, length = (r1 - r0) / cosine.
   for (Facet& facet : facets_)
     facet.bend_per_m = (facet.turn1 - facet.turn0) * facet.cosine / (facet.r1 - facet.r0);
+  for (std::size_t i = 1; i < facets_.size(); ++i) {
+    Facet &left = facets_[i - 1], &right = facets_[i];
+    if (left.turn1 == 0) continue;
+    const double change = right.bend_per_m - left.bend_per_m;
+    const double all = std::abs(right.bend_per_m) + std::abs(left.bend_per_m);
+    const double half = 0.5 * change * std::max(1 - kIrregular * std::abs(change) / all, 0.0);
+    left.excess1 = half * (left.r1 - left.r0) / left.cosine;
+    right.excess0 = -half * (right.r1 - right.r0) / right.cosine;
+  }
 }
 
 std::size_t BottomProfile::facet_at(double range_m) const {

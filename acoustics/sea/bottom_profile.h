@@ -5,10 +5,12 @@
 // that sample a smooth bottom would create false and missing rays at the corners. Hence, where two facets
 // differ by no more than the crease angle, and neither is longer than twice the depth there (longer ones are
 // intended slopes, not samples of a curve), the direction of reflection is the mean of both at the common
-// point and varies linearly from point to point, like the unit normal of a curved bottom; its change along
-// the facet focuses or spreads the ray tube. Both limits are three times as wide where the corners on both
-// sides turn the same way by at least half as much, as they do for a coarsely sampled curve. At any other
-// corner each facet keeps its own slope. A crease angle of 0 makes all corners sharp.
+// point and varies between the points like the unit normal of a curved bottom. Its change along the facet,
+// the bend, focuses or spreads the ray tube; it is continuous at such points, the mean of both facets, so
+// that a ray tube does not jump as its ray passes from facet to facet. Both limits are three times as wide
+// where the corners on both sides turn the same way by at least half as much, as they do for a coarsely
+// sampled curve. At any other corner each facet keeps its own slope. A crease angle of 0 makes all corners
+// sharp.
 //
 // Immutable: calls may overlap between threads. Ranges are from the source, m, ascending; depths below the
 // surface, m. Left out: slopes across the link, which turn rays out of its plane.
@@ -37,11 +39,22 @@ inline const double kDefaultCreaseAngle = to_radians(5);
 struct Facet {
   double r0, r1, z0, slope;
   double shallowest_m;
-  double sine, cosine;         // sine and cosine of the facet's angle atan(slope), positive down
-  double turn0, turn1;         // reflecting angle at both ends minus the facet's angle, rad
-  double bend_per_m;           // change of the reflecting angle along the facet, rad / m
+  double sine, cosine;  // sine and cosine of the facet's angle atan(slope), positive down
+  double turn0, turn1;  // reflecting angle at both ends minus the facet's angle, rad
+  double bend_per_m;    // mean change of the reflecting angle along the facet, rad / m
+  // By how much the change at each end exceeds the mean one, rad a facet's length.
+  double excess0, excess1;
   std::uint16_t smooth_group;  // facets between two corners share a number (modulo 65536)
   bool bent() const { return turn0 != 0 || turn1 != 0; }
+  // The reflecting angle minus the facet's angle, rad, and its change along the facet, rad / m, at the share
+  // u of the facet's length: the cubic through the turns and the changes at both ends.
+  double turn_at(double u) const {
+    return turn0 + u * (turn1 - turn0) + u * (1 - u) * ((1 - u) * excess0 - u * excess1);
+  }
+  double bend_at(double u) const {
+    const double excess = (1 - u) * (1 - 3 * u) * excess0 - u * (2 - 3 * u) * excess1;
+    return bend_per_m + excess * cosine / (r1 - r0);
+  }
 };
 
 // A bottom of straight or bent facets.

@@ -116,15 +116,14 @@ bool find_hit(double curvature, const BottomProfile& profile, const ArcPoint& s,
 
 // Specular reflection, by sums and differences of angles a (of the ray, positive down) and b (of the slope):
 //   sin(a - b) = sin a cos b - cos a sin b,  cos(a - b) = cos a cos b + sin a sin b
-// On a bent facet the reflecting angle b + t changes linearly from t = turn0 to turn1 along the facet.
+// On a bent facet the reflecting angle b + t changes from t = turn0 to turn1 along the facet.
 FacetBounce bounce_off(const Facet& facet, const ArcPoint& s) {
   const double ct = s.xi * s.c, st = s.sine;
-  double sine = facet.sine, cosine = facet.cosine, bend = facet.bend_per_m;  // the reflecting slope
-  const double grazing_facet = st * cosine - ct * sine;                      // sin(angle - slope)
+  double sine = facet.sine, cosine = facet.cosine, bend = 0;  // the reflecting slope
+  const double grazing_facet = st * cosine - ct * sine;       // sin(angle - slope)
   if (facet.bent()) {
     const double share = (s.r - facet.r0) / (facet.r1 - facet.r0);
-    const double turn = facet.turn0 + share * (facet.turn1 - facet.turn0), ts = sine_of_bend(turn),
-                 tc = std::sqrt(1 - ts * ts);
+    const double ts = sine_of_bend(facet.turn_at(share)), tc = std::sqrt(1 - ts * ts);
     const double bent_sine = sine * tc + cosine * ts, bent_cosine = cosine * tc - sine * ts;
     // The facet's own slope reflects when a ray reflected by the bent slope would enter the facet, or when
     // the ray does not meet the bent slope from above.
@@ -134,8 +133,7 @@ FacetBounce bounce_off(const Facet& facet, const ArcPoint& s) {
     if (grazing > kMinSine && leaving > kMinSine) {
       sine = bent_sine;
       cosine = bent_cosine;
-    } else {
-      bend = 0;
+      bend = facet.bend_at(share);
     }
   }
   // The reflected ray leaves at the angle slope - G, with the grazing angle G = angle - slope.

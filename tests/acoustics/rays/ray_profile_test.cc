@@ -85,8 +85,7 @@ StraightRay straight_ray(const BottomProfile& profile, double z0, double range, 
       continue;
     }
     const Facet& f = facets[hit];
-    const double turn = f.turn0 + (r - f.r0) / (f.r1 - f.r0) * (f.turn1 - f.turn0);
-    const double beta = std::atan(f.slope) + turn, nr = -std::sin(beta),
+    const double beta = std::atan(f.slope) + f.turn_at((r - f.r0) / (f.r1 - f.r0)), nr = -std::sin(beta),
                  nz = std::cos(beta);  // normal, downward
     const double along = dr * nr + dz * nz;
     dr -= 2 * along * nr;
