@@ -55,7 +55,7 @@ bool is_frequency_shift_keying(ErrorModel model);
 // True for frequency-shift keying with a code.
 bool is_coded_frequency_shift_keying(ErrorModel model);
 
-// Bit error rate, 0..0.5, of pulses 0..0.999, which never increases with eb_over_n0 (>= 0).
+// Bit error rate, 0..0.5 (of kPulses to 0.999), which never increases with eb_over_n0 (>= 0).
 double bit_error_rate(ErrorModel model, PowerRatio eb_over_n0);
 
 }  // namespace halocline::acoustics

@@ -30,8 +30,10 @@ constexpr double kSlopeStep = 0.02;    // rms slopes of relief are counted in th
 constexpr double kCyclesOfFocus = 3, kMaxFocus = 2;
 constexpr double kNegligible = 1e-6;  // share of the whole power below which a path is left out
 constexpr double kLevelM = 1e-6;
-constexpr double kShoal =
-    0.2;  // share of a stretch's mean depth below which its least depth holds sound back
+// Share of a stretch's mean depth below which its least depth holds sound back.
+constexpr double kShoal = 0.2;
+// Ranges, in depths, from which turned sound counts, and from which all of it does.
+constexpr double kSteepEnds = 1, kFilled = 2;
 
 double power_of(const acoustics::Eigenray& path) {
   const double pressure = path.received_pressure();
@@ -336,6 +338,13 @@ std::vector<double> kept_powers(const TurnedLink& link, const std::vector<acoust
   return kept;
 }
 
+// Share of the turned sound that a range of so many depths has. Energy flux spreads the sound of each angle
+// over the whole depth, which steep rays fill only after a cycle or so: within one depth there are traced
+// paths alone.
+double filled_share(double depths) {
+  return std::clamp((depths - kSteepEnds) / (kFilled - kSteepEnds), 0.0, 1.0);
+}
+
 // Share q of a path that the transport limits: all of one of more than three cycles, and of others what fine
 // structure spreads over the whole depth H. It spreads a ray by sigma_z = sqrt(mu r^3 / 3), to both sides:
 //   q = 1 - exp(-(2 sigma_z / H)^2).
@@ -355,13 +364,12 @@ double greatest_sum(double total, double turned, double bounced_share) {
   return bounced_share * most < turned ? (most - turned) / (1 - bounced_share) : most;
 }
 
-// Limits what focuses beyond the transport's sound. A path keeps (1 - q) + q min(1, X / S) of its power, S
-// the sum of all paths' shares q and X their greatest_sum().
+// Limits what focuses beyond the transport's sound. A path of the power `kept` keeps (1 - q) + q min(1, X /
+// S) of its power, S the sum of all paths' shares q and X their greatest_sum().
 void limit_focus(const TurnedLink& link, double depth_m, double total, double turned,
-                 std::vector<acoustics::Eigenray>& paths) {
-  std::vector<double> kept;
+                 std::vector<acoustics::Eigenray>& paths, std::vector<double>& kept) {
   double all = 0;
-  for (const acoustics::Eigenray& path : paths) all += kept.emplace_back(kept_of(link, path));
+  for (const double power : kept) all += power;
   if (!(total > 0) || !(all > greatest_sum(total, turned, 0))) return;
   std::vector<double> shares;
   double sum = 0, bounced = 0;
@@ -373,8 +381,11 @@ void limit_focus(const TurnedLink& link, double depth_m, double total, double tu
   if (!(sum > 0)) return;
   const double most = greatest_sum(total, turned, bounced / sum);
   if (!(sum > most)) return;
-  for (std::size_t i = 0; i < paths.size(); ++i)
-    paths[i].amplitude *= std::sqrt(1 - shares[i] * (1 - most / sum));
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const double scale = 1 - shares[i] * (1 - most / sum);
+    paths[i].amplitude *= std::sqrt(scale);
+    kept[i] *= scale;
+  }
 }
 
 }  // namespace
@@ -391,7 +402,9 @@ std::vector<acoustics::Eigenray> TurnedSeas::with_turned_sound(const TurnedLink&
   const acoustics::DelaySpectrum spectrum(sound.forward, sound.backward);
   paths.erase(std::remove_if(paths.begin(), paths.end(), [](const auto& path) { return path.diffuse; }),
               paths.end());
-  limit_focus(link, sound.depth_m, sound.total(), spectrum.power(), paths);
+  const double first_s = paths.empty() ? 0 : paths.front().delay_s;  // no sound is faster: Fermat
+  std::vector<double> kept = kept_powers(link, paths);
+  limit_focus(link, sound.depth_m, sound.total(), spectrum.power(), paths, kept);
   double bounced = 0, all = 0, most = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (bounces_of(paths[i]) > 0) bounced += kept[i];
@@ -399,11 +412,14 @@ std::vector<acoustics::Eigenray> TurnedSeas::with_turned_sound(const TurnedLink&
     most = std::max(most, kept[i]);
   }
   const double turned_power = spectrum.power();
-  const double factor = turned_power > 0 ? std::clamp(1 - bounced / turned_power, 0.0, 1.0) : 0;
+  const double factor = turned_power > 0 ? filled_share(link.link.range_m / sound.depth_m) *
+                                               std::clamp(1 - bounced / turned_power, 0.0, 1.0)
+                                         : 0;
   const double least = std::min(kNegligible * (all + factor * turned_power), most);
-  paths.erase(std::remove_if(paths.begin(), paths.end(),
-                             [&](const auto& path) { return kept_of(link, path) < least; }),
-              paths.end());
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    if (kept[i] >= least) paths[left++] = paths[i];
+  paths.resize(left);
   std::vector<acoustics::Eigenray> windows =
       paths_of(link, reference_of(sound.forward, sound.backward), sound.depth_m, factor, spectrum.windows());
   for (acoustics::Eigenray& window : windows) window.delay_s = std::max(window.delay_s, first_s);

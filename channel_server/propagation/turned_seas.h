@@ -6,6 +6,8 @@
 // - Paths of one bounce keep their scattered share, at their own delay; of paths of several bounces the
 //   coherent share E stays. What the search left unresolved (Eigenray::diffuse) is in A.
 // - Windows of delay have f A, f = 1 - (power that bounced traced paths keep) / A, within 0 and 1.
+//   None comes before the first traced path. Within a range of one depth there are traced paths alone;
+//   from there to two depths windows grow to their full power.
 // - Where fine structure spreads rays over the whole depth H, by sigma_z = sqrt(mu r^3 / 3) to both sides,
 //   and beyond 3 cycles of a path, traced paths and windows have at most twice the transport's total: no
 //   focus of a perfect sea survives there. Of its power a path keeps
@@ -13,10 +15,11 @@
 //   S the sum of all paths' shares q and X what the windows leave of that limit.
 // - Paths below 1e-6 of the whole are left out, 0.1 dB of a sum at most for the 20 000 paths of a link.
 //
-// Depth. Over a level bottom the transport is that of its depth. Elsewhere the bottom's mean depths over up
-// to 8 stretches count, each to 5 %: geometry and range are scaled from there to the depth itself, exactly in
-// even water. Ends are tabulated at fiftieths of the depth and interpolated in power. 48 bins of angle, 96
-// where an end lies within a fifth of the depth of a boundary. Land between the ends lets nothing pass.
+// Depth. A link is divided into up to 8 stretches of depths alike to 10 %, and the mean depth of each counts,
+// to 5 %; over a level bottom to three digits. Geometry and range are scaled from there to the depth itself,
+// exactly in even water. Ends are tabulated at fiftieths of the depth and interpolated in power. 48 bins of
+// angle, 96 where an end lies within a fifth of the depth of a boundary. The wind counts to 0.1 m/s. Land
+// between the ends lets nothing pass.
 //
 // Transports and ends are cached by the values they depend on, so results do not depend on the order of
 // queries. Calls may overlap between threads.

@@ -95,6 +95,22 @@ double mean_loss_db(const ScenarioConfig& config, double range_m, double depth_m
   }));
 }
 
+// From near the surface down to a vehicle near the bottom of the deep sea: the direct path, its surface image
+// beside it and echoes off the silt. Turned sound that filled the depth at once made it 21 dB louder.
+TEST(SteepLinks, HaveTheLossOfTheirDirectSound) {
+  const PlainSea& deep = halocline::testing::plain_seas()[5];
+  const ScenarioConfig config = stilled(deep.scenario());
+  const VehicleModem modem = modem_at(25e3);
+  for (const double range_m : {1.0, 50.0, 200.0, 1000.0, 3000.0, 4500.0, 6000.0}) {
+    const LinkSurvey link = link_over(config, range_m, 60, 2900, modem);
+    const double slant_m = std::hypot(range_m, 2840);
+    const double beyond_db = loss_db(link, modem) - 20 * std::log10(slant_m) -
+                             link.reception.budget.absorption_db_per_km * slant_m / 1000;
+    EXPECT_GT(beyond_db, -6) << range_m;
+    EXPECT_LT(beyond_db, 1) << range_m;
+  }
+}
+
 // 0.5 to 5 km and up to 60 depths. A sea whose sound stays at its angles lies up to 20 dB below.
 TEST(EvenWater, LosesLittleLessThanSphericalSpreading) {
   std::vector<double> all;

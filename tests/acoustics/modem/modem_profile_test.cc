@@ -287,8 +287,7 @@ TEST(ModemProfile, ErrorsFallAsTheRatioRisesForEveryProfile) {
   for (const std::string& name : built_in_modems()) {
     const Modem modem = modem_of(name);
     double before = bit_error_rate(modem, {0});
-    // Without a signal a bit is guessed; a pulse of a code is missed but for false alarms of 1 in 1000.
-    EXPECT_NEAR(before, modem.error_model == ErrorModel::kPulses ? 0.999 : 0.5, 1e-9) << name;
+    EXPECT_DOUBLE_EQ(before, modem.error_model == ErrorModel::kPulses ? 0.999 : 0.5) << name;
     for (int step = -400; step <= 400; ++step) {
       const double now = bit_error_rate(modem, to_power_ratio(Decibels{step * 0.1}));
       ASSERT_LE(now, before) << name << " at " << step * 0.1 << " dB";

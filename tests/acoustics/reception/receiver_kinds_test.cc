@@ -221,7 +221,7 @@ TEST(PulseCode, APulseHoldsItsEnergyInItsChip) {
   tag.bit_rate_bps = 2;
   EXPECT_NEAR(bit_energy(tag, {5}).value, 5, 1e-12);  // B T = 1
   // Detection of a pulse of which only noise is there: the false alarms, so that it is missed otherwise.
-  EXPECT_NEAR(bit_error_rate(tag, {0}), 0.999, 1e-9);
+  EXPECT_NEAR(bit_error_rate(tag, {0}), 0.999, 1e-12);
   EXPECT_LT(bit_error_rate(tag, {20}), 0.01);
 }
 

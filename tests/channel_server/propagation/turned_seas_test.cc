@@ -218,6 +218,84 @@ TEST(TurnedSeas, ChangeSmoothlyWithTheDepthAlongALink) {
   }
 }
 
+// Steps between stretches mix bins, which costs sound. Depths alike to 10 % are one stretch, so the loss over
+// gentle relief lies between those of the level seas; with a step at each eighth it was 1.4 to 2.8 dB above.
+TEST(TurnedSeas, LoseOverGentleReliefWhatTheyLoseOverItsDepths) {
+  const acoustics::RayWater water({{0, 1525}, {15, 1525}, {30, 1508}, {50, 1502}, {200, 1504}},
+                                  [](double) { return 5.0; });
+  acoustics::FadingModel fading;
+  fading.enabled = fading.turns = true;
+  const TurnedSeas seas;
+  for (const double range_m : {700.0, 1500.0, 3000.0}) {
+    const auto loss_db = [&](double even_m, double odd_m) {
+      TurnedLink link{water,
+                      *acoustics::sediment("MediumSand"),
+                      {acoustics::SurfaceModel::kAplBubbles, 5},
+                      fading,
+                      25'000,
+                      {42, 57, range_m}};
+      for (std::size_t i = 0; i < link.depths_m.size(); ++i)
+        link.depths_m[i] = (i / 2) % 2 == 0 ? even_m : odd_m;
+      double power = 0;
+      for (const acoustics::Eigenray& window : seas.windows_alone(link))
+        power += window.received_pressure() * window.received_pressure();
+      return -10 * std::log10(power);
+    };
+    const double level_db = loss_db(100, 100), deeper_db = loss_db(105, 105);
+    const double relief_db = loss_db(100, 105);
+    EXPECT_GT(relief_db, std::min(level_db, deeper_db) - tolerance(0.2)) << range_m;
+    EXPECT_LT(relief_db, std::max(level_db, deeper_db) + tolerance(0.2)) << range_m;
+  }
+}
+
+// A tide over a level bottom shares transports: depths count to three digits, scaled to the depth itself, and
+// the wind counts to 0.1 m/s.
+TEST(TurnedSeas, ChangeHardlyWithDepthsAndWindsThatShareATransport) {
+  const acoustics::RayWater water({{0, 1506}, {8, 1503}, {40, 1501}}, [](double) { return 5.0; });
+  acoustics::FadingModel fading;
+  fading.enabled = fading.turns = true;
+  const TurnedSeas seas;
+  const auto loss_db = [&](double depth_m, double wind_mps) {
+    TurnedLink link{water,
+                    *acoustics::sediment("MediumSand"),
+                    {acoustics::SurfaceModel::kAplBubbles, wind_mps},
+                    fading,
+                    25'000,
+                    {6, 9, 1500}};
+    link.depths_m.fill(depth_m);
+    double power = 0;
+    for (const acoustics::Eigenray& window : seas.windows_alone(link))
+      power += window.received_pressure() * window.received_pressure();
+    return -10 * std::log10(power);
+  };
+  double before_db = loss_db(20, 5);
+  for (double depth_m = 20.01; depth_m < 20.3; depth_m += 0.01) {
+    const double one_db = loss_db(depth_m, 5);
+    EXPECT_NEAR(one_db, before_db, tolerance(0.05)) << depth_m;
+    before_db = one_db;
+  }
+  EXPECT_EQ(loss_db(20, 5.04), loss_db(20, 5));
+  EXPECT_NEAR(loss_db(20, 5.06), loss_db(20, 5.04), tolerance(0.2));
+}
+
+// A ridge in the middle of a link lets less and less sound pass as it rises; from 39.9 m on, as land,
+// none. Scenario relay had 62 dB through its island.
+TEST(TurnedSeas, DoNotPassThroughLand) {
+  const TurnedSeas seas;
+  const auto behind = [&](double ridge_m) {
+    return turned_power(seas, [&](std::size_t i) { return i == 7 ? ridge_m : 0; });
+  };
+  double before = behind(30);
+  EXPECT_GT(before, 0);
+  for (const double ridge_m : {36.0, 38.0, 39.0, 39.5, 39.8}) {
+    const double power = behind(ridge_m);
+    EXPECT_LT(power, before) << ridge_m;
+    EXPECT_GT(power, 0) << ridge_m;
+    before = power;
+  }
+  EXPECT_EQ(behind(40 - kMinWaterM / 2), 0);
+}
+
 // 12 m of sandy mud whose water drifts by 0.3 m/s, 25 kHz, wind 5 m/s.
 class DriftingHarbour : public ::testing::Test {
  protected:

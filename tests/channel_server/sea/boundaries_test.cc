@@ -11,6 +11,7 @@
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/prediction/platform_jitter.h"
 #include "acoustics/prediction/steady_band.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/sound_speed_profile.h"
