@@ -19,8 +19,8 @@ constexpr double kLongestInDepths = 2;
 constexpr double kMinShareOfBend = 0.5;
 constexpr double kPatienceAmongBends = 3;  // factor on both limits between such neighbours
 // The bend becomes continuous where it changes little from facet to facet, and fades back to its step where
-// it changes by an eighth of itself, as over a rough bottom, of which cubics would make more than it has.
-constexpr double kIrregular = 16;
+// it changes by a sixteenth of itself, as over a rough bottom, of which cubics would make more than it has.
+constexpr double kIrregular = 32;
 
 // The straight facet from one point to the next.
 Facet facet_between(const ProfiledDepth& a, const ProfiledDepth& b) {

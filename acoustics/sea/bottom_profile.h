@@ -6,8 +6,8 @@
 // differ by no more than the crease angle, and neither is longer than twice the depth there (longer ones are
 // intended slopes, not samples of a curve), the direction of reflection is the mean of both at the common
 // point and varies between the points like the unit normal of a curved bottom. Its change along the facet,
-// the bend, focuses or spreads the ray tube; it is continuous at such points, the mean of both facets, so
-// that a ray tube does not jump as its ray passes from facet to facet. Both limits are three times as wide
+// the bend, focuses or spreads the ray tube; it is continuous where it changes little from facet to facet, so
+// that a ray tube does not jump there. Both limits are three times as wide
 // where the corners on both sides turn the same way by at least half as much, as they do for a coarsely
 // sampled curve. At any other corner each facet keeps its own slope. A crease angle of 0 makes all corners
 // sharp.
